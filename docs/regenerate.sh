@@ -65,7 +65,7 @@ made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-rea
 made docs/reference/command-line.md docs/reference/python.md
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
-    ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 \
+    ./asperity run scenes/first-contact.toml --set drive.path=relax surface.sites=96 \
         --progress off --out $place/maps >$place/log.txt
     ./asperity export $place/maps --to vtk >$place/log.txt
     "$ASPERITY_OTHERS/bin/python3" $gallery/maps.py $place/maps/export $gallery/maps.png

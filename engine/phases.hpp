@@ -19,7 +19,7 @@ enum class Phase {
     device,      ///< a whole step on a device
     sums,        ///< global sums of a step; work and dissipation integrated
     observe,     ///< mean height; energies and contact of observed steps
-    relax,       ///< relaxation of the zero-load state
+    relax,       ///< relaxation of a state
     checkpoint,
     output,
     count

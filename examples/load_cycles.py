@@ -12,7 +12,7 @@ import asperity
 
 sites = int(sys.argv[1]) if len(sys.argv) > 1 else 32
 statics = asperity.Statics({"surface": {"sites": sites, "rms": 2.0}, "block": {"thickness": 512},
-                            "drive": {"mode": "quasistatic", "hold": "top"}})
+                            "drive": {"mode": "quasistatic", "control": "top"}})
 statics.load = "2 GPa"
 deep, area = statics.relax().top, (2.6 * sites) ** 2  # Å, Å²
 rows = []

@@ -4,7 +4,7 @@
 // HDF5 without its handles: one class owns a file, every return code of the C library is looked at,
 // and a failure says which file, which object, and what the library gave as the cause.
 //
-// Data sets are named by absolute paths ("/fields/zero-load/height"); groups on the way are made as
+// Data sets are named by absolute paths ("/fields/relaxed/height"); groups on the way are made as
 // needed. Arrays are row-major, slowest index first. The stored type is the type written:
 // conversions are left to the reader. Collective (parallel) access is not used; one rank writes.
 //

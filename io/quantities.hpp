@@ -39,20 +39,20 @@ inline constexpr Quantity result_quantities[] = {
      "flat reference Δγ: flat on flat with the same potential, cutoff and lattices; over atoms "
      "anywhere that of one layer of the block's lattice, as a unit of measure"},
     {"binding_energy", "meV/Å^2", per::area,
-     "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"zero-load\"]: under drive.load)"},
+     "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
      "its uncertainty: what forces of the size of drive.tolerance can stand for"},
-    {"work_of_adhesion.approach", "meV/Å^2", per::area,
+    {"work_of_interface.approach", "meV/Å^2", per::area,
      "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, during "
-     "the approach; in time, and without time at a held mean height"},
-    {"work_of_adhesion.pull_off", "meV/Å^2", per::area,
+     "the approach; of dynamic paths, and of quasi-static ones that control the mean height"},
+    {"work_of_interface.pull_off", "meV/Å^2", per::area,
      "work against that force during the pull-off"},
-    {"work_of_adhesion.pairwise", "meV/Å^2", per::area,
-     "-U_LJ of the zero-load state: the pair energies alone"},
-    {"work_of_adhesion.uncertainty.approach", "meV/Å^2", per::area,
-     "uncertainty of work_of_adhesion.approach without time, for the sequence of instabilities "
+    {"pair_binding_energy", "meV/Å^2", per::area,
+     "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
+    {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
+     "uncertainty of work_of_interface.approach without time, for the sequence of instabilities "
      "that the path takes"},
-    {"work_of_adhesion.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
      "work that the drive takes up during the approach from rest out of reach: minus its work on "
      "the solids. The drive is the top plane (in time with the damping medium, which moves along) "
@@ -87,20 +87,21 @@ inline constexpr Quantity result_quantities[] = {
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
     {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
-    {"jkr.in", "meV/Å^2", per::contact,
+    {"jkr.approach", "meV/Å^2", per::contact,
      "work of adhesion by JKR, F/(1.5 π R), from the largest attraction of the approach (spheres)"},
-    {"jkr.out", "meV/Å^2", per::contact, "the same of the pull-off"},
-    {"jkr.in_averaged", "meV/Å^2", per::contact,
-     "as jkr.in, from the largest attraction of a running mean over 2 ps, which leaves out the "
+    {"jkr.pull_off", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.approach_averaged", "meV/Å^2", per::contact,
+     "as jkr.approach, from the largest attraction of a running mean over 2 ps, which leaves out "
+     "the "
      "vibrations after an instability; needs output.series of 0.5 ps or less"},
-    {"jkr.out_averaged", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.pull_off_averaged", "meV/Å^2", per::contact, "the same of the pull-off"},
     {"jkr.edge_pinning", "1", "",
      "factor by which rows of sites that hold the edge of the contact make pull_off_force and "
-     "jkr.out too large, within 15 % (a wall's range that the spacing does not resolve)"},
-    {"jkr.zero_load", "meV/Å^2", per::contact,
+     "jkr.pull_off too large, within 15 % (a wall's range that the spacing does not resolve)"},
+    {"jkr.relaxed", "meV/Å^2", per::contact,
      "work of adhesion by JKR from the binding energy at zero load, which needs no largest force; "
      "not of a state under drive.load"},
-    {"contact_radius.zero_load", "Å", "", "√(contact area/π) of the state (spheres)"},
+    {"contact_radius.relaxed", "Å", "", "√(contact area/π) of the state (spheres)"},
     {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
@@ -142,24 +143,28 @@ inline constexpr Quantity result_quantities[] = {
     {"dissipated.jumps[].site", "1", "", "x and y of the site that moved furthest"},
     {"dissipated.jumps[].largest_move", "Å", "", "how far it moved"},
     {"dissipated.jumps[].sites_moved", "1", "", "sites that moved more than half as far"},
-    {"theory.gamma_eff", "meV/Å^2", per::area, "effective work of adhesion, Persson's theory"},
-    {"theory.contact_fraction", "1", per::area, "area of real contact, projected"},
-    {"theory.gamma_full_contact", "meV/Å^2", per::area,
+    {"theory.persson.gamma_eff", "meV/Å^2", per::area,
+     "effective work of adhesion, Persson's theory"},
+    {"theory.persson.contact_fraction", "1", per::area, "area of real contact, projected"},
+    {"theory.persson.gamma_full_contact", "meV/Å^2", per::area,
      "effective work of adhesion if contact is assumed to be complete"},
-    {"theory.delta_gamma", "meV/Å^2", per::area, "the Δγ that the theory was given"},
-    {"theory.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
-    {"theory.contact_fraction_error", "1", per::area, "numerical error of contact_fraction"},
-    {"theory.elastic_energy", "meV/Å^2", per::area, "elastic energy stored in the contact"},
-    {"theory.h_rms", "Å", "", "rms height of the spectrum that was solved for"},
-    {"theory.rms_slope", "1", "", "rms slope of that spectrum"},
-    {"theory.theta", "1", "", "adhesion parameter E* h² q0/Δγ"},
-    {"theory.jkr_pull_off_force", "eV/Å", per::block, "pull-off force by JKR with gamma_eff"},
-    {"theory.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
-    {"theory.critical_rms_full_contact", "Å", "", "the same if contact is assumed to be complete"},
-    {"theory.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
-    {"theory.converged", "", "",
+    {"theory.persson.delta_gamma", "meV/Å^2", per::area, "the Δγ that the theory was given"},
+    {"theory.persson.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
+    {"theory.persson.contact_fraction_error", "1", per::area,
+     "numerical error of contact_fraction"},
+    {"theory.persson.elastic_energy", "meV/Å^2", per::area, "elastic energy stored in the contact"},
+    {"theory.persson.h_rms", "Å", "", "rms height of the spectrum that was solved for"},
+    {"theory.persson.rms_slope", "1", "", "rms slope of that spectrum"},
+    {"theory.persson.theta", "1", "", "adhesion parameter E* h² q0/Δγ"},
+    {"theory.persson.jkr_pull_off_force", "eV/Å", per::block,
+     "pull-off force by JKR with gamma_eff"},
+    {"theory.persson.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
+    {"theory.persson.critical_rms_full_contact", "Å", "",
+     "the same if contact is assumed to be complete"},
+    {"theory.persson.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
+    {"theory.persson.converged", "", "",
      "whether the errors are below 1e-3 (of a ratio above 1: relative)"},
-    {"theory.note", "", "", "why the theory has no solution for this scene"},
+    {"theory.persson.note", "", "", "why the theory has no solution for this scene"},
     {"theory.renormalised.gamma_eff", "meV/Å^2", per::area,
      "effective work of adhesion, renormalised theory (of `asperity theory` and sweeps, like the "
      "following)"},
@@ -187,11 +192,11 @@ inline constexpr Quantity result_quantities[] = {
      "theory"},
     {"theory.sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
     {"theory.sphere.note", "", "", "why one of these is missing"},
-    {"zero_load.elastic_energy", "meV/Å^2", per::area, "elastic energy of the zero-load state"},
-    {"zero_load.mean_height", "Å", "",
+    {"relaxed.elastic_energy", "meV/Å^2", per::area, "elastic energy of the relaxed state"},
+    {"relaxed.mean_height", "Å", "",
      "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
      "curved)"},
-    {"zero_load.residual_force", "eV/Å", "", "largest force left on a node"},
+    {"relaxed.residual_force", "eV/Å", "", "largest force left on a node"},
     {"energy.balance_error", "1", "largest term",
      "energy balance: energy.work - kinetic - elastic - interface - damped, at the "
      "last recorded step, over the largest energy or work so far"},
@@ -214,6 +219,8 @@ inline constexpr Quantity result_quantities[] = {
     {"surface.file_digest", "", "",
      "digest of what was read from surface.file: heights and width of a map, positions and types "
      "of atoms. A sweep takes a result again only if the file still holds the same"},
+    {"interface.cutoff", "Å", "",
+     "cutoff of the pairs, of a scene with interface.cutoff = \"4 r0\" too"},
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},
@@ -267,7 +274,7 @@ inline constexpr Quantity run_quantities[] = {
     {"series/kinetic_energy", "eV", per::block, "kinetic energy"},
     {"series/work", "eV", per::block,
      "work of the drive on the solids since they were at rest apart, as energy.work"},
-    {"series/interface_work", "eV", per::block,
+    {"series/work_of_interface", "eV", per::block,
      "work of the interface's force on the mean height since the start, ∫ F dz"},
     {"series/damped", "eV", per::block,
      "energy damped since the start, less the heat of the thermostat's noise"},
@@ -330,7 +337,7 @@ private:
 
 inline std::string_view unit_of(Key key) { return key.quantity->unit; }
 
-/// The quantity of run.h5 with this path ("/fields/zero-load/gap"); nullptr if there is none.
+/// The quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 
 /// docs/reference/result.md.

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -104,8 +105,37 @@ struct Store {
         into = *integer;
         return {};
     }
-    Problem operator()(long long* field) const { return whole(key.range, *field); }
+    /// The word of a number stands for 0.
+    template <class T>
+    bool none(T* field) const {
+        const auto* text = as<std::string>();
+        if (key.word.empty() || !text || *text != key.word) return false;
+        *field = 0;
+        return true;
+    }
+    Problem or_none(Problem problem) const {
+        if (!problem.what.empty() && !key.word.empty())
+            problem.fix += fmt::format("; \"{}\" is allowed too", key.word);
+        return problem;
+    }
+    Problem operator()(long long* field) const {
+        if (none(field)) return {};
+        return or_none(whole(key.range, *field));
+    }
     Problem operator()(int* field) const {
+        if (key.length) {
+            key.length->reset();
+            const auto* text = as<std::string>();
+            if (text && text->find_first_not_of("+-0123456789_") != std::string::npos) {
+                const ParsedQuantity parsed = parse_quantity(*text, "Å");
+                if (!parsed.why.empty() || !(parsed.value > 0.0) || !std::isfinite(parsed.value))
+                    return {"", "is neither a whole number nor a length",
+                            parsed.why.empty() ? "a length is above 0 Å" : parsed.why,
+                            "write, for example, 512 (no quotes) or \"133 nm\""};
+                *key.length = parsed.value;
+                return {};
+            }
+        }
         using Limits = std::numeric_limits<int>;
         Range range = key.range;
         range.low = std::max(range.low, static_cast<double>(Limits::min()));
@@ -116,8 +146,12 @@ struct Store {
         return problem;
     }
 
-    /// The number in the base unit.
     Problem operator()(double* field) const {
+        if (none(field)) return {};
+        return or_none(quantity(field));
+    }
+    /// The number in the base unit.
+    Problem quantity(double* field) const {
         double number = 0.0;
         const auto* text = as<std::string>();
         if (text) {
@@ -155,10 +189,7 @@ struct Store {
         }
         T number = 0;
         Problem problem = (*this)(&number);
-        if (problem.what.empty())
-            *field = number;
-        else
-            problem.fix += fmt::format("; \"{}\" is allowed too", key.word);
+        if (problem.what.empty()) *field = number;
         return problem;
     }
 
@@ -210,6 +241,8 @@ struct Load {
     }
     template <class T>
     Json operator()(T* field) const {
+        if constexpr (std::is_arithmetic_v<T>)
+            if (!key.word.empty() && *field == T{}) return key.word;
         return *field;
     }
 };
@@ -240,6 +273,7 @@ std::string allowed(const Key& key, const std::string& quote) {
            : limited           ? "whole number, " + key.range.text("")
                                : "whole number";
     if (!key.word.empty()) text += " | " + quote + quoted(key.word) + quote;
+    if (key.length) text += " | a length";
     return text;
 }
 

@@ -108,7 +108,7 @@ public:
         std::string doc;    ///< one line, for people
         std::string unit{}; ///< base unit of a quantity; empty: a bare number
         Range range{};
-        std::string word{};    ///< the word that stands for an empty field, e.g. "none"
+        std::string word{};    ///< the word that stands for an empty field, or for one that is 0
         Words choices{};       ///< of a choice, or of a list's members
         bool numerals = false; ///< a choice may be a whole number without quotes, too
         /// Of a bare number that was a quantity: the unit it had, and what to say to one in it.
@@ -116,6 +116,7 @@ public:
             std::string unit{}, why{}, fix{};
         };
         Was was{};
+        std::optional<double>* length = nullptr; ///< of a count: where a length is stored, Å
         std::string section{};
         std::function<bool()> omitted{}; ///< set: true when writing the key back would change the
                                          ///< meaning
@@ -153,6 +154,17 @@ public:
                    Range range, std::string doc) {
         return add({name, &field, doc, unit, range, word});
     }
+    /// The same for a field that is 0 where there is none: max_steps = "none".
+    template <class T>
+    Key& number_or_none(std::string name, T& field, std::string unit, Range range,
+                        std::string doc) {
+        return add({name, &field, doc, unit, range, "none"});
+    }
+    /// A whole number, or a length of which the reader's user makes one: sites = "133 nm".
+    Key& count_or_length(std::string name, int& field, std::optional<double>& length, Range range,
+                         std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .range = range, .length = &length});
+    }
     /// A list of strings. A member is right if it equals a choice, or starts with a choice that
     /// ends in ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
@@ -177,8 +189,10 @@ public:
 
     /// What scenes of earlier releases have and this one refuses.
     struct Removed {
-        std::string key;  ///< section.key
-        std::string word; ///< the value that the key no longer takes; empty: the whole key is gone
+        std::string key; ///< section.key
+        /// The value that the key no longer takes, or a member of its list; empty: the whole key is
+        /// gone.
+        std::string word;
         std::string why, fix;
     };
     void removed(Removed what) { removed_.push_back(std::move(what)); }

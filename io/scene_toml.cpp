@@ -297,6 +297,18 @@ private:
         if (const auto* gone = schema_.find_removed(key.path(), word ? *word : ""))
             return add(at, fmt::format("{} = {} is not a choice any more", key.path(), text),
                        gone->why, gone->fix);
+        if (const auto* list = std::get_if<Schema::Words>(&value))
+            for (const std::string& member : *list) {
+                // "after:N" was a choice "after:".
+                const std::string choice = member.substr(0, member.find(':') + 1);
+                const auto* gone =
+                    schema_.find_removed(key.path(), choice.empty() ? member : choice);
+                if (gone)
+                    return add(at,
+                               fmt::format("{} has \"{}\", which is not a choice any more",
+                                           key.path(), member),
+                               gone->why, gone->fix);
+            }
         const Problem problem = key.store(value);
         if (!problem.what.empty())
             add(at, fmt::format("{} = {} {}", key.path(), text, problem.what), problem.why,

@@ -27,8 +27,8 @@ struct Morse {
     static void parameters(Self& self, Visit visit) {
         visit("D", "eV", self.D, "depth of the Morse well");
         visit("a", "1/Å", self.a,
-              "of the Morse potential D (exp(-2 a (r - r0)) - 2 exp(-a (r - r0)))");
-        visit("r0", "Å", self.r0, "distance of the Morse minimum");
+              "of the Morse potential D (exp(-2 a (r - r_min)) - 2 exp(-a (r - r_min)))");
+        visit("r_min", "Å", self.r0, "distance of the Morse minimum");
     }
 
     double zero() const { return r0 - std::log(2.0) / a; }

@@ -49,7 +49,7 @@ damping = 0
 max_steps = {steps}
 [output]
 fields = []
-checkpoint = 0
+checkpoint = "none"
 series = {every}
 trajectory = {frames}
 """

@@ -112,7 +112,7 @@ def maps(place: pathlib.Path) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     import h5py  # not in the environment of the others
 
     with h5py.File(place / "run.h5") as f:
-        return tuple(f[name][:] for name in ("fields/zero-load/pressure", "fields/zero-load/gap", "substrate/height"))
+        return tuple(f[name][:] for name in ("fields/relaxed/pressure", "fields/relaxed/gap", "substrate/height"))
 
 
 def stiffness(place: pathlib.Path, sites: int) -> np.ndarray:
@@ -149,9 +149,9 @@ def main() -> None:
         for load in a.loads:
             with tempfile.TemporaryDirectory() as scratch:
                 place = pathlib.Path(scratch) / "asperity"
-                keys = {"drive.path": "zero-load", "block.thickness": sites, "interface.kind": "wall",
+                keys = {"drive.path": "relax", "block.thickness": sites, "interface.kind": "wall",
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
-                        "surface.cutoff": sites / 8, "output.checkpoint": 0, "drive.load": load,
+                        "surface.q_max": sites / 8, "output.checkpoint": "none", "drive.load": load,
                         "drive.tolerance": TOLERANCE / attraction}
                 scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
                 options = lambda keys, place: scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]

@@ -32,8 +32,8 @@ SCENES = {
     "sphere, 20 K": [*TIME, "surface.sites=48", "surface.radius=400", "drive.temperature=20"],
     "finite strain": [*TIME, "block.strain=finite", "drive.timestep=30"],
     "path without time": REST,
-    "mean height held": [*REST, "drive.hold=mean-height"],
-    "wall": [*REST, "interface.kind=wall", "drive.hold=mean-height"],
+    "mean height held": [*REST, "drive.control=mean-height"],
+    "wall": [*REST, "interface.kind=wall", "drive.control=mean-height"],
 }
 # Of the build, of the machine and of the clock, at any depth of result.json.
 NOT_COMPARED = {"version", "git", "compiler", "flags", "mpi", "hdf5", "fftw", "machine", "host", "date", "digest",

@@ -14,7 +14,7 @@ import asperity
 
 directory, picture = sys.argv[1:3]
 runs = asperity.load_sweep(directory).results()
-states = sorted(runs[0].fields, key=lambda state: state != "zero-load")
+states = sorted(runs[0].fields, key=lambda state: state != "relaxed")
 figure, axes = plt.subplots(len(runs), len(states), figsize=(7.2, 3.5 * len(runs)), dpi=80, layout="constrained",
                             squeeze=False, sharex=True, sharey=True)
 gaps = plt.cm.ScalarMappable(Normalize(0, 25, clip=True), "YlGnBu_r")  # Å
@@ -24,7 +24,7 @@ for row, run in zip(axes, runs):
         colours = gaps.to_rgba(gap)
         colours[contact > 0] = (0.84, 0.37, 0, 1)
         axis.imshow(colours, origin="lower", extent=(0, run.edge / 10, 0, run.edge / 10), interpolation="nearest")
-        when = "zero load" if state == "zero-load" else state.split(":")[1] + " ps later"
+        when = "zero load" if state == "relaxed" else state.split(":")[1] + " ps later"
         axis.set_title(f"rms {run.key('surface.rms'):g} Å, {when}: {contact.mean():.1%}", fontsize=10)
     row[0].set_ylabel("nm")
 for axis in axes[-1]:

@@ -56,12 +56,12 @@ table, cells = [], [["h_rms, Å", "in, averaged, 5 m/s", "out, 5 m/s", "by energ
 for rms, these in points.items():
     one = these[0]
     flat, w = float(one["delta_gamma"]), float(one["theory.renormalised.gamma_eff"]) / 1e3
-    energy = np.array([float(r["jkr.zero_load_ratio"]) for r in these])
+    energy = np.array([float(r["jkr.relaxed_ratio"]) for r in these])
     law = by_jkr(binding_energy(w, float(one["theory.renormalised.tension"]) * GPA)) * 1e3 / flat
     table.append((rms, energy[0], energy.mean(), energy.std(ddof=1), float(one["theory.renormalised.gamma_eff_ratio"]),
                   float(one["theory.sphere.renormalised_parameter"]), float(one["theory.sphere.renormalised_ratio"]), law))
     path = paths.get(rms)
-    ways = [f"{float(path[k]):.3f}" if path else "" for k in ("jkr.in_averaged_ratio", "jkr.out_ratio")]
+    ways = [f"{float(path[k]):.3f}" if path else "" for k in ("jkr.approach_averaged_ratio", "jkr.pull_off_ratio")]
     cells.append([f"{rms:g}", *ways, f"{energy[0]:.3f}", f"{energy.mean():.3f} ± {energy.std(ddof=1):.3f}", f"{table[-1][4]:.3f}",
                   f"{table[-1][5]:.2f}", f"{table[-1][6]:.3f}", f"{law:.3f}"])
 with open(GALLERY.parent / "data/tables/fig5-readings.csv", "w", newline="") as file:
@@ -73,12 +73,12 @@ figure, axis = plt.subplots(figsize=(5.6, 4), constrained_layout=True)
 rms, _, mean, spread, gamma, _, force, law = map(np.array, zip(*table))
 axis.errorbar(rms, mean, spread, fmt="^", ms=5, color="#009e73", capsize=2, label="sphere, energy at zero load, six places")
 x = sorted(paths)
-axis.plot(x, [float(paths[k]["jkr.in_averaged_ratio"]) for k in x], "o", ms=4.5, color="#0072b2", label="in, 5 m/s, averaged")
-axis.plot(x, [float(paths[k]["jkr.out_ratio"]) for k in x], "s", ms=4.5, color="#d55e00", markerfacecolor="none", label="out, 5 m/s")
+axis.plot(x, [float(paths[k]["jkr.approach_averaged_ratio"]) for k in x], "o", ms=4.5, color="#0072b2", label="in, 5 m/s, averaged")
+axis.plot(x, [float(paths[k]["jkr.pull_off_ratio"]) for k in x], "s", ms=4.5, color="#d55e00", markerfacecolor="none", label="out, 5 m/s")
 axis.plot(rms, law, "--", color="#009e73", lw=1.1, label="Maugis-Dugdale, renormalised law, energy")
 axis.plot(rms, force, "--", color="#d55e00", lw=1.1, label="the same, pull-off force")
 axis.plot(rms, gamma, "-", color="#cc79a7", lw=1.2, label="renormalised theory, flat")
-axis.plot(rms, [float(t[0]["theory.gamma_eff_ratio"]) for t in points.values()], ":", color="0.3", label="paper's theory, flat")
+axis.plot(rms, [float(t[0]["theory.persson.gamma_eff_ratio"]) for t in points.values()], ":", color="0.3", label="paper's theory, flat")
 axis.set(xlabel="rms roughness, Å", ylabel="$γ$ / Δγ by JKR", xlim=(-0.2, 9.3), ylim=(-0.02, 1.12))
 axis.legend(fontsize=7.5)
 figure.savefig(GALLERY / "fig5-readings.svg", metadata={"Date": None})

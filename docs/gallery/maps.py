@@ -5,7 +5,7 @@
 it is bent, coloured by pressure, raised above the substrate, coloured by height. Heights are drawn three times as
 large as widths.
 
-    ./asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=96 --out results/maps
+    ./asperity run scenes/first-contact.toml --set drive.path=relax surface.sites=96 --out results/maps
     ./asperity export results/maps --to vtk
     python3 docs/gallery/maps.py results/maps/export docs/gallery/maps.png
 """
@@ -59,7 +59,7 @@ def sheet(file, array, lift, low, high, component=None):
 scene = vtk.vtkRenderer()
 scene.SetBackground(1, 1, 1)
 for actor, bar in (sheet("substrate", "height (Å)", 0, -5, 5),
-                   sheet("zero-load", "pressure (GPa)", 110, -8, 8, "displacement (Å)")):
+                   sheet("relaxed", "pressure (GPa)", 110, -8, 8, "displacement (Å)")):
     scene.AddActor(actor)
     scene.AddViewProp(bar)
 window = vtk.vtkRenderWindow()

@@ -32,7 +32,7 @@ def means(table, keys):
     found = {}
     for group, members in groups.items():
         found[group] = {}
-        for column in ("binding_energy_ratio", "contact_fraction", "theory.gamma_eff_ratio", "theory.contact_fraction",
+        for column in ("binding_energy_ratio", "contact_fraction", "theory.persson.gamma_eff_ratio", "theory.persson.contact_fraction",
                        "theory.renormalised.gamma_eff_ratio", "theory.renormalised.contact_fraction"):
             values = np.array([float(m[column] or "nan") for m in members])
             found[group][column], found[group][column + "±"] = values.mean(), values.std(ddof=1)
@@ -53,7 +53,7 @@ for axis, simulated, theory, label in (
     axis.errorbar(rms, column(simulated), column(simulated + "±"), fmt="^", ms=5, color=SIMULATED, capsize=2,
                   label="state at zero load, three surfaces")
     axis.plot(rms, column("theory.renormalised." + theory), "--", color=RENORMALISED, label="renormalised theory")
-    axis.plot(rms, column("theory." + theory), ":", color=PAPER, label="paper's theory")
+    axis.plot(rms, column("theory.persson." + theory), ":", color=PAPER, label="paper's theory")
     axis.set(xlabel="rms roughness, Å", ylabel=label, xlim=(0, 12.5), ylim=(-0.02, 1.03))
 axes[0].legend()
 save(figure, "theory-renormalised.svg")
@@ -65,7 +65,7 @@ figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), constrained_layout=True, sha
 def draw(points, marker, colour, label):
     x = np.array([m["binding_energy_ratio"] for m in points])
     spread = np.array([m["binding_energy_ratio±"] for m in points])
-    for axis, theory in ((axes[0], "theory.renormalised.gamma_eff_ratio"), (axes[1], "theory.gamma_eff_ratio")):
+    for axis, theory in ((axes[0], "theory.renormalised.gamma_eff_ratio"), (axes[1], "theory.persson.gamma_eff_ratio")):
         y = np.array([m[theory] for m in points])
         axis.plot(x, y - x, marker, ms=4.5, color=colour, markerfacecolor="none", label=f"{label} ({len(x)})")
 

@@ -57,7 +57,7 @@ with open(table, "w") as file:
                    "lost at instabilities out, eV"])
     for rms in np.unique(columns["surface.rms"]):
         here = columns["surface.rms"] == rms
-        ratios = [columns[f"jkr.{name}_ratio"][here] for name in ("in", "out", "zero_load")]
+        ratios = [columns[f"jkr.{name}_ratio"][here] for name in ("approach", "pull_off", "relaxed")]
         area = runs[0].key("surface.sites")**2 * runs[0].key("surface.spacing")**2 / 1000  # meV/Å² to eV
         lost = [area * columns[f"lost.{name}"][here] for name in ("approach", "pull_off")]
         rows.writerow([f"{rms:g}", *(reading(values, 3) for values in ratios), reading(100 * (ratios[1] / ratios[0] - 1), 1),

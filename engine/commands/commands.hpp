@@ -45,8 +45,8 @@ struct TheoryPoints {
     std::vector<std::string> overrides; ///< of every point
     std::string points;    ///< file of the points; "-": standard input; empty: the scene alone
     bool runnable = false; ///< also report what a run of the point would refuse (examine())
-    bool profile = false;  ///< theory.critical_rms, and "profile": [{"name", "unit", "meaning",
-                           ///< "values"}], everything at every magnification
+    bool profile = false;  ///< theory.persson.critical_rms, and "profile": [{"name", "unit",
+                           ///< "meaning", "values"}], everything at every magnification
 };
 /// Throws io::FileError for the input.
 int theory_points_command(const TheoryPoints& what);

@@ -102,14 +102,14 @@ Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
     Json notes = what.notes;
     if (profile && !what.contact.spectrum.smooth()) try {
             const theory::CriticalRoughness end = theory::critical_roughness(what.contact);
-            values.set("theory.critical_rms", end.h_rms);
-            values.set("theory.critical_rms_full_contact", end.full_contact_h_rms);
+            values.set("theory.persson.critical_rms", end.h_rms);
+            values.set("theory.persson.critical_rms_full_contact", end.full_contact_h_rms);
         } catch (const std::exception& error) {
             notes.push_back(error.what());
         }
     Json point = values.json();
-    point["theory"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
-    point["theory"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
+    point["theory"]["persson"]["gamma_eff_ratio"] = numbers.state.gamma_ratio;
+    point["theory"]["persson"]["gamma_eff_ratio_error"] = numbers.state.gamma_ratio_error;
     point["flat"] = {{"separation", c.flat.separation}, {"tension", c.flat.largest_tension}};
     point["notes"] = notes;
     point["rough"] = renormalised_inputs(c, what.contact.spectrum, realised);
@@ -127,7 +127,7 @@ Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     }
     io::Result values = scene_result(c.scene);
     values.set("delta_gamma", c.flat.work_of_adhesion);
-    values.set("theory.note", why);
+    values.set("theory.persson.note", why);
     Json point = values.json();
     point["notes"] = Json::array();
     return point;

@@ -99,7 +99,7 @@ void Drive::begin(const Felt& felt) {
             VelocityProfile::over(next.amount, 0.0, v, options_.ramp);
         break;
     case Segment::hold:
-    case Segment::zero_load:
+    case Segment::relax:
         normal_ = {from, 0.0, HUGE_VAL};
         break;
     }
@@ -128,7 +128,7 @@ bool Drive::ended(const Felt& felt) {
         return since >= normal_.end(options_.ramp) + now.amount;
     case Segment::slide:
         return since >= slide_[static_cast<std::size_t>(now.axis)].end(options_.ramp);
-    case Segment::zero_load:
+    case Segment::relax:
         break;
     }
     return true;

@@ -62,7 +62,7 @@ struct WayEnergies {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("interface_work", interface_work);
+        v("work_of_interface", interface_work);
         v("drive_work", drive_work);
         v("lost", lost);
         v("kinetic", kinetic);
@@ -91,7 +91,7 @@ struct SegmentResults {
     void visit(Visitor& v) {
         v("number", number);
         v("work", work);
-        v("interface_work", interface_work);
+        v("work_of_interface", interface_work);
         v("lost", lost);
         v("uncertainty", uncertainty);
         v("attraction", attraction);

@@ -51,7 +51,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     if (s.interrupted) return std::nullopt;
     if (!s.converged)
         throw io::PhysicsError(
-            fmt::format("the zero-load state was not found in {} iterations", s.iterations),
+            fmt::format("the relaxed state was not found in {} iterations", s.iterations),
             why_not_converged(s, options.tolerance),
             load < 0.0   ? "take a smaller pull (drive.load): under a large one there is no state"
             : s.balanced ? "take a larger drive.tolerance"

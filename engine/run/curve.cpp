@@ -62,8 +62,8 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
             result.set(key, units::milli_per_unit *
                                 theory::jkr::work_from_pull_off(*force, *scene.surface.radius));
     };
-    averaged(in.first, in.second, "jkr.in_averaged");
-    averaged(out.first, out.second, "jkr.out_averaged");
+    averaged(in.first, in.second, "jkr.approach_averaged");
+    averaged(out.first, out.second, "jkr.pull_off_averaged");
 }
 
 } // namespace asperity

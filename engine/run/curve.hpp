@@ -20,7 +20,7 @@ struct PathSeries {
     std::vector<double> contact_fraction;
 };
 /// What the last approach and pull-off of a whole path over a sphere add to a result:
-/// jkr.in_averaged, jkr.out_averaged and contact_radius.pull_off.
+/// jkr.approach_averaged, jkr.pull_off_averaged and contact_radius.pull_off.
 void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
                      const Scene& scene, io::Result& result);
 

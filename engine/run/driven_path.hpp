@@ -55,7 +55,7 @@ public:
         v("start", start_);
         v("kinetic_at_full_speed", kinetic_at_full_speed_);
         v("segment_start", segment_start_);
-        v("interface_work", interface_work_);
+        v("work_of_interface", interface_work_);
         v("ledger", ledger_);
     }
 

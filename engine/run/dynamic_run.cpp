@@ -160,8 +160,8 @@ private:
             simulation_.now().slide);
         if (!found.numbers) return false;
         run_.results.zero_load = found.numbers;
-        if (case_.maps.zero_load)
-            run_.recorder().fields("zero-load", std::as_const(found.layer).view()[0], run_.grid,
+        if (case_.maps.relaxed)
+            run_.recorder().fields("relaxed", std::as_const(found.layer).view()[0], run_.grid,
                                    simulation_.interface(), height);
         return true;
     }
@@ -273,7 +273,7 @@ private:
     Simulation simulation_;
     DrivenPath path_;
     std::optional<StepRecord> failed_; ///< the step that a guard ended the run at
-    std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_zero_load;
+    std::vector<std::pair<double, std::string>> delayed_fields_ = case_.maps.after_approach;
     std::size_t delayed_written_ = 0; ///< of these, the first
     VectorField<double> layer_;       ///< the lowest one, at the step of the record
     Snapshot snapshot_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The segments of the path one after the other: "zero-load" is one relaxation with the top plane
+// The segments of the path one after the other: "relax" is one relaxation with the top plane
 // free, the others are points of a quasi-static path, until the path says that it is there.
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/zero_load.hpp"
@@ -46,7 +46,7 @@ public:
 private:
     void follow_path() {
         for (; segment_ < case_.path.size(); ++segment_, at_end_ = false) {
-            const bool whole = now().kind == Segment::zero_load ? relax_free() : follow_segment();
+            const bool whole = now().kind == Segment::relax ? relax_free() : follow_segment();
             if (!whole) return;
         }
     }
@@ -93,7 +93,7 @@ private:
     void begin_segment() {
         if (std::exchange(resumed_, false)) return;
         const bool first = segment_ == 0;
-        const bool from_state = !first && case_.path[segment_ - 1].kind == Segment::zero_load;
+        const bool from_state = !first && case_.path[segment_ - 1].kind == Segment::relax;
         if (first) path_.start();
         if (from_state) path_.start_here(true);
         path_.begin(case_.simulation.drive.path[segment_], segment_);
@@ -117,7 +117,7 @@ private:
             *wrong,
             "steps that are too long or instabilities that were not resolved miss energy, and "
             "what they miss adds up",
-            "take a smaller drive.step");
+            "take a smaller drive.displacement_step");
     }
 
     /// Of the last point; its steps are iterations.
@@ -144,7 +144,7 @@ private:
                     .interface = {},
                     .uncertainty = path_.uncertainty()};
         // A held mean height does not jump: the holder's force is that of the interface.
-        if (scene_.drive.hold == Hold::mean_height)
+        if (scene_.drive.control == Control::mean_height)
             works.interface = kind == Segment::slide ? 0.0 : -path_.work();
         ledger_.conclude(segment_, path_.now(), works, {});
         if (case_.maps.segments)
@@ -168,10 +168,10 @@ private:
                                           });
         if (!state) return false;
         // A path that starts in a state comes back to another; its numbers are of the first.
-        if (!run_.results.zero_load || !case_.starts_with(Segment::zero_load))
+        if (!run_.results.zero_load || !case_.starts_with(Segment::relax))
             run_.results.zero_load = state;
-        if (case_.maps.zero_load)
-            run_.recorder().fields("zero-load", block_.lowest_layer(), run_.grid, interface_,
+        if (case_.maps.relaxed)
+            run_.recorder().fields("relaxed", block_.lowest_layer(), run_.grid, interface_,
                                    reference_height());
         return true;
     }

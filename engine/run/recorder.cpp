@@ -47,7 +47,7 @@ const RecordColumn record_columns[] = {
     {"elastic_energy", In::both, [](const Row& w) { return w.r.elastic_energy; }},
     {"kinetic_energy", In::dynamic, [](const Row& w) { return w.r.kinetic_energy; }},
     {"work", In::both, [](const Row& w) { return w.r.work; }},
-    {"interface_work", In::dynamic, [](const Row& w) { return w.r.interface_work; }},
+    {"work_of_interface", In::dynamic, [](const Row& w) { return w.r.interface_work; }},
     {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
     {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
     {"balance_error", In::both, [](const Row& w) { return w.r.residual; }},

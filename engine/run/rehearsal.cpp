@@ -67,7 +67,7 @@ Case piece_of(const Case& c, int sites) {
         // the power 2H.
         surface.rms *= std::pow(std::min(1.0, surface.rolloff * fraction), surface.hurst);
         surface.rolloff = std::max(1.0, surface.rolloff * fraction);
-        surface.cutoff = std::max(surface.rolloff, surface.cutoff * fraction);
+        if (surface.q_max) surface.q_max = std::max(surface.rolloff, *surface.q_max * fraction);
     }
     surface.sites = block.sites = sites;
     piece.scene.block.thickness = block.thickness;
@@ -104,7 +104,7 @@ Surface stand_in(Case piece, double rms, int atoms) {
 /// Whether it came to its end.
 bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto& stop) {
     for (std::size_t n = 0; n < c.path.size(); ++n) {
-        if (c.path[n].kind == Segment::zero_load) {
+        if (c.path[n].kind == Segment::relax) {
             if (!relax(c.simulation.drive.load_force)) return false;
             path.start_here();
             continue;
@@ -172,7 +172,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     std::optional<Simulation> simulation;
     Snapshot snapshot;
     const auto relax = [&](double load) {
-        if (piece.starts_with(Segment::zero_load)) waves->set_uniform(height - start);
+        if (piece.starts_with(Segment::relax)) waves->set_uniform(height - start);
         return find_zero_load(*waves, *below, start, load, piece, stop).has_value();
     };
     const auto come_to_rest = [&] {

@@ -37,20 +37,20 @@ void add_surface(const Surface& surface, io::Result& result) {
 void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("binding_energy", z.binding_energy);
     result.set("binding_energy_uncertainty", z.uncertainty);
-    result.set("work_of_adhesion.pairwise", z.pairwise);
+    result.set("pair_binding_energy", z.pairwise);
     result.set("contact_fraction", z.contact_fraction);
     result.set("repulsive_fraction", z.repulsive_fraction);
-    result.set("zero_load.elastic_energy", z.elastic);
-    result.set("zero_load.mean_height", z.mean_height);
-    result.set("zero_load.residual_force", z.residual);
+    result.set("relaxed.elastic_energy", z.elastic);
+    result.set("relaxed.mean_height", z.mean_height);
+    result.set("relaxed.residual_force", z.residual);
     result.set("run.iterations", static_cast<long long>(z.iterations));
 }
 
 void add_path(const PathResults& results, const Case& c, io::Result& result) {
     const std::optional<double> radius = c.scene.surface.radius;
     const WayEnergies &in = results.approach, &out = results.pull_off;
-    result.set("work_of_adhesion.approach", in.interface_work);
-    result.set("work_of_adhesion.pull_off", out.interface_work);
+    result.set("work_of_interface.approach", in.interface_work);
+    result.set("work_of_interface.pull_off", out.interface_work);
     result.set("work_of_drive.approach", in.drive_work);
     result.set("work_of_drive.pull_off", out.drive_work);
     result.set("lost.approach", in.lost);
@@ -58,8 +58,8 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     result.set("lost.cycle", results.lost_in_cycle);
     result.set("kinetic.approach", in.kinetic);
     result.set("kinetic.pull_off", out.kinetic);
-    if (in.interface_work) result.set("work_of_adhesion.uncertainty.approach", in.uncertainty);
-    if (out.interface_work) result.set("work_of_adhesion.uncertainty.pull_off", out.uncertainty);
+    if (in.interface_work) result.set("work_of_interface.uncertainty.approach", in.uncertainty);
+    if (out.interface_work) result.set("work_of_interface.uncertainty.pull_off", out.uncertainty);
     result.set("work_of_drive.uncertainty.approach", in.uncertainty);
     result.set("work_of_drive.uncertainty.pull_off", out.uncertainty);
     result.set("lost.uncertainty.approach", in.uncertainty);
@@ -71,8 +71,8 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };
-    if (in.drive_work) result.set("jkr.in", as_work(results.attraction_in));
-    if (out.drive_work) result.set("jkr.out", as_work(results.attraction_out));
+    if (in.drive_work) result.set("jkr.approach", as_work(results.attraction_in));
+    if (out.drive_work) result.set("jkr.pull_off", as_work(results.attraction_out));
 }
 
 /// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
@@ -80,17 +80,16 @@ void add_sphere(const Case& c, io::Result& result) {
     const Scene& scene = c.scene;
     if (!scene.surface.radius) return;
     if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.zero_load",
+        result.set("contact_radius.relaxed",
                    scene.edge() * std::sqrt(*fraction / std::numbers::pi));
-    const bool pressed = c.starts_with(Segment::zero_load) && scene.drive.load != 0.0;
+    const bool pressed = c.starts_with(Segment::relax) && scene.drive.load != 0.0;
     const auto binding = result.number("binding_energy");
     if (!binding || pressed) return;
     const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
     const double modulus =
         theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
-    result.set("jkr.zero_load",
-               units::milli_per_unit *
-                   theory::jkr::work_from_binding_energy(energy, *scene.surface.radius, modulus));
+    result.set("jkr.relaxed", units::milli_per_unit * theory::jkr::work_from_binding_energy(
+                                                          energy, *scene.surface.radius, modulus));
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
@@ -181,6 +180,9 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
+    if (c.scene.interface.kind == InterfaceKind::atoms ||
+        c.scene.interface.law == WallLawKind::smeared)
+        result.set("interface.cutoff", cutoff_of(c.simulation.interface.potential));
     result.set("run.ranks", c.ranks);
     result.set("run.threads", omp_get_max_threads());
     result.set("run.kernels", std::string(name(processor_level())));

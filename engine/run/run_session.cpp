@@ -46,7 +46,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
     part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
     // What resumes is taken as written where its time is past.
     part["output"]["delayed"] = io::Json::array();
-    for (const auto& [delay, name] : c.maps.after_zero_load)
+    for (const auto& [delay, name] : c.maps.after_approach)
         part["output"]["delayed"].push_back(name);
     if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
     part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;

@@ -182,7 +182,7 @@ void StaticPath::hold(Held held) {
 /// The path, if it has not begun.
 void StaticPath::begin() {
     if (path_) return;
-    hold(held_.value_or(case_.scene.drive.hold == Hold::top ? Held::top : Held::mean_height));
+    hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));
     PathOptions options =
         path_options(case_, interface_, [this](long long, double) { return interrupts(); });
     options.along = *held_;
@@ -227,7 +227,7 @@ void StaticPath::guard() const {
                   fmt::format("point {}", path_->now().step));
     if (wrong)
         throw io::PhysicsError(*wrong, "it was led there, or steps missed too much of the energy",
-                               "lead it less far, or take a smaller drive.step");
+                               "lead it less far, or take a smaller drive.displacement_step");
 }
 
 } // namespace asperity

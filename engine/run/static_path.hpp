@@ -6,8 +6,8 @@
 // what is lost on it is counted. It starts out of reach.
 //
 // The mean height is held, or the top plane; the first one that is set decides, or a load, which
-// then holds what drive.hold says. Of a scene in time the same solids are taken, as if drive.mode
-// were "quasistatic".
+// then holds what drive.control says. Of a scene in time the same solids are taken, as if
+// drive.mode were "quasistatic".
 #pragma once
 
 #include "engine/equilibrium/quasistatic.hpp"
@@ -49,7 +49,7 @@ public:
     InterfaceMaps maps() const;
 
     /// The state that the sites come to from where they are with nothing held but drive.load; from
-    /// out of reach the one that the segment "zero-load" of a run leads to. The next relax() begins
+    /// out of reach the one that the segment "relax" of a run leads to. The next relax() begins
     /// a new path there. Where none is found (io::PhysicsError), or look
     /// throws, the sites stay where they were.
     RestState release(const Look& look);

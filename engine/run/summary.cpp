@@ -95,12 +95,12 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
         fmt::print(to, "  Work of the drive on the approach + {} = binding energy{}.\n",
                    c.in_time ? "energy lost + energy that still moves" : "energy lost there",
                    c.in_time ? "" : " =\n  work of the drive on the pull-off - energy lost there");
-    if (of("work_of_adhesion.approach") && c.in_time)
+    if (of("work_of_interface.approach") && c.in_time)
         fmt::print(to,
                    "  The work of the interface is that of its force on the mean height of the "
                    "surface: a block that snaps\n  as a whole changes nothing of it, patches that "
                    "snap on their own do.\n");
-    if (!hardly && scene.drive.hold == Hold::top)
+    if (!hardly && scene.drive.control == Control::top)
         fmt::print(to, "  A thick block is a soft spring and snaps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
 }
@@ -185,7 +185,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const Scene& scene = c.scene;
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
-    const bool loaded = c.has(Segment::zero_load) && scene.drive.load != 0.0;
+    const bool loaded = c.has(Segment::relax) && scene.drive.load != 0.0;
     const std::string at =
         loaded ? fmt::format("under {:.6g} MPa", scene.drive.load) : std::string("at zero load");
     io::Table table({"", "approach", "pull-off", "state " + at});
@@ -195,8 +195,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    number(state, digits)});
     };
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
-                 interface_in = of("work_of_adhesion.approach"),
-                 interface_out = of("work_of_adhesion.pull_off"), state = of("binding_energy");
+                 interface_in = of("work_of_interface.approach"),
+                 interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
     const auto ratio = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
     const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
     const auto over_flat = [&](Number in, Number out, Number of_state) {
@@ -207,7 +207,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     row("binding energy", "binding_energy", 2, {}, {}, state);
     over_flat({}, {}, state);
     if (interface_in || interface_out) {
-        row("work of the interface", "work_of_adhesion.approach", 2, interface_in, interface_out,
+        row("work of the interface", "work_of_interface.approach", 2, interface_in, interface_out,
             {});
         over_flat(interface_in, interface_out, {});
     }
@@ -228,32 +228,29 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    plus_minus(of("binding_energy_uncertainty"))});
     row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), {});
     if (scene.surface.radius)
-        row("  as a JKR sphere", "jkr.in", 2, of("jkr.in"), of("jkr.out"), {});
+        row("  as a JKR sphere", "jkr.approach", 2, of("jkr.approach"), of("jkr.pull_off"), {});
     row("contact area fraction", "contact_fraction", 4, {}, {}, of("contact_fraction"));
     row("repulsive sites, fraction", "repulsive_fraction", 4, {}, {}, of("repulsive_fraction"));
-    row("elastic energy stored", "zero_load.elastic_energy", 2, {}, {},
-        of("zero_load.elastic_energy"));
-    row("energy of the pairs alone", "work_of_adhesion.pairwise", 2, {}, {},
-        of("work_of_adhesion.pairwise"));
+    row("elastic energy stored", "relaxed.elastic_energy", 2, {}, {}, of("relaxed.elastic_energy"));
+    row("energy of the pairs alone", "pair_binding_energy", 2, {}, {}, of("pair_binding_energy"));
     fmt::print(to, "\n");
     table.print(to);
     if (c.guided()) print_segments(to, c, results);
     fmt::print(to, "\nHow to read it\n");
     if (state)
-        fmt::print(to,
-                   "  The state {} has a binding energy of {} meV/Å²{}:\n"
-                   "  {} of the pairs across the interface, less {} of elastic energy in "
-                   "the block.\n"
-                   "  {} % of the block's surface atoms are in contact.\n",
-                   at, io::number(*state, 2),
-                   flat > 0.0
-                       ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
+        fmt::print(
+            to,
+            "  The state {} has a binding energy of {} meV/Å²{}:\n"
+            "  {} of the pairs across the interface, less {} of elastic energy in "
+            "the block.\n"
+            "  {} % of the block's surface atoms are in contact.\n",
+            at, io::number(*state, 2),
+            flat > 0.0 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
                                      anywhere ? "one flat layer of the block's lattice"
                                               : "two flat surfaces")
                        : std::string(),
-                   io::number(*of("work_of_adhesion.pairwise"), 2),
-                   io::number(*of("zero_load.elastic_energy"), 2),
-                   io::number(100.0 * *of("contact_fraction"), 1));
+            io::number(*of("pair_binding_energy"), 2), io::number(*of("relaxed.elastic_energy"), 2),
+            io::number(100.0 * *of("contact_fraction"), 1));
     if (scene.block.strain == Strain::finite)
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "

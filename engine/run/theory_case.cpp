@@ -28,7 +28,7 @@ auto with_scene_errors(const F& work) {
     } catch (const theory::InvalidInput& error) {
         throw io::SceneError(io::Problem{
             "theory", error.what(), "the scene's keys lead there",
-            "look at [surface] (rms, rolloff, cutoff), [block] (young, poisson) and [theory]"});
+            "look at [surface] (rms, rolloff, q_max), [block] (young, poisson) and [theory]"});
     } catch (const theory::NoSolution& error) {
         throw io::SceneError(io::Problem{"theory", error.what(), "", "try another drive.load"});
     }
@@ -39,21 +39,21 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
     const auto& s = scene.surface;
     const double q_L = 2.0 * std::numbers::pi / scene.edge();
     const double nyquist = 0.5 * substrate_sites(s.sites, s.lattice_ratio);
-    double cutoff = s.cutoff;
+    double cutoff = s.q_max.value_or(nyquist);
     if (scene.theory.clip && cutoff > nyquist) {
         out.notes.push_back(fmt::format("the spectrum ends at Nyquist, q1 = {:.6g} q_L, like the "
                                         "surface (theory.clip = false: at {:.6g} q_L)",
-                                        nyquist, s.cutoff));
+                                        nyquist, cutoff));
         cutoff = nyquist;
     }
     const double rolloff = std::clamp(s.rolloff, 1.0, cutoff);
     out.q0 = rolloff * q_L;
     if (!(cutoff > 1.0))
         throw io::SceneError(io::Problem{
-            scene.positions.where("surface.cutoff"),
-            fmt::format("surface.cutoff = {:.6g} leaves the theory no roughness", cutoff),
+            scene.positions.where("surface.q_max"),
+            fmt::format("surface.q_max = {:.6g} leaves the theory no roughness", cutoff),
             "it needs a band of wavevectors from q_L to q1 > q_L",
-            "give a larger cutoff, more sites, or kind = \"flat\""});
+            "give a larger q_max, more sites, or kind = \"flat\""});
     return Spectrum::self_affine(
         {.q_L = q_L, .q0 = rolloff * q_L, .q1 = cutoff * q_L, .hurst = s.hurst, .h_rms = s.rms});
 }
@@ -172,31 +172,31 @@ TheoryNumbers solve_theory(const TheoryCase& what) {
 }
 
 void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& result) {
-    result.set("theory.gamma_eff", n.gamma_eff);
-    result.set("theory.contact_fraction", n.state.area);
-    result.set("theory.gamma_full_contact", n.gamma_full_contact);
-    result.set("theory.delta_gamma", what.delta_gamma);
-    result.set("theory.gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
-    result.set("theory.contact_fraction_error", n.state.area_error);
-    result.set("theory.elastic_energy", units::milli_per_unit * n.state.elastic_energy);
-    result.set("theory.h_rms", n.h_rms);
-    result.set("theory.rms_slope", n.rms_slope);
-    result.set("theory.theta", n.theta);
-    result.set("theory.jkr_pull_off_force", n.jkr_pull_off_force);
-    result.set("theory.status", std::string(theory::name(n.state.status)));
-    result.set("theory.converged", n.state.converged);
+    result.set("theory.persson.gamma_eff", n.gamma_eff);
+    result.set("theory.persson.contact_fraction", n.state.area);
+    result.set("theory.persson.gamma_full_contact", n.gamma_full_contact);
+    result.set("theory.persson.delta_gamma", what.delta_gamma);
+    result.set("theory.persson.gamma_eff_error", n.state.gamma_ratio_error * what.delta_gamma);
+    result.set("theory.persson.contact_fraction_error", n.state.area_error);
+    result.set("theory.persson.elastic_energy", units::milli_per_unit * n.state.elastic_energy);
+    result.set("theory.persson.h_rms", n.h_rms);
+    result.set("theory.persson.rms_slope", n.rms_slope);
+    result.set("theory.persson.theta", n.theta);
+    result.set("theory.persson.jkr_pull_off_force", n.jkr_pull_off_force);
+    result.set("theory.persson.status", std::string(theory::name(n.state.status)));
+    result.set("theory.persson.converged", n.state.converged);
 }
 
 void add_theory(const Case& c, const Surface& surface, io::Result& result) {
     if (const std::string why = no_theory(c); !why.empty()) {
-        result.set("theory.note", why);
+        result.set("theory.persson.note", why);
         return;
     }
     try {
         const TheoryCase what = theory_case(c, &surface);
         record_theory(what, solve_theory(what), result);
     } catch (const std::exception& error) {
-        result.set("theory.note", error.what());
+        result.set("theory.persson.note", error.what());
     }
 }
 

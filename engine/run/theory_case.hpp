@@ -61,7 +61,8 @@ TheoryNumbers solve_theory(const TheoryCase& what);
 /// Fills in `theory` of a result.
 void record_theory(const TheoryCase& what, const TheoryNumbers& numbers, io::Result& result);
 
-/// The same for a run, which the theory must never make fail: what went wrong becomes theory.note.
+/// The same for a run, which the theory must never make fail: what went wrong becomes
+/// theory.persson.note.
 void add_theory(const Case& c, const Surface& surface, io::Result& result);
 
 } // namespace asperity

@@ -44,7 +44,7 @@ void require_finite(const char* name, const VectorPlane<const double>& field) {
 Surface checked_surface(const Case& c, const Communicator& ranks) {
     if (!c.in_time)
         refuse("Simulation", fmt::format("of the scene \"{}\", which has no time", c.scene.name),
-               "drive.mode = \"quasistatic\", or drive.path = [\"zero-load\"], finds force balance "
+               "drive.mode = \"quasistatic\", or drive.path = [\"relax\"], finds force balance "
                "without steps",
                "take asperity.Statics, or drive.mode = \"dynamic\" and drive.path = "
                "[\"approach\", \"pull-off\"]");

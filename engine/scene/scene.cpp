@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <string_view>
 
@@ -19,6 +20,8 @@ using io::between;
 using io::positive;
 
 namespace {
+
+constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
 
 template <class Visit>
 void each_potential(EachPotential& all, Visit visit) {
@@ -38,6 +41,26 @@ void bind_potential(io::Schema& schema, P& potential) {
                   [&](const char* name, const char* unit, double& value, const char* meaning) {
                       schema.number(key_of<P>(name), value, unit, positive(), meaning);
                   });
+}
+
+/// Sites and layers that the scene gives as lengths.
+void make_counts(Scene& scene, io::Problems& problems) {
+    const auto count = [&](const char* key, const std::optional<double>& length, int low, int high,
+                           int& into) {
+        if (!length) return;
+        const double whole = std::round(*length / scene.surface.spacing);
+        if (whole >= low && whole <= high)
+            into = static_cast<int>(whole);
+        else
+            problems.add(
+                io::Problem{scene.positions.where(key),
+                            fmt::format("{} = {:.6g} Å is {:.6g} spacings", key, *length, whole),
+                            fmt::format("{} to {} are allowed, of {:.6g} Å each", low, high,
+                                        scene.surface.spacing),
+                            "give another length, or the number itself"});
+    };
+    count("surface.sites", scene.width, fewest_sites, most_sites, scene.surface.sites);
+    count("block.thickness", scene.height, 1, most_layers, scene.block.thickness);
 }
 
 } // namespace
@@ -74,8 +97,9 @@ io::Schema bind(Scene& scene) {
                                 {"atoms", SurfaceKind::atoms}},
                                "what the substrate is: one layer of atoms with heights, made or "
                                "from a map; \"atoms\": those of a file, anywhere");
-    schema.integer("sites", surface.sites, between(4, 32768),
-                   "N; the periodic box is N spacings wide");
+    schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
+                           "N; the periodic box is N spacings wide; a length (\"133 nm\") is "
+                           "rounded to whole spacings");
     schema.number("spacing", surface.spacing, "Å", positive(),
                   "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
     schema.number(
@@ -88,8 +112,11 @@ io::Schema bind(Scene& scene) {
     schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H");
     schema.number("rolloff", surface.rolloff, "", at_least(1.0),
                   "q0 / q_L: C(q) is constant below");
-    schema.number("cutoff", surface.cutoff, "", at_least(1.0),
-                  "q1 / q_L: C(q) is zero above; clipped at Nyquist, sites/2");
+    schema.number_or("q_max", surface.q_max, "nyquist", "", at_least(1.0),
+                     "q1 / q_L: C(q) is zero above; \"nyquist\" is sites/2, and no surface has "
+                     "shorter waves");
+    schema.removed({"surface.cutoff", "", "it is called surface.q_max",
+                    "write q_max with the same number; without it the spectrum ends at Nyquist"});
     schema.choice<Amplitudes>("amplitudes", surface.amplitudes,
                               {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
                               "random amplitudes and phases, or random phases alone");
@@ -131,14 +158,15 @@ io::Schema bind(Scene& scene) {
     schema.removed({"block.model", "spectral",
                     "a path without time is always one of waves, and a path in time never",
                     "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
-                    "[\"zero-load\"]"});
+                    "[\"relax\"]"});
     schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
                   "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},
                   "Poisson's ratio");
     schema.number("atom_mass", block.atom_mass, "u", positive(), "mass of an atom");
-    schema.integer("thickness", block.thickness, between(1, 1 << 20),
-                   "in lattice layers; N where the scene does not say");
+    schema.count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
+                           "in lattice layers, or a length (\"33 nm\"), rounded to whole layers; N "
+                           "where the scene does not say");
     schema.integer("layers_per_level", block.layers_per_level, between(2, 1024),
                    "thickness of each level of the multiscale block, in its own cells");
     schema.choice<Strain>("strain", block.strain,
@@ -165,8 +193,14 @@ io::Schema bind(Scene& scene) {
     schema.key("table", interface.table,
                "of potential = \"table\": a text file of two columns, distances in Å and energies "
                "in eV; looked for beside the scene, then in the working directory");
-    schema.number("cutoff", interface.cutoff, "Å", positive(),
-                  "no interaction beyond; half the box at most");
+    schema.number_or(
+        "cutoff", interface.cutoff, "4 r0", "Å", positive(),
+        "no interaction beyond; half the box at most. \"4 r0\": four times the distance "
+        "at which the potential is zero, with interface.pairs that of each type; of a "
+        "table its last distance, if that is less");
+    schema.removed({"interface.morse_r0", "",
+                    "it is the place of the minimum, and interface.r0 where the energy is zero",
+                    "write interface.morse_r_min with the same number"});
     schema.list(
         "pairs", interface.pairs, {},
         "of a substrate of atoms from a file, by type: [\"Au 0.1 3.28\", \"C morse 0.02 1.5 3.9 "
@@ -210,18 +244,23 @@ io::Schema bind(Scene& scene) {
         "velocity Verlet, or force balance at each top position");
     schema.list("path", drive.path, {},
                 "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
-                "\"zero-load\" (without time, first), \"load 100 MPa\", \"height 12 Å\" (of the "
-                "lowest layer of the undeformed block, or its mean height where that is held), "
-                "\"slide x 5 Å\" (or y, at the same height), \"hold 20 ps\" (in time)");
+                "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
+                "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
+                "where that is controlled), \"slide x 5 Å\" (or y, at the same height), \"hold 20 "
+                "ps\" (dynamic)");
     schema.number("velocity", drive.velocity, "m/s", positive(), "of the top plane (dynamic)");
-    schema.choice<Hold>("hold", drive.hold,
-                        {{"top", Hold::top}, {"mean-height", Hold::mean_height}},
-                        "what is moved from point to point (quasistatic): the top plane, or the "
-                        "lowest layer's mean height, at which no block snaps as a whole");
+    schema.choice<Control>(
+        "control", drive.control, {{"top", Control::top}, {"mean-height", Control::mean_height}},
+        "what is moved from point to point (quasistatic): the top plane, or the lowest layer's "
+        "mean height, at which the block never jumps as a whole");
+    schema.removed({"drive.hold", "", "it is called drive.control",
+                    "write control = \"top\" or \"mean-height\""});
     schema.removed({"drive.states", "", "a run reports one state at zero load",
                     "leave it out; `asperity states SCENE` searches for further states"});
-    schema.number("step", drive.step, "Å", positive(),
-                  "largest displacement of what is held per point (quasistatic)");
+    schema.number("displacement_step", drive.displacement_step, "Å", positive(),
+                  "largest displacement of what is controlled, from point to point (quasistatic)");
+    schema.removed({"drive.step", "", "it is called drive.displacement_step",
+                    "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
     schema.number("damping", drive.damping, "1/ps", at_least(0.0),
                   "rate Γ of the force -m Γ v, v relative to the top plane");
@@ -232,13 +271,13 @@ io::Schema bind(Scene& scene) {
         "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
         "transit of the block");
     schema.number("load", drive.load, "MPa", any(),
-                  "pressure at which an approach ends, or of the state that a path starting at "
-                  "\"zero-load\" relaxes; the state after an approach carries none");
+                  "pressure at which an approach ends, or under which \"relax\" finds the state; "
+                  "the state after an approach carries none");
     schema.number("temperature", drive.temperature, "K", at_least(0.0),
                   "above 0: Langevin thermostat");
     schema.integer("seed", drive.seed, at_least(0), "of the thermal noise");
-    schema.integer("max_steps", drive.max_steps, at_least(0),
-                   "stop after so many steps (points of a quasi-static path); 0: no limit");
+    schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
+                          "stop after so many steps (points of a quasi-static path)");
     schema
         .number("tolerance", drive.tolerance, "", positive(),
                 "largest residual force of a relaxation, as a fraction of the smallest force on "
@@ -301,13 +340,17 @@ io::Schema bind(Scene& scene) {
     schema.key("velocities", output.velocities, "in the frames of the trajectory too");
     schema.list(
         "fields", output.fields,
-        {"zero-load", std::string(after_zero_load), "pull-off", "segments", "every:"},
-        "when maps are written: at zero load, so many ps after the approach has ended, at the "
-        "largest attraction of the pull-off, at the end of each segment of drive.path, every so "
-        "many steps (points of a quasi-static path)");
+        {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},
+        "when maps are written: of the relaxed state, so many ps after the approach has ended, at "
+        "the largest attraction of the pull-off, at the end of each segment of drive.path, every "
+        "so many steps (points of a quasi-static path)");
+    schema.removed(
+        {"output.fields", "zero-load", "the state can carry a load", "write \"relaxed\""});
+    schema.removed({"output.fields", "after-zero-load:", "it is the time after the approach",
+                    "write \"after-approach:N\""});
     schema.integer("series", output.series, at_least(1), "steps between rows of the series");
-    schema.number("checkpoint", output.checkpoint, "s", at_least(0.0),
-                  "wall time between checkpoints; 0: none");
+    schema.number_or_none("checkpoint", output.checkpoint, "s", positive(),
+                          "wall time between checkpoints");
 
     schema.variations({"sweep",
                        "What `asperity sweep` varies: any key above, with a list of values or a "
@@ -323,6 +366,7 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     scene.name = std::filesystem::path(file).stem().string();
     if (scene.name.empty()) scene.name = "scene";
     bind(scene).read(text, file, overrides, scene.positions, problems);
+    make_counts(scene, problems);
     if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
     if (scene.interface.kind == InterfaceKind::wall &&
         !scene.positions.is_set("interface.frictionless"))

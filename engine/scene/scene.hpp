@@ -37,7 +37,8 @@ enum class WallLawKind { smeared, exponential };
 /// Of rows of sites that hold the edge of a contact.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
-enum class Hold { top, mean_height };
+/// What a quasi-static path moves from point to point.
+enum class Control { top, mean_height };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
@@ -46,8 +47,8 @@ template <class... P>
 std::tuple<P...> one_of_each(const std::variant<P...>&);
 using EachPotential = decltype(one_of_each(PairPotential()));
 
-/// Of output.fields: "after-zero-load:140", 140 ps after the approach has ended.
-inline constexpr std::string_view after_zero_load = "after-zero-load:";
+/// Of output.fields: "after-approach:140", 140 ps after the approach has ended.
+inline constexpr std::string_view after_approach = "after-approach:";
 
 struct Scene {
     struct Surface {
@@ -57,8 +58,8 @@ struct Scene {
         double lattice_ratio = 1.0; ///< block spacing over substrate spacing
         double rms = 3.0;           ///< Å; a map from a file is scaled to it only if it is given
         double hurst = 0.8;
-        double rolloff = 3.0;  ///< q0 / q_L
-        double cutoff = 512.0; ///< q1 / q_L
+        double rolloff = 3.0;        ///< q0 / q_L
+        std::optional<double> q_max; ///< q1 / q_L; empty: the Nyquist wavevector, sites/2
         Amplitudes amplitudes = Amplitudes::gaussian;
         long long seed = 1;
         std::optional<double> radius;    ///< Å; empty: not curved
@@ -89,7 +90,7 @@ struct Scene {
         int potential = 0;               ///< which of PairPotential
         EachPotential potentials;        ///< with their keys; cutoffs come from the one below
         std::string table = "table.txt"; ///< of potential = "table", as the scene gives it
-        double cutoff = 13.12;           ///< Å
+        std::optional<double> cutoff;    ///< Å; empty: 4 r0, r0 where the potential is zero
         std::vector<std::string> pairs;  ///< of atoms from a file, by type
         bool tail = false;
         bool frictionless = false;                  ///< normal displacements only; after reading:
@@ -107,8 +108,8 @@ struct Scene {
         DriveMode mode = DriveMode::dynamic;
         std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
         double velocity = 5.0;                                    ///< m/s
-        double step = 0.25;                                       ///< Å
-        Hold hold = Hold::top;                                    ///< of a quasi-static path
+        double displacement_step = 0.25;                          ///< Å
+        Control control = Control::top;                           ///< of a quasi-static path
         double timestep = 10.0;                                   ///< fs
         double damping = 0.05;                                    ///< 1/ps
         double damping_from = 0.0;  ///< fraction of the thickness above which damping acts
@@ -116,7 +117,7 @@ struct Scene {
         double load = 0.0;          ///< MPa
         double temperature = 0.0;   ///< K
         long long seed = 1;         ///< of the thermal noise
-        long long max_steps = 0;    ///< 0: no limit
+        long long max_steps = 0;    ///< 0 ("none"): no limit
         double tolerance = 2.5e-4;  ///< of the smallest force that decides the state
     } drive;
 
@@ -136,12 +137,16 @@ struct Scene {
     struct Output {
         std::optional<long long> trajectory; ///< steps between frames; empty: none
         bool velocities = false;             ///< in the frames too
-        std::vector<std::string> fields = {"zero-load"};
+        std::vector<std::string> fields = {"relaxed"};
         long long series = 100;    ///< steps between rows
-        double checkpoint = 600.0; ///< s of wall time; 0: none
+        double checkpoint = 600.0; ///< s of wall time; 0 ("none"): none
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
+
+    /// surface.sites and block.thickness where they are given as lengths, Å; reading makes counts
+    /// of them.
+    std::optional<double> width, height;
 
     // Where it came from.
     std::string file;           ///< as given on the command line

@@ -22,7 +22,7 @@ struct Word {
 constexpr std::array<Word, Segment::kinds> words = {{
     {Segment::approach, "approach", "", "approach"},
     {Segment::pull_off, "pull-off", "", "pull-off"},
-    {Segment::zero_load, "zero-load", "", "zero-load"},
+    {Segment::relax, "relax", "", "relax"},
     {Segment::load, "load", "MPa", "load 100 MPa"},
     {Segment::height, "height", "Å", "height 12 Å"},
     {Segment::hold, "hold", "ps", "hold 20 ps"},
@@ -63,6 +63,10 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Proble
             std::vector<std::string> known;
             for (const Word& w : words)
                 known.emplace_back(w.name);
+            if (name == "zero-load") {
+                refuse("it is called \"relax\": its state can carry a load", "write \"relax\"");
+                continue;
+            }
             const std::string close = io::nearest(name, known);
             refuse("segments are " + examples(),
                    close.empty() ? "take one of these" : "did you mean \"" + close + "\"?");

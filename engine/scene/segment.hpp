@@ -14,14 +14,14 @@ namespace asperity {
 
 struct Segment {
     enum Kind {
-        approach,  ///< down, through attraction, to drive.load
-        pull_off,  ///< up, until nothing is in reach
-        zero_load, ///< straight to the relaxed state under drive.load, nothing held
-        load,      ///< up or down to a pressure, MPa
-        height, ///< up or down to a height of the lowest layer, Å: its mean height where that is
-                ///< held; else where the lowest layer of the undeformed block would be
-        hold,   ///< at rest, for so many ps
-        slide   ///< sideways, by so many Å, at the same height
+        approach, ///< down, through attraction, to drive.load
+        pull_off, ///< up, until nothing is in reach
+        relax,    ///< straight to the relaxed state under drive.load, nothing held
+        load,     ///< up or down to a pressure, MPa
+        height,   ///< up or down to a height of the lowest layer, Å: its mean height where that is
+                  ///< held; else where the lowest layer of the undeformed block would be
+        hold,     ///< at rest, for so many ps
+        slide     ///< sideways, by so many Å, at the same height
     };
     static constexpr std::size_t kinds = 7;
 

@@ -32,11 +32,11 @@ namespace asperity {
 
 /// When maps are written (output.fields).
 struct MapTimes {
-    bool zero_load = false, pull_off = false;
+    bool relaxed = false, pull_off = false;
     bool segments = false;          ///< at the end of each segment of the path
     std::optional<long long> every; ///< steps, or points of a quasi-static path
     /// Delay after the end of the approach, ps, and name; in the order of the delays.
-    std::vector<std::pair<double, std::string>> after_zero_load;
+    std::vector<std::pair<double, std::string>> after_approach;
 };
 
 struct Case {

@@ -169,7 +169,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
     options.rms = s.rms;
     options.hurst = s.hurst;
     options.rolloff = s.rolloff;
-    options.cutoff = s.cutoff;
+    options.cutoff = s.q_max.value_or(0.5 * options.sites);
     options.amplitudes = s.amplitudes;
     options.seed = static_cast<std::uint64_t>(s.seed);
     options.radius = s.radius.value_or(0.0);

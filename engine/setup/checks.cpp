@@ -47,14 +47,14 @@ void check_path(const Case& c, io::Problems& problems) {
         case Segment::pull_off:
             if (after_all)
                 refuse("with nothing to pull off",
-                       "it starts where an \"approach\" or \"zero-load\" ends",
+                       "it starts where an \"approach\" or \"relax\" ends",
                        "for example path = [\"approach\", \"pull-off\"]");
             break;
-        case Segment::zero_load:
+        case Segment::relax:
             if (i > 0)
                 refuse("after something else",
                        "it goes straight to the relaxed state and needs nothing before it",
-                       "take it out, or take path = [\"zero-load\"]: after an approach the state "
+                       "take it out, or take path = [\"relax\"]: after an approach the state "
                        "under zero load is found anyway");
             break;
         case Segment::load:
@@ -100,8 +100,8 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
     if (interface.tail)
         refuse("interface.tail", "true", "the tail is that of one layer of known density",
                "take a larger interface.cutoff, and tail = false");
-    if (interface.cutoff > largest_cell_cutoff)
-        refuse_number("interface.cutoff", interface.cutoff,
+    if (interface.cutoff && *interface.cutoff > largest_cell_cutoff)
+        refuse_number("interface.cutoff", *interface.cutoff,
                       "the cells of atoms hold for cutoffs up to 100 Å",
                       "take a cutoff of 100 Å or less");
     if (scene.gives_rms())
@@ -136,26 +136,26 @@ void check_keys(const Case& c, io::Problems& problems) {
     const bool pairs = !wall || interface.law == WallLawKind::smeared;
     const PairPotential& potential = c.simulation.interface.potential;
     const double half = scene.edge() / 2.0;
-    if (interface.cutoff > half && !wall)
+    const double cutoff = interface.cutoff.value_or(cutoff_of(potential));
+    if (cutoff > half && !wall)
         // Where the cutoff is the default, the box is what the scene chose.
         problems.add(io::Problem{
             scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
                                                                              : "surface.sites"),
-            fmt::format("interface.cutoff = {:.6g} Å is more than half the box", interface.cutoff),
+            fmt::format("interface.cutoff = {:.6g} Å is more than half the box", cutoff),
             fmt::format(
                 "the box is {} x {:.6g} Å = {:.6g} Å wide, and an atom must not meet the same "
                 "neighbour twice",
                 surface.sites, surface.spacing, scene.edge()),
             fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
-                        half, std::ceil(2.0 * interface.cutoff / surface.spacing))});
+                        half, std::ceil(2.0 * cutoff / surface.spacing))});
     else if (!wall && surface.kind != SurfaceKind::atoms) {
         const double between_atoms =
             scene.edge() / substrate_sites(surface.sites, surface.lattice_ratio);
         const double most = largest_cutoff(surface.spacing, between_atoms);
-        if (interface.cutoff > most)
+        if (cutoff > most)
             problems.add(
-                "interface.cutoff",
-                fmt::format("= {:.6g} Å reaches over too many atoms", interface.cutoff),
+                "interface.cutoff", fmt::format("= {:.6g} Å reaches over too many atoms", cutoff),
                 fmt::format("with sites {:.6g} Å and atoms of the substrate {:.6g} Å apart it may "
                             "be {:.6g} Å",
                             surface.spacing, between_atoms, most),
@@ -164,17 +164,17 @@ void check_keys(const Case& c, io::Problems& problems) {
                             4.0 * zero_of(potential)));
     }
     const double minimum = minimum_of(potential);
-    if (interface.cutoff <= minimum && pairs)
-        problems.add("interface.cutoff",
-                     fmt::format("= {:.6g} Å leaves no attraction", interface.cutoff),
+    if (cutoff <= minimum && pairs)
+        problems.add("interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", cutoff),
                      fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
                      fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * zero_of(potential)));
 
-    if (surface.kind == SurfaceKind::self_affine && surface.rolloff > surface.cutoff)
+    if (surface.kind == SurfaceKind::self_affine && surface.q_max &&
+        surface.rolloff > *surface.q_max)
         problems.add("surface.rolloff",
-                     fmt::format("= {:.6g} is above surface.cutoff = {:.6g}", surface.rolloff,
-                                 surface.cutoff),
-                     "the spectrum falls between the two", "give rolloff <= cutoff");
+                     fmt::format("= {:.6g} is above surface.q_max = {:.6g}", surface.rolloff,
+                                 *surface.q_max),
+                     "the spectrum falls between the two", "give rolloff <= q_max");
     if (surface.kind == SurfaceKind::self_affine && surface.rms > 0.0 &&
         surface.rolloff > surface.sites / 2.0)
         problems.add("surface.rolloff", fmt::format("= {:.6g} is beyond Nyquist", surface.rolloff),
@@ -200,7 +200,7 @@ void check_keys(const Case& c, io::Problems& problems) {
         problems.add("interface.kind", "= \"wall\" on a path in time",
                      "a wall takes no lateral tractions, and in time lateral displacements cannot "
                      "be left out",
-                     "take drive.mode = \"quasistatic\" or drive.path = [\"zero-load\"], or kind = "
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or kind = "
                      "\"atoms\"");
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
@@ -214,15 +214,15 @@ void check_keys(const Case& c, io::Problems& problems) {
         problems.add("interface.frictionless", "= true on a path in time",
                      "lateral displacements can be left out only where the block's stiffness for "
                      "normal forces alone is known wave by wave",
-                     "take drive.mode = \"quasistatic\" or drive.path = [\"zero-load\"], or "
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or "
                      "frictionless = false");
 
     check_path(c, problems);
-    if (drive.hold == Hold::mean_height && c.in_time)
-        problems.add("drive.hold", "= \"mean-height\" on a path in time",
+    if (drive.control == Control::mean_height && c.in_time)
+        problems.add("drive.control", "= \"mean-height\" on a path in time",
                      "in time the top plane is driven, and the lowest layer's mean height is what "
                      "the waves in the block make of it",
-                     "take drive.mode = \"quasistatic\", or hold = \"top\"");
+                     "take drive.mode = \"quasistatic\", or control = \"top\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
@@ -244,14 +244,14 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
         for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
-    if (!c.maps.after_zero_load.empty() && (!c.in_time || !c.has(Segment::pull_off)))
-        problems.add("output.fields", "asks for \"" + c.maps.after_zero_load.front().second + "\"",
-                     "no pull-off goes on in time after zero load",
+    if (!c.maps.after_approach.empty() && (!c.in_time || !c.has(Segment::pull_off)))
+        problems.add("output.fields", "asks for \"" + c.maps.after_approach.front().second + "\"",
+                     "no dynamic pull-off follows an approach",
                      "take a dynamic path with a pull-off, or take it out of output.fields");
-    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::zero_load))
+    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::relax))
         problems.add("output.fields", "asks for \"segments\"",
-                     "drive.path is one relaxation, whose state is \"zero-load\"",
-                     "take \"zero-load\" in its place");
+                     "drive.path is one relaxation, whose state is \"relaxed\"",
+                     "take \"relaxed\" in its place");
     if (c.maps.pull_off && !c.has(Segment::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
@@ -305,8 +305,8 @@ void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
                     std::move(instead));
     };
     if (scene.drive.mode == DriveMode::dynamic && c.path.size() > 1 &&
-        c.starts_with(Segment::zero_load))
-        refuse("drive.path", "a path in time from \"zero-load\"",
+        c.starts_with(Segment::relax))
+        refuse("drive.path", "a dynamic path from \"relax\"",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
 }
 
@@ -332,8 +332,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
                         "feel the rigid top plane",
                         scene.block.thickness, surface.sites));
-    if (c.has(Segment::zero_load) && scene.drive.load != 0.0)
-        list.push_back(fmt::format("the \"zero-load\" state carries drive.load = {:.6g} MPa; its "
+    if (c.has(Segment::relax) && scene.drive.load != 0.0)
+        list.push_back(fmt::format("the relaxed state carries drive.load = {:.6g} MPa; its "
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
     double load = std::abs(scene.drive.load); // MPa
@@ -357,8 +357,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
-    if (c.path.size() == 1 && c.starts_with(Segment::zero_load))
-        idle("drive.hold", "drive.path relaxes with nothing held");
+    if (c.path.size() == 1 && c.starts_with(Segment::relax))
+        idle("drive.control", "drive.path relaxes with nothing held");
     if (!c.in_time)
         for (const char* key :
              {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
@@ -366,7 +366,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
               "block.atom_mass", "block.model", "block.layers_per_level"})
             idle(key, "no time passes on this path");
     else
-        idle("drive.step", "drive.mode is \"dynamic\"");
+        idle("drive.displacement_step", "drive.mode is \"dynamic\"");
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
     for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
@@ -389,8 +389,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         for (const char* key : {"surface.file_missing", "surface.file_crop", "theory.delta_gamma"})
             idle(key, "surface.kind is \"atoms\"");
     if (surface.kind != SurfaceKind::self_affine)
-        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.cutoff",
-                                "surface.seed", "surface.amplitudes"})
+        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.q_max", "surface.seed",
+                                "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
     if (c.in_time && scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");

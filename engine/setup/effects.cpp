@@ -43,10 +43,10 @@ Effects effects_of(const Case& c) {
     const Scene& s = c.scene;
     const bool wall = s.interface.kind == InterfaceKind::wall, in_time = c.in_time;
     const bool follows_path = std::any_of(c.path.begin(), c.path.end(), [](const Segment& segment) {
-        return segment.kind != Segment::zero_load;
+        return segment.kind != Segment::relax;
     });
     const std::string rest =
-        c.has(Segment::zero_load) ? "drive.path = [\"zero-load\"]" : "drive.mode = \"quasistatic\"";
+        c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
     const std::string no_time = "no time passes: " + rest;
     const auto timed = [&](bool on, std::string why) {
         return in_time ? Effect{on, std::move(why)} : Effect{false, no_time};
@@ -96,8 +96,8 @@ Effects effects_of(const Case& c) {
                          ? fmt::format("output.series = {}: every so many steps", s.output.series)
                          : "always: at every point of a quasi-static path"};
     const MapTimes& m = c.maps;
-    e.maps.on = m.zero_load || m.pull_off || m.segments || (follows_path && m.every) ||
-                !m.after_zero_load.empty();
+    e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||
+                !m.after_approach.empty();
     e.maps.why =
         e.maps ? "output.fields asks for them" : "output.fields asks for no state of this path";
     e.trajectory = {s.output.trajectory.has_value(),

@@ -69,6 +69,13 @@ const PotentialTable& table_of(Case& c, const std::string& file) {
 constexpr const char* table_format =
     "a table has two columns, distances in Å, which ascend, and energies in eV";
 
+/// "4 r0", Å.
+double usual_cutoff(const auto& potential) { return 4.0 * potential.zero(); }
+
+double cutoff_over(const PotentialTable& table, const Scene::Interface& keys) {
+    return keys.cutoff.value_or(usual_cutoff(table.potential(table.last())));
+}
+
 /// interface.potential with its keys.
 void find_potential(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
@@ -87,10 +94,10 @@ void find_potential(Case& c, io::Problems& problems) {
         if constexpr (std::is_same_v<P, Tabulated>) {
             try {
                 const PotentialTable& table = table_of(c, keys.table);
-                potential = table.potential(std::min(keys.cutoff, table.last()));
-                if (keys.cutoff > table.last())
+                potential = table.potential(std::min(cutoff_over(table, keys), table.last()));
+                if (keys.cutoff && *keys.cutoff > table.last())
                     problems.add("interface.cutoff",
-                                 fmt::format("= {:.6g} Å is beyond the table", keys.cutoff),
+                                 fmt::format("= {:.6g} Å is beyond the table", *keys.cutoff),
                                  fmt::format("its last distance is {:.6g} Å", table.last()),
                                  fmt::format("take {:.6g} Å or less", table.last()));
             } catch (const std::exception& error) {
@@ -101,10 +108,10 @@ void find_potential(Case& c, io::Problems& problems) {
                 return;
             }
         } else {
-            potential.cutoff = keys.cutoff;
+            potential.cutoff = keys.cutoff.value_or(usual_cutoff(potential));
             if (!(potential.zero() > 0.0))
                 refuse("is attractive down to r = 0", "nothing would keep atoms apart",
-                       "take a steeper one: for Morse, a r0 above ln 2");
+                       "take a steeper one: for Morse, a r_min above ln 2");
         }
         c.simulation.interface.potential = potential;
     };
@@ -172,7 +179,6 @@ void find_pairs(Case& c, io::Problems& problems) {
             });
             const std::size_t needed = members.size();
             constexpr bool table = std::is_same_v<P, Tabulated>;
-            p.cutoff = scene.interface.cutoff;
             members.push_back({"cutoff", "Å", &p.cutoff});
             if (words.size() != (named ? 2 : 1) + (table ? 1 : 0) ||
                 entry.quantities.size() < needed || entry.quantities.size() > members.size())
@@ -189,12 +195,17 @@ void find_pairs(Case& c, io::Problems& problems) {
                 return refuse(fmt::format("whose {} is '{}'", members[k].name, entry.quantities[k]),
                               read.why.empty() ? "it must be above zero" : read.why);
             }
-            if (p.cutoff > most && entry.quantities.size() == members.size())
+            if (entry.quantities.size() < members.size() && !table)
+                p.cutoff = scene.interface.cutoff.value_or(usual_cutoff(p));
+            if (p.cutoff > most && (!table || entry.quantities.size() == members.size()))
                 refuse(fmt::format("whose cutoff is above {:.6g} Å", most),
                        "it may be half the box, and 100 Å, at most");
             if constexpr (table) {
                 try {
-                    p = table_of(c, words.back()).potential(p.cutoff);
+                    const PotentialTable& numbers = table_of(c, words.back());
+                    if (entry.quantities.empty())
+                        p.cutoff = std::min(cutoff_over(numbers, scene.interface), numbers.last());
+                    p = numbers.potential(p.cutoff);
                 } catch (const std::exception& error) {
                     return refuse(error.what(), table_format);
                 }

@@ -65,12 +65,11 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
     for (const std::string& field : scene.output.fields) {
         constexpr std::string_view every = "every:";
         std::string kind = field;
-        if (field == "zero-load") maps.zero_load = true;
+        if (field == "relaxed") maps.relaxed = true;
         if (field == "pull-off") maps.pull_off = true;
         if (field == "segments") maps.segments = true;
-        if (field.starts_with(after_zero_load))
-            maps.after_zero_load.emplace_back(std::stod(field.substr(after_zero_load.size())),
-                                              field);
+        if (field.starts_with(after_approach))
+            maps.after_approach.emplace_back(std::stod(field.substr(after_approach.size())), field);
         if (field.starts_with(every)) {
             kind = every;
             long long n = 0;
@@ -81,14 +80,14 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
             else
                 problems.add("output.fields", "has an \"every:\" without a number of steps",
                              "maps are written every so many steps (points of a quasi-static path)",
-                             "for example fields = [\"zero-load\", \"every:1000\"]");
+                             "for example fields = [\"relaxed\", \"every:1000\"]");
         }
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end())
             problems.add("output.fields", fmt::format("has \"{}\" twice", kind),
                          "maps of one kind are written once", "leave one of them out");
         kinds.push_back(kind);
     }
-    std::sort(maps.after_zero_load.begin(), maps.after_zero_load.end());
+    std::sort(maps.after_approach.begin(), maps.after_approach.end());
     return maps;
 }
 
@@ -210,11 +209,11 @@ void limit_steps(Case& c, io::Problems& refused) {
     const double width = c.flat.work_of_adhesion / units::milli_per_unit / tension;
     if (tension > 0.0) {
         c.longest_step = 0.5 * width;
-        if (!c.in_time && scene.drive.step > c.longest_step)
-            c.notes.push_back(
-                fmt::format("drive.step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
-                            "the potential (its depth over its largest force)",
-                            scene.drive.step, c.longest_step));
+        if (!c.in_time && scene.drive.displacement_step > c.longest_step)
+            c.notes.push_back(fmt::format(
+                "drive.displacement_step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
+                "the potential (its depth over its largest force)",
+                scene.drive.displacement_step, c.longest_step));
         const double pull = -scene.drive.load * units::megapascal;
         if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
             refused.add(
@@ -348,7 +347,7 @@ bool Case::has(Segment::Kind kind) const {
 bool Case::guided() const {
     return std::any_of(path.begin(), path.end(), [](const Segment& s) {
         return s.kind != Segment::approach && s.kind != Segment::pull_off &&
-               s.kind != Segment::zero_load;
+               s.kind != Segment::relax;
     });
 }
 
@@ -367,7 +366,7 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     c.ranks = ranks;
     io::Problems found = scene.problems();
     c.path = parse_path(scene.drive.path, found);
-    c.in_time = scene.drive.mode == DriveMode::dynamic && !c.has(Segment::zero_load);
+    c.in_time = scene.drive.mode == DriveMode::dynamic && !c.has(Segment::relax);
     c.simulation.block = block_of(scene, c.in_time);
     c.levels = level_shapes(c.simulation.block);
     c.file = file_of(scene, found);

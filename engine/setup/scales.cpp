@@ -9,7 +9,7 @@
 //   wave by an energy of 450 W, W the work of adhesion. The tolerance, squared, is the fraction of
 //   that energy which it lets pass: at its default 3e-5 W;
 // - without an attraction, the smallest load on a site that the path asks for; without a load, that
-//   which displaces the block's longest wave by drive.step.
+//   which displaces the block's longest wave by drive.displacement_step.
 #include "engine/setup/resolving.hpp"
 
 #include "engine/units.hpp"
@@ -30,7 +30,7 @@ double smallest_load(const Case& c) {
         const double size = std::abs(load);
         if (size > 0.0 && (smallest == 0.0 || size < smallest)) smallest = size;
     };
-    if (c.has(Segment::approach) || c.has(Segment::zero_load)) consider(c.scene.drive.load);
+    if (c.has(Segment::approach) || c.has(Segment::relax)) consider(c.scene.drive.load);
     for (const Segment& segment : c.path)
         if (segment.kind == Segment::load) consider(segment.amount);
     return smallest;
@@ -60,8 +60,8 @@ void find_scales(Case& c, double smallest_tension) {
             scales.force = load * units::megapascal * area;
             c.force_scale = fmt::format("a site's part of the smallest load, {:.6g} MPa", load);
         } else {
-            scales.force = softest * c.scene.drive.step;
-            c.force_scale = "displaces the block's longest wave by drive.step";
+            scales.force = softest * c.scene.drive.displacement_step;
+            c.force_scale = "displaces the block's longest wave by drive.displacement_step";
         }
         scales.length = scales.force / softest;
     }

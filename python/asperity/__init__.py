@@ -6,7 +6,7 @@
     result = asperity.run("scenes/first-contact.toml", {"surface.rms": 2.0}, out="results/rms-2")
     result.binding_energy / result.delta_gamma          # meV/Å² over meV/Å²
     result.series["force"], result.series.unit("force") # numpy array, "eV/Å"
-    result.fields["zero-load"].pressure                 # GPa, [y, x]
+    result.fields["relaxed"].pressure                 # GPa, [y, x]
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point

@@ -280,7 +280,7 @@ PYBIND11_MODULE(_engine, m) {
             "segment", &Sim::segment,
             "the segment of drive.path under way, as the scene has it; 'done' after the last")
         .def_property_readonly(
-            "work_of_adhesion",
+            "work_of_interface",
             [](const Sim& sim) {
                 const PathResults& found = sim.results();
                 return BothWays{found.approach.interface_work, found.pull_off.interface_work};
@@ -411,7 +411,7 @@ PYBIND11_MODULE(_engine, m) {
             "The state that the sites come to from where they are with nothing held but "
             "drive.load: "
             "a RestState.\n\n"
-            "From out of reach: the state that the segment \"zero-load\" of a run leads to. The "
+            "From out of reach: the state that the segment \"relax\" of a run leads to. The "
             "next "
             "relax() begins\na path there. Raises PhysicsError if no state is found; the "
             "sites then stay.")
@@ -437,17 +437,17 @@ PYBIND11_MODULE(_engine, m) {
             [](const StaticPath& s) {
                 const Case& c = s.scene_case();
                 const bool atoms = c.scene.surface.kind == SurfaceKind::atoms;
-                return py::dict("name"_a = c.scene.name, "scene"_a = scene_toml(c.scene, false),
-                                "area"_a = c.area(), "load"_a = c.simulation.drive.load_force,
-                                "step"_a = std::min(c.scene.drive.step, c.longest_step),
-                                "tension"_a = c.largest_tension * units::gigapascal,
-                                "modulus"_a = c.simulation.block.contact_modulus(),
-                                // Atoms anywhere can bind more than a flat layer does.
-                                "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
-                                "spacing"_a = c.scene.surface.spacing,
-                                "scale"_a = c.flat.work_of_adhesion,
-                                "lateral"_a = !c.scene.interface.frictionless &&
-                                              c.scene.interface.kind != InterfaceKind::wall);
+                return py::dict(
+                    "name"_a = c.scene.name, "scene"_a = scene_toml(c.scene, false),
+                    "area"_a = c.area(), "load"_a = c.simulation.drive.load_force,
+                    "step"_a = std::min(c.scene.drive.displacement_step, c.longest_step),
+                    "tension"_a = c.largest_tension * units::gigapascal,
+                    "modulus"_a = c.simulation.block.contact_modulus(),
+                    // Atoms anywhere can bind more than a flat layer does.
+                    "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
+                    "spacing"_a = c.scene.surface.spacing, "scale"_a = c.flat.work_of_adhesion,
+                    "lateral"_a = !c.scene.interface.frictionless &&
+                                  c.scene.interface.kind != InterfaceKind::wall);
             })
         .def("_load", py::overload_cast<double>(&StaticPath::set_load))
         .def("_load", py::overload_cast<const std::string&>(&StaticPath::set_load));

@@ -65,7 +65,7 @@ class Simulation:
     contact: Final[float]
     repulsive_fraction: Final[float]
     segment: Final[str]
-    work_of_adhesion: Final[BothWays]
+    work_of_interface: Final[BothWays]
     work_of_drive: Final[BothWays]
     lost_in_cycle: Final[float | None]
     u: Final[_Components]

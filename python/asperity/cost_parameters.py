@@ -103,7 +103,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         parameters.append(Parameter(name, rows, part, exact, moved))
 
     widest = min(8 * length, 0.5 * scene.edge)
-    tolerance, step = 0.1 * own("drive.tolerance"), 0.5 * own("drive.step")
+    tolerance, step = 0.1 * own("drive.tolerance"), 0.5 * own("drive.displacement_step")
     reference = ["numerics.precision=double", f"drive.tolerance={tolerance:.6g}"]
     if length:
         reference += ["interface.tail=true", f"interface.cutoff={widest:.6g}"]
@@ -111,7 +111,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         vary("cutoff", scene.cut(False, *cutoffs) + scene.cut(True, widest), "interaction", True)
         vary("tail", scene.cut(True, *(c for c in cutoffs if c <= 4 * length), widest), "interaction", True)
     if moves:
-        reference += [*AT_REST, f"drive.step={step:.6g}"]
+        reference += [*AT_REST, f"drive.displacement_step={step:.6g}"]
     text = ("without time, " + f"no inertia (velocity to 0), steps of {step:.6g} Å, " * moves
             + f"cutoff {widest:.6g} Å and tail, " * bool(length)
             + f"double precision, tolerance {scene.worded('drive.tolerance', tolerance)}")
@@ -128,9 +128,9 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
             vary("damping", scene.scaled("drive.damping", 4, 2, 1, 0.5, 0.125))
     vary("tolerance", scene.scaled("drive.tolerance", 100, 10, 1, 0.1), "tolerance", moved=dynamic)
     if moves:
-        vary("step", scene.scaled("drive.step", 4, 2, 1, 0.5, 0.25), "step", moved=dynamic)
+        vary("step", scene.scaled("drive.displacement_step", 4, 2, 1, 0.5, 0.25), "step", moved=dynamic)
         vary("model", [("lattice, in time", ["block.model=lattice"])] * dynamic
-             + [("quasi-static", AT_REST), ("zero load alone", ["drive.path=zero-load"])])
+             + [("quasi-static", AT_REST), ("zero load alone", ["drive.path=relax"])])
 
     if same_experiment:
         parameters = _chosen([k for k in parameters if k.part not in ("", "interaction", "velocity") and not k.moved], names)
@@ -139,5 +139,5 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
                         parameters, [Base("", [], [k.part for k in parameters], "path" if moves else "state")])
     bases = [Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"])] * dynamic
     bases += [Base("quasi-static", AT_REST, ["interaction", "precision", "tolerance", "step"])] * moves
-    bases.append(Base("zero load alone", ["drive.path=zero-load"], ["interaction", "precision", "tolerance"], "state"))
+    bases.append(Base("zero load alone", ["drive.path=relax"], ["interaction", "precision", "tolerance"], "state"))
     return CostCase(reference, text, _chosen(parameters, names), bases)

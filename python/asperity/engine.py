@@ -345,7 +345,7 @@ class Statics(_engine.Statics):
 
     It starts out of reach. What is found depends on the way there, as on a path of `asperity run`, and what is
     lost on it is counted. The mean height is held, or the top plane: the first one that is written decides (a
-    load holds what drive.hold of the scene says). Of a scene in time the same solids are taken, as if
+    load holds what drive.control of the scene says). Of a scene in time the same solids are taken, as if
     drive.mode were "quasistatic". scene and overrides are as for Simulation.
 
     free() is the state with nothing held; copy() keeps a state, and restore() leads back to it:

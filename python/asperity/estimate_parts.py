@@ -41,8 +41,8 @@ FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
         Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
         Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
-CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.out", "γ_JKR", "work of adhesion by JKR", 1),
-          Quantity("contact_radius.zero_load", "a", "contact radius at zero load", 1))
+CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
+          Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
 
 
 def number_of(result: Values, path: str) -> float:
@@ -186,14 +186,14 @@ SpacingAlso = Callable[[float], Setting]
 def is_coarse(scene: Variations) -> bool:
     """Whether a lattice of twice the spacing is as good to measure on: of a path, whose runs are long, on a lattice that is
     no solid's own and whose waves all fit."""
-    waves = scene.scene.text("surface.kind") != "self-affine" or 4 * scene.own("surface.cutoff") <= scene.sites
+    waves = scene.scene.text("surface.kind") != "self-affine" or 4 * scene.own("surface.q_max") <= scene.sites
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
 def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
     """The same surface and block at another spacing."""
     own, kind = scene.own, scene.scene.text("surface.kind")
-    waves = [f"surface.cutoff={min(own('surface.cutoff'), scene.sites // 2):.10g}"] if kind == "self-affine" else [
+    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else [
         "surface.resample=band-limited"] * (kind == "file")
     return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
             f"block.thickness={scene.thickness / factor:.0f}", *waves, *also(factor)]
@@ -218,8 +218,8 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
         parts.append(Part(name, group, what, rows, rule, of))
 
     if scene.moves and (rest or not scene.dynamic):
-        part("convergence", "convergence", f"drive.step {0.5 * own('drive.step'):.4g} Å and the bound of the result",
-             scene.scaled("drive.step", 0.5), solved)
+        part("convergence", "convergence", f"drive.displacement_step {0.5 * own('drive.displacement_step'):.4g} Å and the bound of the result",
+             scene.scaled("drive.displacement_step", 0.5), solved)
     else:
         part("convergence", "convergence", f"drive.tolerance {0.1 * own('drive.tolerance'):.2g}",
              scene.scaled("drive.tolerance", 0.1), solved)
@@ -296,9 +296,9 @@ def _surfaces(scene: Variations, part: Callable, seeds: int) -> None:
     if curved:
         part("width", "geometry", "not varied: images of the sphere are in it")
     else:
-        cutoff = min(own("surface.cutoff"), scene.sites // 2)
+        cutoff = min(own("surface.q_max"), scene.sites // 2)
         box = [*_box(scene, factor), f"surface.rolloff={factor * own('surface.rolloff'):.10g}",
-               f"surface.cutoff={factor * cutoff:.10g}"]
+               f"surface.q_max={factor * cutoff:.10g}"]
         part("width", "geometry", f"{seeds} surfaces of {factor * scene.sites:.0f} x {factor * scene.sites:.0f} sites",
              others + [(f"{factor:g} of the width, seed {n}", [*box, f"surface.seed={n}"]) for n in numbers],
              widened(len(others), wider))

@@ -139,7 +139,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
                                 "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
             thickness = of.number("block.thickness")
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
-            made["output"] |= {"fields": ["zero-load"], "trajectory": "none"}
+            made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
                 made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
             made.pop("sweep", None)
@@ -195,7 +195,7 @@ def work_of(setting: Setting, scene: Variations) -> float:
     def ratio(key: str) -> float:
         return float(set_to[key]) / scene.own(key) if key in set_to and scene.own(key) else 1.0
 
-    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.step") ** -0.5)
+    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.displacement_step") ** -0.5)
             / (ratio("drive.timestep") * ratio("drive.velocity")))
 
 
@@ -234,9 +234,9 @@ class Estimating:
         if answer["problems"]:
             raise SceneError("\n".join(answer["problems"]))
         path = keys["drive"]["path"]
-        if not {"zero-load", "approach", "pull-off"} & set(path):
+        if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
-                             "and no pull-off", 'for example --set drive.path=zero-load')
+                             "and no pull-off", 'for example --set drive.path=relax')
         if seeds is not None and not 2 <= seeds <= 1000:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
         self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
@@ -280,9 +280,9 @@ class Estimating:
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
         notes = list(self.notes)
-        if self.varied.moves and self.keys["drive"]["hold"] == "top":
+        if self.varied.moves and self.keys["drive"]["control"] == "top":
             notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
-                         'a machine; drive.hold="mean-height" has none.')
+                         'a machine; drive.control="mean-height" has none.')
         for one in self.plan.parts:
             if one.rule is edges and one.rows and not one.failed:
                 here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))

@@ -117,7 +117,7 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
     """Persson's theory of many variations of a scene, and what others need to know of it (`rough`, `flat`); what is
     wrong with one is in its `problems`. runnable: also what a run would refuse. profile: everything over
-    magnification, and theory.critical_rms."""
+    magnification, and theory.persson.critical_rms."""
     text = "".join(json.dumps(point) + "\n" for point in points)
     words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
     lines = call(words, text=text).splitlines()

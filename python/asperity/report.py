@@ -109,7 +109,7 @@ def _state(page: Page, run: Result, state: State) -> None:
 
 def _states(page: Page, run: Result) -> None:
     """The relaxed state first; of many, some that are spread evenly."""
-    states = sorted(run.fields.values(), key=lambda s: s.name != "zero-load")
+    states = sorted(run.fields.values(), key=lambda s: s.name != "relaxed")
     n, few = len(states), min(len(states), MOST_STATES)
     for i in range(few):
         _state(page, run, states[i * (n - 1) // (few - 1) if few > 1 else i])
@@ -126,7 +126,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) 
 
 def _segments(page: Page, run: Result) -> None:
     """Of a path that does more than to approach and to pull off."""
-    if set(run.segments) <= {"approach", "pull-off", "zero-load"}:
+    if set(run.segments) <= {"approach", "pull-off", "relax"}:
         return
     lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")

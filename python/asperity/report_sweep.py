@@ -83,7 +83,7 @@ class _Points:
         self.links[-1] = link
         self.origin = self.origin or run.text("surface.origin")
         self.runs.append((name, run))
-        state = run.fields.get("zero-load")
+        state = run.fields.get("relaxed")
         if state is not None and "contact" in state:
             picture = io.BytesIO()
             matplotlib.image.imsave(picture, state["contact"] > 0, cmap=CONTACT, vmin=0, vmax=1, origin="lower",
@@ -133,12 +133,12 @@ def key_numbers(sweep: Sweep) -> list[KeyNumber]:
         return []
     wanted = [("rms where the binding energy is half of Δγ", "binding_energy_ratio", "gamma_eff_ratio"),
               ("rms where half of the area is in contact", "contact_fraction", "contact_fraction")]
-    if "contact_radius.zero_load" in table:
-        wanted = [("rms where γ by JKR, way out, is half of Δγ", "jkr.out_ratio", "gamma_eff_ratio")]
+    if "contact_radius.relaxed" in table:
+        wanted = [("rms where γ by JKR, way out, is half of Δγ", "jkr.pull_off_ratio", "gamma_eff_ratio")]
     found = []
     for name, simulated, theory in wanted:
         measured = _half_way(table, simulated) if sweep.simulated else None
-        lines = {"theory": theory, "renormalised": "renormalised." + theory}
+        lines = {"theory": "persson." + theory, "renormalised": "renormalised." + theory}
         expected = {words: x for words, column in lines.items()
                     if (x := _half_way(curves, "theory." + column)) is not None}
         if measured is not None:

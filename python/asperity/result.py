@@ -56,13 +56,13 @@ class Attributes:
 
 
 class Values(Attributes, dict):
-    """A JSON object: v.theory.gamma_eff, v["theory"]["gamma_eff"]."""
+    """A JSON object: v.theory.persson.gamma_eff, v["theory"]["persson"]["gamma_eff"]."""
 
     def __repr__(self) -> str:
         return json.dumps(self, indent=2, ensure_ascii=False)
 
     def find(self, name: str) -> Any:
-        """A value by its path, "theory.gamma_eff"; None where there is none."""
+        """A value by its path, "theory.persson.gamma_eff"; None where there is none."""
         value: Any = self
         for part in name.split("."):
             if not isinstance(value, dict) or part not in value:
@@ -106,7 +106,7 @@ def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
     keys = Values({"scene": scene}).part("scene")
     load = keys.number("drive.load", 0.0)
     under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
-    carried = (load or swept) and keys.listed("drive.path")[:1] == ["zero-load"]
+    carried = (load or swept) and keys.listed("drive.path")[:1] == ["relax"]
     return under if carried else "at zero load", f" {under}" if load and not swept else ""
 
 
@@ -346,7 +346,7 @@ class Result(Values):
     """One run: the keys of result.json as attributes, and
 
     series      columns along the path, e.g. series["force"] (eV/Å)
-    fields      maps of states, e.g. fields["zero-load"].pressure (GPa), arrays [y, x]
+    fields      maps of states, e.g. fields["relaxed"].pressure (GPa), arrays [y, x]
     substrate   its height and spectrum
     units       the unit of each number, in the same nesting as the numbers
     plot        plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...

@@ -37,12 +37,12 @@ def general(value: Any, digits: int = 4) -> str:
 
 
 def state_in_words(run: Result, name: str) -> str:
-    if name == "zero-load":
+    if name == "relaxed":
         return run.load_words[0]
     if name == "pull-off":
         return "at the largest attraction of the pull-off"
-    if name.startswith("after-zero-load:"):
-        return name.removeprefix("after-zero-load:") + " ps after zero load"
+    if name.startswith("after-approach:"):
+        return name.removeprefix("after-approach:") + " ps after zero load"
     if name.startswith("step-"):
         return "at step " + name.removeprefix("step-")
     return f"“{name}”"
@@ -73,7 +73,7 @@ def smooth_pull_off(run: Result, gamma: float) -> float:
 def reference(run: Result, key: str) -> float:
     """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
     own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
-    return (own and run.number("theory.delta_gamma")) or run.number("delta_gamma", 0.0)
+    return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
 def key_numbers(run: Result) -> list[KeyNumber]:
@@ -93,18 +93,18 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
-        gamma("jkr.out", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
-        gamma("jkr.in_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
+        gamma("jkr.pull_off", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
+        gamma("jkr.approach_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
                            for k in ("delta_gamma", "theory.sphere.maugis_images"))
             smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
             add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force", smooth * (jkr > 0 and maugis > 0))
-        if (radius := run.number("contact_radius.zero_load")) is not None:
+        if (radius := run.number("contact_radius.relaxed")) is not None:
             add(number(radius, 1), "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
         gamma("binding_energy", f"binding energy {at}")
-        contact, theory = run.number("contact_fraction"), run.number("theory.contact_fraction")
+        contact, theory = run.number("contact_fraction"), run.number("theory.persson.contact_fraction")
         if contact is not None:
             add(percent(contact), "", f"of the sites in contact {at}",
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
@@ -115,12 +115,12 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
             "lost in a cycle (hysteresis)", _loss(run))
     if not run.curved:
-        for key, name in (("work_of_adhesion", "work of the interface"), ("work_of_drive", "work of the drive")):
+        for key, name in (("work_of_interface", "work of the interface"), ("work_of_drive", "work of the drive")):
             gamma(key + ".approach", name + ", approach")
             gamma(key + ".pull_off", name + ", pull-off")
-    gamma("theory.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
+    gamma("theory.persson.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
     gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
-    theory = run.number("theory.contact_fraction")
+    theory = run.number("theory.persson.contact_fraction")
     if theory is not None and run.number("contact_fraction") is None:
         add(percent(theory), "", f"contact area in theory{pressed}")
     residual = run.number("energy.balance_error")
@@ -130,7 +130,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
 
 def _state_sentence(run: Result, state: float, flat: float) -> str:
-    bonds, contact, pushed = map(run.number, ("work_of_adhesion.pairwise", "contact_fraction", "repulsive_fraction"))
+    bonds, contact, pushed = map(run.number, ("pair_binding_energy", "contact_fraction", "repulsive_fraction"))
     at = run.load_words[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
     if run.curved:
@@ -169,7 +169,7 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
-    own = [run.number("work_of_adhesion." + k) for k in ("approach", "pull_off")]
+    own = [run.number("work_of_interface." + k) for k in ("approach", "pull_off")]
     if None not in own and run.find("dissipated") is None:  # in time; without it is the same work
         text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a "
                  "snap of the block as a whole changes nothing of it.")
@@ -183,27 +183,27 @@ def results(run: Result) -> list[str]:
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off", "zero-load"}:
+    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off", "relax"}:
         text.append(_cycle_sentence(run, into, out, flat))
     if (pinning := run.number("jkr.edge_pinning")) is not None:
         text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion that JKR "
                     f"makes of it, are about {pinning:.3g} times too large.")
-    theory = run.number("theory.gamma_eff")
+    theory = run.number("theory.persson.gamma_eff")
     if theory is not None and flat > 0:
-        (at, pressed), given = run.load_words, reference(run, "theory.gamma_eff")
+        (at, pressed), given = run.load_words, reference(run, "theory.persson.gamma_eff")
         sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = {energy(theory)} ({percent(theory / given)} of "
                     + ("Δγ)" if math.isclose(given, flat) else f"its Δγ, {energy(given)})"))
-        full, renormalised = run.number("theory.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
+        full, renormalised = run.number("theory.persson.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
         if full is not None:
             sentence += f", and {energy(full)} if contact were full"
         if renormalised is not None:
             sentence += f"; the renormalised theory {energy(renormalised)} ({percent(renormalised / flat)} of Δγ)"
-        found = run.number("jkr.out") if run.curved else state
+        found = run.number("jkr.pull_off") if run.curved else state
         if found is not None:
             sentence += f"; the simulation finds {energy(found)}" + \
                 (" by JKR from the pull-off force" if run.curved else f" {at}" * bool(pressed))
         text.append(sentence + ".")
-    for name in ("theory", "theory.renormalised"):
+    for name in ("theory.persson", "theory.renormalised"):
         note, known = run.text(name + ".note"), run.number(name + ".gamma_eff") is not None
         if note:
             text.append(f"{'Note on the theory' if known else 'The theory has no number for this scene'}: {note}.")

@@ -176,7 +176,7 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
-        wanted = 1.4 * Values(found).number("theory.critical_rms", math.nan) / 100
+        wanted = 1.4 * Values(found).number("theory.persson.critical_rms", math.nan) / 100
         decade = 10.0 ** math.floor(math.log10(wanted))
         step = min((m * decade for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / wanted)))
     return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, 101)], "surface.rms")
@@ -218,7 +218,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
                    needs_surface: bool) -> list[dict[str, Any]]:
     """The theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
-    if x is None or not any("gamma_eff" in p["theory"] for p in points):  # none applies to these scenes
+    if x is None or not any("gamma_eff" in p["theory"].get("persson", {}) for p in points):  # none applies to these scenes
         return []
     finer = []
     for axis in axes:

@@ -38,7 +38,7 @@ def of_area(column: str) -> bool:
     """Whether a column is over the nominal area, which means nothing for a sphere, or the mean of all sites."""
     path = column.removesuffix("_ratio")
     return not path.startswith("theory.") and program.quantity(path)["per"] in (AREA, SITES) or \
-        path == "zero_load.mean_height"
+        path == "relaxed.mean_height"
 
 
 def unit_of(column: str) -> str:
@@ -47,7 +47,7 @@ def unit_of(column: str) -> str:
     if column in schema:
         return schema[column]["unit"]
     path = RENAMED_BACK.get(column, column)
-    return program.quantity(path)["unit"] or program.quantity("theory." + path)["unit"]
+    return program.quantity(path)["unit"]
 
 
 def columns_of(result: Values) -> dict[str, float]:
@@ -55,7 +55,7 @@ def columns_of(result: Values) -> dict[str, float]:
     flat = result.number("delta_gamma")
     found: dict[str, float] = {}
     for path, value in result.numbers().items():
-        if path.split(".")[0] in ("scene", "units", "failure", "theory", "run") and path != "run.wall_seconds":
+        if path.split(".")[0] in ("scene", "units", "failure", "theory", "interface", "run") and path != "run.wall_seconds":
             continue
         found[RENAMED.get(path, path)] = value
         if flat and over_flat(path):
@@ -64,14 +64,14 @@ def columns_of(result: Values) -> dict[str, float]:
 
 
 def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
-    """The numbers of a point's theory, with the ratios to its Δγ."""
-    numbers = Values(point["theory"]).numbers()
-    if flat := numbers.get("delta_gamma"):
-        for name in ("gamma_eff", "gamma_full_contact"):
+    """The numbers of a point's theories, with the ratios to their Δγ."""
+    numbers = Values({"theory": point["theory"]}).numbers()
+    if flat := numbers.get("theory.persson.delta_gamma"):
+        for name in ("theory.persson.gamma_eff", "theory.persson.gamma_full_contact"):
             if name in numbers:
                 numbers.setdefault(name + "_ratio", numbers[name] / flat)
     if flat := point.get("delta_gamma"):
-        for name in ("sphere.maugis_images", "sphere.renormalised"):
+        for name in ("theory.sphere.maugis_images", "theory.sphere.renormalised"):
             if name in numbers:
                 numbers[name + "_ratio"] = numbers[name] / flat
     return numbers
@@ -108,7 +108,8 @@ class Table(Columns):
 
     def __init__(self, axes: list[str], points: list[dict[str, Any]], simulated: bool):
         self.axes, self.simulated = axes, simulated
-        self.status = [str(p.get("status", "waiting") if simulated else p["theory"].get("status", "")) for p in points]
+        self.status = [str(p.get("status", "waiting") if simulated else Values(p["theory"]).text("persson.status"))
+                       for p in points]
         self._done = np.array([not simulated or status == DONE for status in self.status], bool)
         groups: dict[str, tuple[dict[str, Any], list[int]]] = {}
         for i, point in enumerate(points):
@@ -120,12 +121,11 @@ class Table(Columns):
             values = [p["set"].get(key) for p in points]
             numbers = np.array([finite(v, np.nan) for v in values])
             columns[key] = numbers if np.isfinite(numbers).all() else [shown(v) for v in values]
-        self._before = "theory." if simulated else ""
         results = [p.get("result", {}) for p in points] if simulated else []
         theory = [_theory_numbers(point) for point in points]
-        for rows, before in ((results, ""), (theory, self._before)):  # in the order of result.json
+        for rows in (results, theory):  # in the order of result.json
             for name in dict.fromkeys(name for row in sorted(rows, key=len, reverse=True) for name in row):
-                columns[before + name] = np.array([finite(row.get(name), np.nan) for row in rows])
+                columns[name] = np.array([finite(row.get(name), np.nan) for row in rows])
         super().__init__(columns)
 
     @property
@@ -139,13 +139,10 @@ class Table(Columns):
         return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
 
     def values(self, name: str) -> np.ndarray:
-        """The same, NaN where it means nothing or there is none. "theory.": of the theory, in any kind of sweep."""
-        of_theory = name.startswith("theory.")
-        if of_theory:
-            name = self._before + name.removeprefix("theory.")
+        """The same, NaN where it means nothing or there is none."""
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
-        sphere = self.get("contact_radius.zero_load")
-        if sphere is None or of_theory or not of_area(name):
+        sphere = self.get("contact_radius.relaxed")
+        if sphere is None or not of_area(name):
             return found
         return np.where(np.isfinite(sphere), np.nan, found)
 
@@ -179,15 +176,17 @@ class Table(Columns):
 
 
 # The table as text: head, column and digits; columns without numbers are left out.
-OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_adhesion.approach_ratio", 4),
-                 ("interface, out", "work_of_adhesion.pull_off_ratio", 4),
+OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_interface.approach_ratio", 4),
+                 ("interface, out", "work_of_interface.pull_off_ratio", 4),
                  ("drive, in", "work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
-                 ("JKR in", "jkr.in_ratio", 4), ("JKR out", "jkr.out_ratio", 4), ("contact", "contact_fraction", 4),
-                 ("radius, Å", "contact_radius.zero_load", 1), ("lost, meV/Å²", "lost.cycle", 4),
-                 ("theory", "theory.gamma_eff_ratio", 4), ("its contact", "theory.contact_fraction", 4),
+                 ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
+                 ("radius, Å", "contact_radius.relaxed", 1), ("lost, meV/Å²", "lost.cycle", 4),
+                 ("theory", "theory.persson.gamma_eff_ratio", 4), ("its contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
-OF_THEORY = (("γ_eff, meV/Å²", "gamma_eff", 3), ("γ_eff/Δγ", "gamma_eff_ratio", 5), ("A/A0", "contact_fraction", 5),
-             ("full contact", "gamma_full_contact_ratio", 5), ("renormalised", "renormalised.gamma_eff_ratio", 5))
+OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
+    ("γ_eff, meV/Å²", "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
+    ("A/A0", "persson.contact_fraction", 5), ("full contact", "persson.gamma_full_contact_ratio", 5),
+    ("renormalised", "renormalised.gamma_eff_ratio", 5)))
 
 
 def _status(words: list[str]) -> str:

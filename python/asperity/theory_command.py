@@ -48,8 +48,8 @@ def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
 
 def _text(point: Values) -> str:
     """What is printed."""
-    flat, given = point.number("delta_gamma", 0.0), point.number("theory.delta_gamma", 0.0)
-    rms, slope = point.number("theory.h_rms", 0.0), point.number("theory.rms_slope", 0.0)
+    flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
+    rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
     def row(words: str, energy: float | None, ratio: float, error: float | None = None) -> list[str]:
         return [words, "" if energy is None else f"{energy:.4g}", f"{ratio:.5f}",
@@ -58,15 +58,15 @@ def _text(point: Values) -> str:
     def over(energy: float) -> float:
         return energy / given if given else 0.0
 
-    named = point.text("theory.status")
+    named = point.text("theory.persson.status")
     rows = [row("Δγ, flat on flat" if point.find("scene.theory.delta_gamma") in ("flat", None) else
                 "Δγ, as the scene says", given, over(given))]
     for words, key in (("γ_eff", "gamma_eff"), ("γ assuming full contact", "gamma_full_contact"),
                        ("elastic energy U_el", "elastic_energy")):
-        value, error = (point.number(f"theory.{key}{end}") for end in ("", "_error"))
+        value, error = (point.number(f"theory.persson.{key}{end}") for end in ("", "_error"))
         rows.append(row(words, value, over(value or 0.0), None if error is None else over(error)))
-    rows.append(row("contact area A/A0", None, point.number("theory.contact_fraction", 0.0),
-                    point.number("theory.contact_fraction_error")))
+    rows.append(row("contact area A/A0", None, point.number("theory.persson.contact_fraction", 0.0),
+                    point.number("theory.persson.contact_fraction_error")))
     law = point.part("theory.renormalised")
     if (gamma := law.number("gamma_eff")) is not None:
         rows += [row("renormalised theory: γ_eff", gamma, law.number("gamma_eff_ratio", 0.0),
@@ -75,18 +75,18 @@ def _text(point: Values) -> str:
     lines = [f"{point.text('name')}: Persson's theory, Eqs. (1) to (5), rms {rms:.4g} Å, rms slope {slope:.4g}, load "
              f"{point.number('scene.drive.load', 0.0):.6g} MPa", "",
              terminal.table(["", "meV/Å²", "over Δγ", "± (numerical)"], rows), ""]
-    critical, theta = point.number("theory.critical_rms"), point.number("theory.theta")
+    critical, theta = point.number("theory.persson.critical_rms"), point.number("theory.persson.theta")
     if critical is not None:
-        full = point.number("theory.critical_rms_full_contact")
+        full = point.number("theory.persson.critical_rms_full_contact")
         lines.append(f"  critical rms   {critical:.4g} Å: beyond it nothing holds"
                      + (f" (assuming full contact: {full:.4g} Å)" if full is not None else ""))
     if theta is not None:
         lines.append(f"  theta          {theta:.4f} = E* h² q0 / Δγ" + (
             f", {theta * (critical / rms) ** 2:.4f} at the critical rms" if critical is not None and rms else ""))
-    if (force := point.number("theory.jkr_pull_off_force")) is not None:
+    if (force := point.number("theory.persson.jkr_pull_off_force")) is not None:
         lines.append(f"  JKR pull-off   {force:.6g} eV/Å with γ_eff, R = {point.number('scene.surface.radius'):.6g} Å")
     lines.append(f"  status         {STATUS[named]}")
-    if point.find("theory.converged") is False:
+    if point.find("theory.persson.converged") is False:
         lines.append("                 NOT converged to 1e-3: see the errors in the table")
     if (error := law.number("gamma_eff_expected_error")) is not None:
         contact = law.number("contact_fraction"), law.number("contact_fraction_expected_error")
@@ -116,7 +116,7 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
     notes += [values.part("theory." + part).text("note") for part in ("renormalised", "sphere")]
     point.pop("flat")
     for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):
-        point["theory"].pop(key)
+        point["theory"]["persson"].pop(key)
     for part in ("renormalised", "sphere"):
         if part in point["theory"]:
             point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)

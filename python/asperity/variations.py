@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -26,7 +27,7 @@ Setting = list[str]
 Choice = tuple[str, Setting]
 """A value in words, and the setting that makes it."""
 AT_REST = ["drive.mode=quasistatic"]
-LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r0"}
+LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r_min"}
 """The keys of the lengths of potentials that have a tail."""
 
 
@@ -65,7 +66,7 @@ class Variations:
                       ("drive.max_steps", scene.number("drive.max_steps"), "runs that are cut off cannot be compared",
                        "leave it out")))
         path = scene.find("drive.path")
-        self.dynamic = scene.text("drive.mode") == "dynamic" and "zero-load" not in path
+        self.dynamic = scene.text("drive.mode") == "dynamic" and "relax" not in path
         self.moves = "approach" in path or "pull-off" in path
         self.finite = scene.text("block.strain") == "finite"
         self.wall = scene.text("interface.kind") == "wall"
@@ -88,8 +89,19 @@ class Variations:
                        "none at finite strain", fix),))
 
     def own(self, key: str) -> float:
-        """A number of the scene; 0: it has none."""
+        """A number of the scene, or what its word stands for; 0: it has none."""
+        word = self.scene.text(key)
+        if key == "surface.q_max" and word == "nyquist":
+            return float(self.sites // 2)
+        if key == "interface.cutoff" and word == "4 r0":
+            return 4 * self.zero
         return self.scene.number(key, 0.0)
+
+    @property
+    def zero(self) -> float:
+        """Where the potential is zero, Å; of a table 0."""
+        shift = math.log(2) / self.own("interface.morse_a") if self.scene.text("interface.potential") == "morse" else 0.0
+        return self.own(LENGTHS.get(self.scene.text("interface.potential"), "")) - shift
 
     @staticmethod
     def worded(key: str, value: float) -> str:
@@ -127,7 +139,7 @@ class Runs:
     def __init__(self, scene: str, overrides: list[str], directory: Path, options: PoolOptions,
                  say: Callable[[str], None] = functools.partial(print, flush=True)):
         self.scene, self.directory, self.options, self.say = scene, directory, options, say
-        self.common = joined(overrides, ["output.fields=zero-load", "output.trajectory=none"])  # those would be timed too
+        self.common = joined(overrides, ["output.fields=relaxed", "output.trajectory=none"])  # those would be timed too
         self.made: dict[str, Job] = {}
         self.known: dict[tuple[str, ...], Job] = {}
 

@@ -43,8 +43,8 @@ class Runs:
         begun = time.monotonic()
         result = asperity.run({}, {
             "interface.kind": "wall", "interface.adhesion": 1e3 * law.adhesion, "interface.range": law.reach,
-            "interface.stiffness": law.stiffness / GPA, "drive.mode": "quasistatic", "drive.hold": "mean-height",
-            "output.fields": [], "output.checkpoint": 0,
+            "interface.stiffness": law.stiffness / GPA, "drive.mode": "quasistatic", "drive.control": "mean-height",
+            "output.fields": [], "output.checkpoint": "none",
             "block.thickness": keys["surface.sites"], **keys}, self.out / name)
         self.seconds += time.monotonic() - begun
         with h5py.File(result.directory / "run.h5") as file:
@@ -69,7 +69,7 @@ def punch(runs: Runs) -> list[dict]:
         kendall = math.sqrt(8 * math.pi * E * w * radius**3 / (1 - 2 * rings.PHI2 * radius**3 / (3 * math.pi * box**3)))
         r = runs.path(f"punch-{sites}", wall(spacing, w, reach), {
             "surface.kind": "file", "surface.file": file, "surface.sites": sites, "surface.spacing": spacing,
-            "drive.step": 0.1, "drive.tolerance": 0.04 * reach})
+            "drive.displacement_step": 0.1, "drive.tolerance": 0.04 * reach})
         row = {"range": reach, "sites": sites, "radius": radius, "program": -r["force"].min() / kendall}
         for finer in (1, 2):
             law = wall(spacing / finer**2, w, reach / finer)
@@ -94,7 +94,7 @@ def sphere(runs: Runs) -> list[dict]:
         law = wall(spacing, w, reach)
         r = runs.path(f"sphere-{energy}-{reach}", law, {
             "surface.kind": "flat", "surface.radius": radius, "surface.sites": sites, "surface.spacing": spacing,
-            "drive.step": 0.02 if energy < 30 else 0.1, "drive.tolerance": 1.2e-3 * reach})
+            "drive.displacement_step": 0.02 if energy < 30 else 0.1, "drive.tolerance": 1.2e-3 * reach})
         width = min(0.5, E * reach**2 / w / 8)
         around = rings.Rings(np.arange(0, math.sqrt(30 * radius * reach) + 15, width), E, box)
         shape = radius - np.sqrt(radius**2 - around.r**2)
@@ -134,7 +134,7 @@ def sticky(runs: Runs) -> list[dict]:
 
     κ0 = 2 without adhesion, d = 4h'/h'' the mean width of a contact, h'' the rms of the Laplacian, w/ρ the stress."""
     sites, spacing, part = (64 if runs.small else 128), 2.6, 0.02
-    surface = {"surface.sites": sites, "surface.rms": 3, "surface.rolloff": 2, "surface.cutoff": sites / 8, "surface.seed": 1,
+    surface = {"surface.sites": sites, "surface.rms": 3, "surface.rolloff": 2, "surface.q_max": sites / 8, "surface.seed": 1,
                "surface.spacing": spacing}
     rows, statistics = [], None
     print("range/Å  w, meV/Å²  s       1/κ")
@@ -146,7 +146,7 @@ def sticky(runs: Runs) -> list[dict]:
             width = 4 * slope / curvature
             w = slope * E * reach / 2 * (slope * width / (4 * reach)) ** (2 / 3) / (math.pi * (3 / 16) ** (2 / 3)) / s
             r = runs.path(f"sticky-{reach}-{s}", wall(spacing, w, reach), surface | {
-                "drive.path": ["approach"], "drive.load": 0.7 * part * E * slope / GPA * 1e3, "drive.step": 0.1,
+                "drive.path": ["approach"], "drive.load": 0.7 * part * E * slope / GPA * 1e3, "drive.displacement_step": 0.1,
                 "drive.tolerance": 2.5e-3})
             first = int(np.argmax(r["contact_fraction"] >= part))
             force = np.interp(part, r["contact_fraction"][first - 1:first + 1], r["force"][first - 1:first + 1])
@@ -161,9 +161,9 @@ def sticky(runs: Runs) -> list[dict]:
 
 def slope_and_curvature(runs: Runs, surface: dict) -> tuple[float, float]:
     """Root mean squares of the gradient and of the Laplacian of a surface, 1 and 1/Å."""
-    r = asperity.run({}, {**surface, "drive.path": "zero-load", "interface.kind": "wall", "interface.adhesion": 0,
+    r = asperity.run({}, {**surface, "drive.path": "relax", "interface.kind": "wall", "interface.adhesion": 0,
                           "drive.load": 10, "block.thickness": surface["surface.sites"],
-                          "output.checkpoint": 0}, runs.out / "surface")
+                          "output.checkpoint": "none"}, runs.out / "surface")
     with h5py.File(r.directory / "run.h5") as file:
         height = file["substrate/height"][:]
     wave = 2 * math.pi * np.fft.fftfreq(len(height), surface["surface.spacing"])

@@ -29,9 +29,9 @@ def scene(number: int, sites: tuple[int, ...] = (64, 96, 128)) -> dict:
     """The keys of a scene, by its number."""
     draw = random.Random(number)
     kind, n = KINDS[number % 3], draw.choice(sites)
-    keys = {"surface.sites": n, "surface.cutoff": n // 2, "surface.rms": round(draw.uniform(0.5, 2.2), 2),
+    keys = {"surface.sites": n, "surface.q_max": n // 2, "surface.rms": round(draw.uniform(0.5, 2.2), 2),
             "surface.hurst": round(draw.uniform(0.6, 0.9), 2), "surface.rolloff": round(draw.uniform(2.0, 5.0), 1),
-            "surface.seed": draw.randint(1, 90), "drive.path": "zero-load", "block.thickness": n // 2,
+            "surface.seed": draw.randint(1, 90), "drive.path": "relax", "block.thickness": n // 2,
             "block.young": round(draw.uniform(50, 100), 1), "block.poisson": round(draw.uniform(0.2, 0.45), 2)}
     if kind == "wall":
         keys |= {"interface.kind": "wall", "interface.adhesion": round(draw.uniform(60, 140), 1),
@@ -46,7 +46,7 @@ def expensive(keys: dict) -> dict:
     found = {**keys, "block.thickness": 4 * keys["block.thickness"]}
     factor = 4 if "interface.kind" in keys else 2  # half of the spacing too
     found |= {"surface.sites": factor * keys["surface.sites"], "surface.rolloff": 2 * keys["surface.rolloff"],
-              "surface.cutoff": 2 * keys["surface.cutoff"]}
+              "surface.q_max": 2 * keys["surface.q_max"]}
     if "interface.kind" in keys:
         return found | {"surface.spacing": 1.3, "block.thickness": 2 * found["block.thickness"]}
     return found | {"interface.cutoff": 2 * keys["interface.cutoff"], "interface.tail": "true"}

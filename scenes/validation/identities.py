@@ -39,12 +39,12 @@ def drawn(random_numbers, wall):
 
 
 POWERS = {  # of length and energy
-    "surface.spacing": (1, 0), "surface.rms": (1, 0), "drive.step": (1, 0), "interface.range": (1, 0), "interface.r0": (1, 0),
+    "surface.spacing": (1, 0), "surface.rms": (1, 0), "drive.displacement_step": (1, 0), "interface.range": (1, 0), "interface.r0": (1, 0),
     "interface.cutoff": (1, 0), "interface.epsilon": (0, 1), "interface.adhesion": (-2, 1), "block.young": (-3, 1)}
 
 
 def scaled_by(keys, length, energy):
-    keys = {"surface.spacing": 2.6, "drive.step": 0.25} | keys
+    keys = {"surface.spacing": 2.6, "drive.displacement_step": 0.25} | keys
     return {k: v * length ** POWERS[k][0] * energy ** POWERS[k][1] if k in POWERS else v for k, v in keys.items()}
 
 
@@ -63,7 +63,7 @@ def main():
             length, energy = 10 ** numbers.uniform(-0.5, 2), 10 ** numbers.uniform(-4, 1.5)
             keys, unit = scaled_by(keys, length, energy), energy / length**2
         for hold in ("top", "mean-height"):
-            r = asperity.run({}, {**keys, "drive.hold": hold}, out=given.out / f"{n}-{hold}")
+            r = asperity.run({}, {**keys, "drive.control": hold}, out=given.out / f"{n}-{hold}")
             row = f"{n:2d} {'wall ' if n % 2 else 'atoms'} {hold:11s} {r.binding_energy / unit:8.3f}"
             for way, sign in (("approach", 1), ("pull_off", -1)):
                 work, lost = r.number(f"work_of_drive.{way}"), r.number(f"lost.{way}")

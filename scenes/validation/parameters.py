@@ -81,17 +81,17 @@ SCENE = ROOT / "scenes/validation/parameters.toml"
 def state(name: str, keys: dict, interface: str, rms: float, seed: int, place: pathlib.Path) -> dict:
     """The row of one state. Numbers of a theory that has none are nan."""
     where = place / f"{name}-{interface}" / f"rms={rms:g},seed={seed}"
-    settings = {**keys, **INTERFACES[interface], "output.checkpoint": 0, "output.fields": [],
+    settings = {**keys, **INTERFACES[interface], "output.checkpoint": "none", "output.fields": [],
                 "surface.rms": rms, "surface.seed": seed}
     result = asperity.run(SCENE, settings, where)
-    flat, theory = result["delta_gamma"], result["theory"]
+    flat, theory = result["delta_gamma"], result["theory"]["persson"]
     found = theories.of_run(result).part("theory.renormalised")
     renormalised = {key: found.get(key, math.nan) for key in (
         "gamma_eff_ratio", "gamma_eff_error", "gamma_eff_expected_error", "contact_fraction", "contact_fraction_expected_error")}
     return {"set": name, "interface": interface, "rms": rms, "seed": seed, "rms_slope": result["surface"]["rms_slope"],
             "delta_gamma": flat, "binding_energy_ratio": result["binding_energy"] / flat,
-            "contact_fraction": result["contact_fraction"], "theory.gamma_eff_ratio": theory["gamma_eff"] / flat,
-            "theory.contact_fraction": theory["contact_fraction"],
+            "contact_fraction": result["contact_fraction"], "theory.persson.gamma_eff_ratio": theory["gamma_eff"] / flat,
+            "theory.persson.contact_fraction": theory["contact_fraction"],
             **{"theory.renormalised." + key: value for key, value in renormalised.items()}}
 
 
@@ -119,12 +119,12 @@ def scenes_drawn(number: int, from_seed: int):
                 return theories.points(str(SCENE), [[f"{k}={v}" for k, v in keys.items()] + [
                     f"surface.rms={rms}", f"surface.seed={seed}", *more]])[0]
             one = theory(1, "theory.area_factor=none")
-            cost = 1 - one["theory"]["gamma_full_contact"] / one["delta_gamma"]
+            cost = 1 - one["theory"]["persson"]["gamma_full_contact"] / one["delta_gamma"]
             rms = round(fraction / math.sqrt(cost), 2)
-            if one["theory"]["rms_slope"] * rms > 0.6:
+            if one["theory"]["persson"]["rms_slope"] * rms > 0.6:
                 continue
             both = theory(rms)
-            ratios = [both["theory"]["gamma_eff"] / both["delta_gamma"],
+            ratios = [both["theory"]["persson"]["gamma_eff"] / both["delta_gamma"],
                       both["theory"]["renormalised"].get("gamma_eff_ratio", 0.5)]
             if any(0.05 < ratio < 0.95 for ratio in ratios):
                 break
@@ -202,7 +202,7 @@ def main() -> None:
                                      for i in INTERFACES)
             print(f"| {name} | {rms:g} | {mean['rms_slope']:.2f} | {len(off['friction'])} | {mean['binding_energy_ratio']:.3f} "
                   f"| {mean['theory.renormalised.gamma_eff_ratio']:.3f} | {differences} "
-                  f"| {mean['theory.gamma_eff_ratio'] - mean['binding_energy_ratio']:.3f} | {mean['contact_fraction']:.3f} "
+                  f"| {mean['theory.persson.gamma_eff_ratio'] - mean['binding_energy_ratio']:.3f} | {mean['contact_fraction']:.3f} "
                   f"| {mean['theory.renormalised.contact_fraction']:.3f} |", flush=True)
     write_rows(found, options.out / "parameters.csv")
 

@@ -43,7 +43,7 @@ def main() -> None:
 
     def morse(a: float) -> dict[str, object]:
         return {"interface.potential": "morse", "interface.morse_D": EPSILON, "interface.morse_a": a,
-                "interface.morse_r0": R_M}
+                "interface.morse_r_min": R_M}
 
     cases = {"lennard-jones": {},
              "table of it": {"interface.potential": "table", "interface.table": table(given.out / "lj.txt", 1500)},

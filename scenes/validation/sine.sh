@@ -29,7 +29,7 @@ point() {
     awk -v n="$1" -v h="$amplitude" 'BEGIN { for (i = 0; i < n; i++) row = row sprintf("%.8f ", h * cos(2 * atan2(0, -1) * i / n))
         for (j = 0; j < n; j++) print row }' >"$place/$name.txt"
     "$root/asperity" run "$root/scenes/paper/flat-3A.toml" --progress off --out "$place/$name" \
-        --set numerics.precision=double drive.path=zero-load interface.frictionless=true output.checkpoint=0 surface.kind=file \
+        --set numerics.precision=double drive.path=relax interface.frictionless=true output.checkpoint=none surface.kind=file \
         surface.file="$(realpath "$place/$name.txt")" surface.rms="$rms" surface.sites="$1" block.thickness="$1" drive.load="$load" >/dev/null
     rm "$place/$name.txt"
     echo "$1,$2,$3,$(number "$place/$name/result.json" contact_fraction),$(number "$place/$name/result.json" binding_energy)" | tee -a "$table"

@@ -28,7 +28,7 @@ def losses(out: pathlib.Path, velocities=VELOCITIES) -> list[dict]:
         for velocity in (*velocities, 0):
             mode = {"drive.velocity": velocity} if velocity else {"drive.mode": "quasistatic"}
             r = asperity.run(ROOT / "scenes/validation/works.toml", {
-                "surface.sites": 16, "block.thickness": 16, "surface.rms": rms, "output.fields": [], "output.checkpoint": 0,
+                "surface.sites": 16, "block.thickness": 16, "surface.rms": rms, "output.fields": [], "output.checkpoint": "none",
                 **mode}, out / f"{rms}-{velocity}")
             row[velocity] = r["lost"]["cycle"]
             seconds += r["run"]["wall_seconds"]

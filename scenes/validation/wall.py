@@ -45,14 +45,14 @@ class Runs:
 
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
-        settings = {"numerics.precision": "double", "drive.path": "zero-load", "interface.kind": "wall",
-                    "output.checkpoint": 0, "drive.tolerance": 2.5e-6, **keys}
+        settings = {"numerics.precision": "double", "drive.path": "relax", "interface.kind": "wall",
+                    "output.checkpoint": "none", "drive.tolerance": 2.5e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
         return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)
 
     def path(self, name: str, keys: dict) -> dict:
         """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and its result."""
-        run = self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.hold": "mean-height",
+        run = self.state(name, {"drive.mode": "quasistatic", "drive.path": ["approach", "pull-off"], "drive.control": "mean-height",
                           "output.fields": []} | keys)
         with h5py.File(self.out / name / "run.h5") as file:
             series = {k: file[f"series/{k}"][:] for k in ("force", "mean_height", "contact_fraction", "segment")}
@@ -146,10 +146,10 @@ def hertz(runs: Runs) -> None:
             r = runs.state(f"hertz-{sites}-{force}", runs.map(f"cap-{sites}", cap) | {
                 "surface.spacing": box * unit / sites, "interface.adhesion": 0, "drive.load": force / box**2 / modulus * E / GPA * 1e3})
             with h5py.File(runs.out / f"hertz-{sites}-{force}" / "run.h5") as f:
-                highest = f["fields/zero-load/pressure"][:].max() * GPA / E * modulus
+                highest = f["fields/relaxed/pressure"][:].max() * GPA / E * modulus
                 apex = f["substrate/height"][:].max()
             found = box * math.sqrt(r["contact_fraction"] / math.pi)
-            sunk = (apex - r["zero_load"]["mean_height"]) / unit - PHI0 * force / (math.pi * modulus * box)
+            sunk = (apex - r["relaxed"]["mean_height"]) / unit - PHI0 * force / (math.pi * modulus * box)
             print(f"{sites:5} {force:5} {found:8.4f} {a:7.4f} {found / a - 1:9.4f} {sunk:9.4f} {delta:8.4f} {sunk / delta - 1:9.4f} "
                   f"{highest:9.4f} {p0:7.4f} {highest / p0 - 1:9.4f}")
 
@@ -168,7 +168,7 @@ def gfmd(runs: Runs) -> None:
         runs.state(name, runs.map("gfmd-cap", -(distance**2) / (2 * radius) * spacing) | {
             "surface.spacing": spacing, "interface.adhesion": 0, "drive.load": force / sites**2 / modulus * E / GPA * 1e3})
         with h5py.File(runs.out / name / "run.h5") as file:
-            found = file["fields/zero-load/pressure"][:] * GPA / E * modulus
+            found = file["fields/relaxed/pressure"][:] * GPA / E * modulus
         total = found.sum()
         a = (0.75 * total * radius / modulus) ** (1 / 3)
         hertz = 1.5 * total / (math.pi * a * a) * np.sqrt(np.maximum(0, 1 - (distance / a) ** 2))

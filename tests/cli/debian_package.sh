@@ -64,7 +64,7 @@ in_root 'man asperity > page 2>&1; grep -q "SCENE KEYS" page && grep -q "surface
     fail "the man page: $(in_root 'head -n 5 page')"
 in_root 'asperity check /usr/share/asperity/scenes/first-contact.toml' || fail "check"
 in_root 'ln -s /usr/share/asperity/scenes scenes && asperity run scenes/first-contact.toml --progress off' || fail "run"
-in_root 'mpirun -n 2 asperity run scenes/first-contact.toml --set drive.path=zero-load surface.sites=64 \
+in_root 'mpirun -n 2 asperity run scenes/first-contact.toml --set drive.path=relax surface.sites=64 \
     --out two-ranks --progress off' >/dev/null || fail "run on two ranks"
 in_root 'asperity report results/first-contact && [ -s results/first-contact/report.html ]' || fail "report"
 in_root "python3 notebook.py && python3 -c 'import asperity; print(asperity.load(\"results/smoother\").binding_energy)'" ||

@@ -22,7 +22,7 @@ git -C "$source" ls-files -z | (cd "$source" && xargs -0 cp --parents -t "$work/
 cd "$work" || exit 1
 cat >scene.toml <<'END'
 surface = { sites = 24, rms = 0.8 }
-drive = { path = ["zero-load"] }
+drive = { path = ["relax"] }
 END
 
 environment() { # environment NAME OPTION...: $work/NAME with the package

@@ -166,7 +166,7 @@ TEST(AtomsScene, RefusesWhatDoesNotGoTogether) {
         EXPECT_NE(what.find(said), std::string::npos) << key << "\n" << what;
     }
     const std::string wall = refusal([&] {
-        case_over(file, {"interface.kind=wall", "drive.path=zero-load"});
+        case_over(file, {"interface.kind=wall", "drive.path=relax"});
     });
     EXPECT_NE(wall.find("interface.kind"), std::string::npos) << wall;
     const std::string none = refusal([&] { case_over("no-such-file.h5"); });
@@ -237,10 +237,10 @@ TEST(AtomsScene, HasPairsByType) {
              {"['Au 0.1 3.28', 'Ca 0.1 3.28']", "has no type 'C'"},
              {"['Au 0.1 3.28', 'C 0.1 3.28', 'Au 0.2 3']", "stands there already"},
              {"['Au 0.1', 'C 0.1 3.28']", "2 to 3 numbers are needed, and 1"},
-             {"['Au morse 0.1 3.28', 'C 0.1 3.28']", "type morse D a r0"},
+             {"['Au morse 0.1 3.28', 'C 0.1 3.28']", "type morse D a r_min"},
              {"['Au morsel 0.1 3.28', 'C 0.1 3.28']", "a potential 'morsel'"},
              {"['Au table no.txt', 'C 0.1 3.28']", "there is no such file"},
-             {"['Au morse 0.1 1.5 -3', 'C 0.1 3.28']", "whose r0 is '-3'"},
+             {"['Au morse 0.1 1.5 -3', 'C 0.1 3.28']", "whose r_min is '-3'"},
              {"['Au 0.1 3.28 13 1', 'C 0.1 3.28']", "and 4"},
              {"['']", "is no pair"},
              {"['Au -0.1 3.28', 'C 0.1 3.28']", "whose epsilon is '-0.1'"},
@@ -291,8 +291,8 @@ TEST(AtomsScene, CountsItsMemoryAndHasNoTheory) {
             EXPECT_FALSE(c.effects.theory);
             const io::Json result = run_result(c, surface, {}).json();
             EXPECT_EQ(result["surface"]["atoms"], surface.atoms.size());
-            EXPECT_TRUE(result["theory"].contains("note"));
-            EXPECT_FALSE(result["theory"].contains("gamma_eff"));
+            EXPECT_TRUE(result["theory"]["persson"].contains("note"));
+            EXPECT_FALSE(result["theory"]["persson"].contains("gamma_eff"));
         }
 }
 

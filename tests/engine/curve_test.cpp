@@ -42,8 +42,8 @@ TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
     EXPECT_NEAR(io::find(json, "contact_radius.pull_off")->get<double>(),
                 std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
     // The single spike of 90 counts for an eighth of it in the mean.
-    EXPECT_NEAR(io::find(json, "jkr.out_averaged")->get<double>(), 1e3 * 50.0 / (1.5 * M_PI * 1000),
-                1e-9);
+    EXPECT_NEAR(io::find(json, "jkr.pull_off_averaged")->get<double>(),
+                1e3 * 50.0 / (1.5 * M_PI * 1000), 1e-9);
 }
 
 /// The value of `key` for a path of rows every 0.1 ps whose force is -1 eV/Å from row `from` for
@@ -68,7 +68,7 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
 }
 
 TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
-    for (const io::Key key : {io::Key("jkr.in_averaged"), io::Key("jkr.out_averaged")}) {
+    for (const io::Key key : {io::Key("jkr.approach_averaged"), io::Key("jkr.pull_off_averaged")}) {
         // A force of JKR's pull-off, 3/2 pi w R, in meV/Å^2.
         const double whole = 1e3 / (1.5 * std::acos(-1.0) * 100.0);
         EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key.quantity->name;

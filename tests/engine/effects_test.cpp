@@ -21,15 +21,15 @@ Case case_with(const Keys& keys) {
 
 TEST(Effects, EachIsSwitchedByItsKey) {
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
-                        "output.checkpoint=0", "block.thickness=16"};
-    const Keys rest = {"drive.path=zero-load"};
+                        "output.checkpoint=none", "block.thickness=16"};
+    const Keys rest = {"drive.path=relax"};
     struct Row {
         Effect Effects::*effect;
         const Keys& with;
         const char *on, *off;
     };
     for (const Row& row :
-         {Row{&Effects::inertia, plain, "", "drive.path=zero-load"},
+         {Row{&Effects::inertia, plain, "", "drive.path=relax"},
           {&Effects::lateral, rest, "", "interface.frictionless=true"},
           {&Effects::damping, plain, "", "drive.damping=0"},
           {&Effects::temperature, plain, "drive.temperature=100", ""},
@@ -40,9 +40,9 @@ TEST(Effects, EachIsSwitchedByItsKey) {
           {&Effects::tail, plain, "interface.tail=true", ""},
           {&Effects::curvature, plain, "surface.radius=200", ""},
           {&Effects::relaxation, plain, "", "block.strain=finite"},
-          {&Effects::observation, plain, "", "drive.path=zero-load"},
+          {&Effects::observation, plain, "", "drive.path=relax"},
           {&Effects::maps, plain, "output.fields=[\"pull-off\"]", ""},
-          {&Effects::maps, plain, "output.fields=[\"after-zero-load:3\"]", ""},
+          {&Effects::maps, plain, "output.fields=[\"after-approach:3\"]", ""},
           {&Effects::trajectory, plain, "output.trajectory=10", ""},
           {&Effects::checkpoints, plain, "output.checkpoint=1", ""}}) {
         for (const bool on : {true, false}) {
@@ -63,7 +63,7 @@ TEST(Effects, OffMakesNoCall) {
         return test::Written(case_with(keys).scene);
     };
     const test::Written off = run_with({"drive.damping=0", "block.model=lattice",
-                                        "output.fields=[]", "output.checkpoint=0"}),
+                                        "output.fields=[]", "output.checkpoint=none"}),
                         on = run_with({"drive.damping=0.2", "drive.temperature=100",
                                        "output.fields=[\"every:5\"]", "output.trajectory=5"});
     for (const char* phase : {"thermostat", "interpolate", "checkpoint"}) {

@@ -36,7 +36,7 @@ TEST(Plan, MemoryGrowsWithTheSitesAndTheNodes) {
     const auto bytes = [](const std::vector<std::string>& keys) {
         return bytes_of(make_plan(case_with(keys), 0));
     };
-    const std::string rest = "drive.path=zero-load";
+    const std::string rest = "drive.path=relax";
     EXPECT_NEAR(bytes({"surface.sites=1024", rest}) / bytes({"surface.sites=512", rest}), 4.0, 0.1);
     // Against a piece that is the case itself.
     EXPECT_NEAR(bytes({"surface.sites=512", rest}) / bytes({"surface.sites=256", rest}), 4.0, 0.2);
@@ -66,7 +66,7 @@ TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
     EXPECT_EQ(finite.bytes[Piece::maps], 0.0);
     EXPECT_EQ(finite.bytes[Piece::rest], 0.0) << "no state at finite strain";
     EXPECT_GT(finite.bytes[Piece::kept], 0.0);
-    const Plan rest = make_plan(case_with({"drive.path=zero-load"}), 1);
+    const Plan rest = make_plan(case_with({"drive.path=relax"}), 1);
     EXPECT_EQ(rest.bytes[Piece::kept], 0.0);
     EXPECT_EQ(rest.steps, 0);
     EXPECT_EQ(rest.moving, 0.0);
@@ -75,7 +75,7 @@ TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
 
 TEST(Plan, WhatDoesNotFitIsRefusedBeforeItIsMade) {
     const Case c = case_with({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
-                              "surface.cutoff=16384"});
+                              "surface.q_max=16384"});
     RunOptions options;
     options.out = "no-such-directory";
     const std::string refused =
@@ -113,8 +113,8 @@ TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
     const std::string path = "drive.mode=quasistatic";
     for (const auto& keys : std::vector<std::vector<std::string>>{
              {path, "surface.sites=48", "surface.rms=1.5"},
-             {path, "drive.hold=mean-height", "interface.kind=wall"},
-             {"drive.path=zero-load", "surface.sites=256", "surface.rms=3"}}) {
+             {path, "drive.control=mean-height", "interface.kind=wall"},
+             {"drive.path=relax", "surface.sites=256", "surface.rms=3"}}) {
         const Case c = case_with(keys);
         const Plan plan = make_plan(c, 1);
         const io::Scratch scratch;

@@ -28,7 +28,7 @@ constexpr const char* listed_instabilities = "dissipated.jumps";
 const std::string unstable = "[surface]\nsites = 16\nrms = 0.7\n"
                              "[block]\nthickness = 90\n"
                              "[drive]\nmode = \"quasistatic\"\n";
-const std::string held_height = unstable + "hold = \"mean-height\"\n";
+const std::string held_height = unstable + "control = \"mean-height\"\n";
 const std::string slid = "[surface]\nsites = 16\nrms = 0.7\n[block]\nthickness = 16\n"
                          "[drive]\nmode = \"quasistatic\"\n"
                          "path = [\"approach\", \"load 300 MPa\", \"slide x 5 Å\"]\n";
@@ -127,7 +127,7 @@ TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
     for (const double tolerance : {2e-4, 2e-3}) {
         const Scene scene =
             read_scene_text("[surface]\nsites = 16\nrms = 0.7\nspacing = 3.1\n[block]\n"
-                            "young = 50.0\npoisson = 0.3\n[drive]\npath = [\"zero-load\"]\n",
+                            "young = 50.0\npoisson = 0.3\n[drive]\npath = [\"relax\"]\n",
                             "s.toml", {"drive.tolerance=" + std::to_string(tolerance)});
         const test::Written run(scene);
         const double modulus = 50.0 / 160.2176634 / (1.0 - 0.3 * 0.3); // E*, eV/Å^3
@@ -144,8 +144,8 @@ TEST(ResultNumbers, TheErrorOfAStateIsThatOfTheSoftestWave) {
 
 TEST(ResultNumbers, TheDensityOfGapsIsTheHistogramOfTheirMap) {
     const test::Written run("[surface]\nsites = 48\nrms = 2.0\n[block]\n"
-                            "[drive]\npath = [\"zero-load\"]\n");
-    const std::string state = "/fields/zero-load/";
+                            "[drive]\npath = [\"relax\"]\n");
+    const std::string state = "/fields/relaxed/";
     const auto gap = run.file->read<double>(state + "gap"),
                edges = run.file->read<double>(state + "gap_edges"),
                density = run.file->read<double>(state + "gap_density");

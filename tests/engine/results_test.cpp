@@ -115,7 +115,7 @@ thickness = 60
 [drive]
 mode = "quasistatic"
 [output]
-fields = ["zero-load", "pull-off"]
+fields = ["relaxed", "pull-off"]
 )";
 
 } // namespace
@@ -130,7 +130,7 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     EXPECT_NEAR(run.number("dissipated.energy", "eV"), energy("lost.cycle"), 1e-9);
     EXPECT_NEAR(energy("lost.cycle"), energy("lost.approach") + energy("lost.pull_off"), 1e-9);
     EXPECT_NEAR(energy("binding_energy"),
-                energy("work_of_adhesion.pairwise") - energy("zero_load.elastic_energy"), 1e-9);
+                energy("pair_binding_energy") - energy("relaxed.elastic_energy"), 1e-9);
 
     // The series.
     const auto force = run.data("/series/force", "eV/Å"),
@@ -153,7 +153,7 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     EXPECT_EQ(run.number("run.steps", "1"), run.data("/series/step", "1").back());
 
     // The maps.
-    const std::string state = "/fields/zero-load/";
+    const std::string state = "/fields/relaxed/";
     const auto pressure = run.data(state + "pressure", "GPa");
     const auto repulsive =
         std::count_if(pressure.begin(), pressure.end(), [](double p) { return p > 0.0; });
@@ -171,8 +171,8 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
                                                segment.begin() - 1);
     for (const char* name : {"contact_fraction", "repulsive_fraction"})
         EXPECT_EQ(run.data(std::string("/series/") + name, "1")[turn], run.number(name, "1"));
-    EXPECT_NEAR(run.number("zero_load.mean_height", "Å"),
-                run.file->number_attribute("/fields/zero-load", "reference_height").value() +
+    EXPECT_NEAR(run.number("relaxed.mean_height", "Å"),
+                run.file->number_attribute("/fields/relaxed", "reference_height").value() +
                     mean(run.data(state + "u_z", "Å")),
                 1e-9);
     EXPECT_NEAR(area * gpa * mean(pressure), 0.0, 1e-2);
@@ -194,13 +194,13 @@ TEST(Results, OfAPathWithoutInstabilitiesListNone) {
 }
 
 TEST(Results, OfAStateAreEnergiesPerArea) {
-    const Written run("[surface]\nsites = 16\nrms = 0.7\n[drive]\npath = [\"zero-load\"]\n"
+    const Written run("[surface]\nsites = 16\nrms = 0.7\n[drive]\npath = [\"relax\"]\n"
                       "[block]\nthickness = 16\n");
     expect_units_in_json(run);
     EXPECT_NEAR(run.number("energy.elastic", "eV"),
-                run.area() * run.number("zero_load.elastic_energy", "eV/Å^2"), 1e-9);
+                run.area() * run.number("relaxed.elastic_energy", "eV/Å^2"), 1e-9);
     EXPECT_NEAR(run.number("energy.interface", "eV"),
-                -run.area() * run.number("work_of_adhesion.pairwise", "eV/Å^2"), 1e-9);
+                -run.area() * run.number("pair_binding_energy", "eV/Å^2"), 1e-9);
     EXPECT_GT(run.number("energy.elastic", "eV"), 0.0);
 }
 
@@ -213,7 +213,7 @@ TEST(Results, OfACurvedSceneInTimeHaveUnits) {
 
 TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {
     const Case c = read_case_text("[surface]\nsites = 32\nrms = 1.5\n[drive]\ntolerance = 1e-6\n"
-                                  "path = [\"zero-load\"]\n",
+                                  "path = [\"relax\"]\n",
                                   "s.toml");
     const io::Scratch scratch;
     const Json json = test::run_scene(c, scratch / "run");

@@ -72,9 +72,9 @@ TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
 }
 
 TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
-    const test::Written run = run_over_ridge(
-        "velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
-        "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"zero-load\"]\n");
+    const test::Written run =
+        run_over_ridge("velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
+                       "series = 10\ntrajectory = 20\nvelocities = true\nfields = [\"relaxed\"]\n");
     const io::Hdf5File& file = *run.file;
     const auto position = file.read<float>("/particles/trajectory/position/value");
     const auto velocity = file.read<float>("/particles/trajectory/velocity/value");
@@ -97,13 +97,13 @@ TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
     EXPECT_GT(across_speed, 0.01);
     // The maps likewise: constant along y, and the gap follows the ridge.
     for (const char* name : {"gap", "pressure", "u_x", "u_z"}) {
-        const auto map = file.read<double>(std::string("/fields/zero-load/") + name);
+        const auto map = file.read<double>(std::string("/fields/relaxed/") + name);
         const auto [least, most] = std::minmax_element(map.begin(), map.begin() + n);
         EXPECT_GT(*most - *least, 1e-2) << name;
         for (std::size_t i = 0; i < map.size(); ++i)
             EXPECT_NEAR(map[i], map[i % n], 1e-6) << name; // steps are in single precision
     }
-    for (double uy : file.read<double>("/fields/zero-load/u_y"))
+    for (double uy : file.read<double>("/fields/relaxed/u_y"))
         EXPECT_NEAR(uy, 0.0, 1e-6);
 }
 

@@ -12,7 +12,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -86,7 +89,7 @@ trajectory = 1000
 
 TEST(Scene, WrittenBackItIsTheSameScene) {
     const Scene s = read_scene_text("surface.sites = 96\nsurface.radius = \"100 nm\"\n"
-                                    "drive.path = [\"zero-load\"]\nblock.model = \"lattice\"\n",
+                                    "drive.path = [\"relax\"]\nblock.model = \"lattice\"\n",
                                     "s.toml");
     const Scene t = read_scene_text(scene_toml(s), "t.toml");
     EXPECT_EQ(scene_toml(s, false), scene_toml(t, false));
@@ -113,21 +116,21 @@ TEST(Scene, Contradictions) {
     EXPECT_EQ(only("[drive]\ntemperature = 300\ndamping = 0\n").where, "s.toml:2:15");
     EXPECT_EQ(only("[output]\nfields = [\"pull-off\"]\n[drive]\npath = [\"approach\"]\n").where,
               "s.toml:2:10");
-    EXPECT_EQ(only("[output]\ntrajectory = 10\n[drive]\npath = [\"zero-load\"]\n").where,
+    EXPECT_EQ(only("[output]\ntrajectory = 10\n[drive]\npath = [\"relax\"]\n").where,
               "s.toml:2:14"); // frames are taken over time
     only("[output]\ntrajectory = 10\n[drive]\nmode = \"quasistatic\"\n");
 }
 
 TEST(Scene, Paths) {
     EXPECT_TRUE(wrong("drive.path = [\"approach\"]").empty());
-    EXPECT_TRUE(wrong("drive.path = [\"zero-load\"]").empty());
-    EXPECT_TRUE(wrong("drive.path = [\"zero-load\", \"pull-off\"]").empty());
+    EXPECT_TRUE(wrong("drive.path = [\"relax\"]").empty());
+    EXPECT_TRUE(wrong("drive.path = [\"relax\", \"pull-off\"]").empty());
     EXPECT_TRUE(
         wrong("drive.path = [\"approach\", \"pull-off\", \"approach\", \"pull-off\"]").empty());
     EXPECT_EQ(only("drive.path = []").what, "drive.path is empty");
     only("drive.path = [\"pull-off\"]");
     only("drive.path = [\"approach\", \"approach\"]");
-    only("drive.path = [\"approach\", \"zero-load\"]");
+    only("drive.path = [\"approach\", \"relax\"]");
     only("drive.path = [\"approach\", \"pull-off\", \"pull-off\"]");
     EXPECT_EQ(only("drive.path = [\"aproach\"]").fix, "did you mean \"approach\"?");
     for (const char* member : {"load", "load 3 Å", "slide 3 Å", "slide z 3 Å", "slide x 0", "hold",
@@ -219,10 +222,10 @@ TEST(Scene, NotYet) {
     EXPECT_EQ(refused("output.trajectory = 100"), 0u);
     EXPECT_EQ(refused("block.strain = \"finite\""), 0u);
     EXPECT_EQ(refused("numerics.precision = \"mixed\""), 0u);
-    EXPECT_EQ(refused("drive.mode = \"quasistatic\"\ndrive.path = [\"zero-load\", \"pull-off\", "
+    EXPECT_EQ(refused("drive.mode = \"quasistatic\"\ndrive.path = [\"relax\", \"pull-off\", "
                       "\"approach\"]"),
               0u);
-    EXPECT_EQ(refused("drive.path = [\"zero-load\", \"pull-off\"]"), 1u);
+    EXPECT_EQ(refused("drive.path = [\"relax\", \"pull-off\"]"), 1u);
 }
 
 TEST(Scene, Notes) {
@@ -233,7 +236,7 @@ TEST(Scene, Notes) {
     };
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.seed = 2", "surface.seed has no effect"));
-    EXPECT_TRUE(said("drive.step = 0.1", "drive.step has no effect"));
+    EXPECT_TRUE(said("drive.displacement_step = 0.1", "drive.displacement_step has no effect"));
     const std::string mixed = "numerics.precision = \"mixed\"\n";
     EXPECT_FALSE(said(mixed, "numerics.precision"));
     for (const char* with : {"surface.lattice_ratio = 1.618",
@@ -244,7 +247,7 @@ TEST(Scene, Notes) {
     const std::string still = "drive.mode = \"quasistatic\"\n";
     EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
     EXPECT_TRUE(said(still + "drive.temperature = 300", "drive.temperature has no effect"));
-    EXPECT_FALSE(said(still + "drive.step = 0.1", "has no effect"));
+    EXPECT_FALSE(said(still + "drive.displacement_step = 0.1", "has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
     EXPECT_TRUE(said("block.thickness = 64", "thinner"));
@@ -303,7 +306,7 @@ TEST(Scene, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
         [&] { read_case_text("", "s.toml", {beyond}).require_runnable(); });
     for (const char* part : {"numerics.device", "not there", "auto"})
         EXPECT_TRUE(test::has(refused, part)) << part << " not in: " << refused;
-    for (const char* path : {"drive.path=zero-load", "drive.path=[\"approach\"]"}) {
+    for (const char* path : {"drive.path=relax", "drive.path=[\"approach\"]"}) {
         const Case c = read_case_text("", "s.toml", {"numerics.device=auto", path});
         EXPECT_EQ(c.effects.device.on, bool(c.simulation.device))
             << path << ": " << c.effects.device.why;
@@ -311,6 +314,69 @@ TEST(Scene, ADeviceThatIsNotThereIsRefusedAndAutoSaysWhatItTook) {
             EXPECT_FALSE(c.effects.device) << path;
         }
     }
+}
+
+TEST(Scene, OldNamesAreRefusedWithTheNewOnes) {
+    for (const auto& [old, now] : std::vector<std::pair<std::string, std::string>>{
+             {"drive.hold = \"top\"", "control"},
+             {"drive.step = 0.1", "displacement_step"},
+             {"surface.cutoff = 64", "q_max"},
+             {"interface.morse_r0 = 3.7", "interface.morse_r_min"},
+             {"drive.path = [\"zero-load\"]", "\"relax\""},
+             {"output.fields = [\"zero-load\"]", "\"relaxed\""},
+             {"output.fields = [\"pull-off\", \"after-zero-load:20\"]", "\"after-approach:N\""},
+             {"drive.max_steps = 0", "\"none\""},
+             {"output.checkpoint = 0", "\"none\""}})
+        EXPECT_NE(only(old).fix.find(now), std::string::npos) << old << ": " << only(old).fix;
+}
+
+TEST(Scene, NoneIsTheWordForOff) {
+    const Scene s = read_scene_text(
+        "drive.max_steps = \"none\"\noutput.checkpoint = \"none\"\noutput.trajectory = \"none\"",
+        "s.toml");
+    EXPECT_EQ(s.drive.max_steps, 0);
+    EXPECT_EQ(s.output.checkpoint, 0.0);
+    for (const auto& [section, key] : {std::pair{"drive", "max_steps"}, {"output", "checkpoint"}})
+        EXPECT_EQ(scene_json(s)[section][key], "none");
+    EXPECT_EQ(scene_toml(read_scene_text(scene_toml(s), "t.toml")), scene_toml(s));
+}
+
+TEST(Scene, CountsAreGivenAsLengthsToo) {
+    const auto read = [](const std::vector<std::string>& keys) {
+        return read_scene_text("", "s.toml", keys);
+    };
+    const Scene s =
+        read({"surface.sites=33 nm", "surface.spacing=2.5", "block.thickness=\"120 Å\""});
+    EXPECT_EQ(s.surface.sites, 132);
+    EXPECT_EQ(s.block.thickness, 48);
+    EXPECT_EQ(read({"surface.sites=33 nm"}).block.thickness, 127) << "as wide as the box";
+    EXPECT_EQ(read({"surface.sites=33 nm", "surface.sites=64"}).surface.sites, 64);
+    EXPECT_EQ(read({"surface.sites=64", "surface.sites=33 nm"}).surface.sites, 127);
+    for (const char* bad : {"3 Å", "1 mm", "33 GPa", "-33 nm", "nan nm", "wide"}) {
+        const std::string key = std::string("surface.sites=") + bad;
+        EXPECT_NE(only("", {key}).what.find("surface.sites"), std::string::npos) << bad;
+    }
+}
+
+TEST(Scene, TheCutoffFollowsTheLengthOfThePotential) {
+    const auto cutoff = [](const std::vector<std::string>& keys) {
+        return cutoff_of(read_case_text("", "s.toml", keys).simulation.interface.potential);
+    };
+    EXPECT_EQ(cutoff({}), 13.12);
+    EXPECT_EQ(cutoff({"interface.r0=2.63"}), 4 * 2.63);
+    EXPECT_EQ(cutoff({"interface.r0=2.63", "interface.cutoff=10"}), 10.0);
+    EXPECT_EQ(cutoff({"interface.r0=2.63", "interface.cutoff=4 r0"}), 4 * 2.63);
+    EXPECT_EQ(cutoff({"interface.potential=morse", "interface.morse_r_min=3.5"}),
+              4 * (3.5 - std::log(2.0) / 1.63));
+}
+
+TEST(Scene, WithoutQMaxTheSpectrumEndsAtNyquist) {
+    const auto heights = [](const std::vector<std::string>& keys) {
+        return surface_of(read_case_text("surface.sites = 64", "s.toml", keys)).height;
+    };
+    EXPECT_EQ(heights({}), heights({"surface.q_max=32"}));
+    EXPECT_EQ(heights({}), heights({"surface.q_max=512"}));
+    EXPECT_NE(heights({}), heights({"surface.q_max=16"}));
 }
 
 TEST(Scene, ReferencePagesAreUpToDate) {

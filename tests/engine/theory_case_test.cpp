@@ -25,6 +25,7 @@ Scene paper(double rms) {
     Scene s;
     s.surface.rms = rms;
     s.theory.delta_gamma = 100.0;
+    s.surface.q_max = 512.0;
     s.theory.clip = false;
     return s;
 }
@@ -142,7 +143,7 @@ TEST(TheoryOfAScene, TheRenormalisedTheoryIsGivenTheSpectrumAndThePairs) {
                     value("first", i), 5e-3 * std::abs(value("first", i)) + 1e-6);
     s.interface.kind = InterfaceKind::wall; // exponential
     s.interface.frictionless = true;
-    s.drive.path = {"zero-load"};
+    s.drive.path = {"relax"};
     const Case wall = resolve(s);
     EXPECT_TRUE(
         renormalised_inputs(wall, theory_case(wall).contact.spectrum, false).contains("note"));
@@ -190,7 +191,8 @@ TEST(TheoryOfAScene, OfASphereIsJkrWithTheEffectiveEnergy) {
     const TheoryCase what = theory_case(resolve(s));
     io::Result result;
     record_theory(what, solve_theory(what), result);
-    EXPECT_EQ(result.number("theory.jkr_pull_off_force"), solve_theory(what).jkr_pull_off_force);
+    EXPECT_EQ(result.number("theory.persson.jkr_pull_off_force"),
+              solve_theory(what).jkr_pull_off_force);
 }
 
 TEST(TheoryOfAScene, NeverMakesARunFail) {
@@ -198,15 +200,15 @@ TEST(TheoryOfAScene, NeverMakesARunFail) {
     const Surface surface = surface_of(resolve(s));
     io::Result good;
     add_theory(resolve(s), surface, good);
-    EXPECT_TRUE(good.number("theory.gamma_eff").has_value());
-    s.surface.cutoff = 1.0; // a band of no width
+    EXPECT_TRUE(good.number("theory.persson.gamma_eff").has_value());
+    s.surface.q_max = 1.0; // a band of no width
     s.surface.rolloff = 1.0;
     io::Result bad;
     add_theory(resolve(s), surface, bad);
-    EXPECT_FALSE(bad.number("theory.gamma_eff").has_value());
+    EXPECT_FALSE(bad.number("theory.persson.gamma_eff").has_value());
     const io::Json json = bad.json();
-    ASSERT_NE(io::find(json, "theory.note"), nullptr);
-    EXPECT_NE(io::find(json, "theory.note")->get<std::string>().find("surface.cutoff"),
+    ASSERT_NE(io::find(json, "theory.persson.note"), nullptr);
+    EXPECT_NE(io::find(json, "theory.persson.note")->get<std::string>().find("surface.q_max"),
               std::string::npos);
 }
 

@@ -46,12 +46,12 @@ timestep = 20
 series = 10
 checkpoint = 0.01
 trajectory = 40
-fields = ["zero-load", "pull-off"]
+fields = ["relaxed", "pull-off"]
 """
 KINDS = {
     "dynamic": [],
     "thermostat": ["drive.temperature=300"],
-    "quasistatic": ["drive.mode=quasistatic", "output.trajectory=none", "drive.step=0.4"],
+    "quasistatic": ["drive.mode=quasistatic", "output.trajectory=none", "drive.displacement_step=0.4"],
 }
 # The words that start ranks, as CMake found them.
 MPIRUN = os.environ.get("ASPERITY_MPIRUN", "mpirun --oversubscribe --bind-to none").split()
@@ -330,7 +330,7 @@ class Bench:
                 good += self.resumes(out, what=number.name)
         # A relaxation that cannot reach its tolerance, stopped in it.
         out = self.out("relaxing")
-        unreachable = ["--set", "drive.tolerance=1e-15", "output.checkpoint=0"]
+        unreachable = ["--set", "drive.tolerance=1e-15", "output.checkpoint=none"]
         child = self.start(out, extra=unreachable)
         time.sleep(self.reference("dynamic")[3] * 1.5 + 0.5)
         child.send_signal(signal.SIGTERM)

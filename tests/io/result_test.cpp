@@ -27,24 +27,24 @@ Json at(const Json& json, std::string path) {
 
 TEST(Result, PutsValuesAndUnitsAtTheSamePlace) {
     Result result;
-    result.set("work_of_adhesion.pairwise", 8.0);
-    result.set("work_of_adhesion.approach", std::optional<double>());
+    result.set("pair_binding_energy", 8.0);
+    result.set("work_of_interface.approach", std::optional<double>());
     result.set("run.phases.*.seconds", "advance", 0.5);
     result.set("run.phases.*.calls", "advance", 1000LL);
     result.set("dissipated.jumps[].energy", 0, 1.5);
     result.set("dissipated.jumps[].force", 0, std::vector{1.0, 2.0});
     result.set("dissipated.jumps[].energy", 1, 2.5);
-    result.set("theory.converged", true);
+    result.set("theory.persson.converged", true);
     result.set("run.stopped", "max_steps");
     Json scene, units;
     scene["surface"]["sites"] = 128;
     units["surface"]["sites"] = "1";
     result.set_scene(scene, units);
     const Json json = Json::parse(result.text());
-    EXPECT_EQ(at(json, "work_of_adhesion.pairwise"), 8.0);
-    EXPECT_EQ(at(json, "units.work_of_adhesion.pairwise"), "meV/Å^2");
-    EXPECT_TRUE(at(json, "work_of_adhesion.approach").is_null());
-    EXPECT_TRUE(at(json, "units.work_of_adhesion.approach").is_null());
+    EXPECT_EQ(at(json, "pair_binding_energy"), 8.0);
+    EXPECT_EQ(at(json, "units.pair_binding_energy"), "meV/Å^2");
+    EXPECT_TRUE(at(json, "work_of_interface.approach").is_null());
+    EXPECT_TRUE(at(json, "units.work_of_interface.approach").is_null());
     EXPECT_EQ(at(json, "run.phases.advance.seconds"), 0.5);
     EXPECT_EQ(at(json, "run.phases.advance.calls"), 1000);
     EXPECT_EQ(at(json, "units.run.phases.advance.seconds"), "s");
@@ -52,14 +52,14 @@ TEST(Result, PutsValuesAndUnitsAtTheSamePlace) {
     EXPECT_EQ(at(json, "dissipated.jumps.0.force.1"), 2.0);
     EXPECT_EQ(at(json, "units.dissipated.jumps.energy"), "eV");
     EXPECT_EQ(at(json, "units.dissipated.jumps.force"), "eV/Å");
-    EXPECT_EQ(at(json, "theory.converged"), true);
+    EXPECT_EQ(at(json, "theory.persson.converged"), true);
     EXPECT_EQ(at(json, "run.stopped"), "max_steps");
     EXPECT_EQ(at(json, "scene.surface.sites"), 128);
     EXPECT_EQ(at(json, "units.scene.surface.sites"), "1");
-    EXPECT_EQ(result.number("work_of_adhesion.pairwise"), 8.0);
+    EXPECT_EQ(result.number("pair_binding_energy"), 8.0);
     EXPECT_EQ(result.number("run.stopped"), std::nullopt);
     EXPECT_EQ(result.number("binding_energy"), std::nullopt);
-    for (const char* absent : {"binding_energy", "theory.gamma_eff", "failure", "zero_load"})
+    for (const char* absent : {"binding_energy", "theory.persson.gamma_eff", "failure", "relaxed"})
         EXPECT_TRUE(at(json, absent).is_null()) << absent;
 }
 
@@ -79,7 +79,7 @@ TEST(Quantities, HaveUnitsThatCanBeReadAndNoNameTwice) {
 
 TEST(Quantities, OfRunFilesAreFoundByTheirPaths) {
     EXPECT_EQ(run_quantity("/series/force")->unit, "eV/Å");
-    EXPECT_EQ(run_quantity("/fields/zero-load/gap")->unit, "Å");
+    EXPECT_EQ(run_quantity("/fields/relaxed/gap")->unit, "Å");
     EXPECT_EQ(run_quantity("/fields/every:5/gap_density")->unit, "1/Å");
     EXPECT_EQ(run_quantity("/fields/pull-off@reference_height")->unit, "Å");
     for (const char* none : {"/series/forces", "/fields/gap", "/fields//gap", "/fields/a/b/gap",

@@ -93,8 +93,8 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
         if (over && segment == 0) turn = s.balance().interface;
     });
     const double per_area = units::milli_per_unit / std::pow(c.setup.scene.edge(), 2);
-    const double approach = test::number(result, "work_of_adhesion.approach"),
-                 pull_off = test::number(result, "work_of_adhesion.pull_off");
+    const double approach = test::number(result, "work_of_interface.approach"),
+                 pull_off = test::number(result, "work_of_interface.pull_off");
     EXPECT_NEAR(approach, per_area * turn, 1e-5 * approach);
     EXPECT_NEAR(pull_off, -per_area * (s.balance().interface - turn), 1e-4 * pull_off);
     EXPECT_LT(test::number(result, "run.steps"), 0.9 * static_cast<double>(s.steps()));

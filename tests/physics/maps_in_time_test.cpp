@@ -91,7 +91,7 @@ TEST(MapsInTime, AreOfOneStep) {
     const Maps run("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n[block]\nthickness = 6\n"
                    "[drive]\npath = [\"approach\", \"slide x 3 Å\", \"pull-off\"]\n"
                    "velocity = 100\ntimestep = 20\ndamping = 0.5\n[output]\nseries = 1\n"
-                   "fields = [\"every:50\", \"segments\", \"pull-off\", \"after-zero-load:1\"]\n");
+                   "fields = [\"every:50\", \"segments\", \"pull-off\", \"after-approach:1\"]\n");
     const auto segment = run.series("segment"), step = run.series("step"),
                force = run.series("force"), slide = run.series("slide_x"),
                time = run.series("time");
@@ -121,7 +121,7 @@ TEST(MapsInTime, AreOfOneStep) {
     std::size_t later = after[0] - 1;
     while (time[later] < time[after[0] - 1] + 1.0)
         ++later;
-    run.expect_of_row("after-zero-load:1", later);
+    run.expect_of_row("after-approach:1", later);
 }
 
 } // namespace

@@ -38,11 +38,11 @@ struct Scenes {
 
     std::string text(const Factors& f) const {
         const double a = f.length;
-        const auto mean = held ? "hold = \"mean-height\"\n" : "";
+        const auto mean = held ? "control = \"mean-height\"\n" : "";
         std::string s = fmt::format(
             "[surface]\nsites = {}\nspacing = {}\n{}[block]\nyoung = {}\nthickness = 16\n"
-            "[output]\nfields = []\ncheckpoint = 0\n"
-            "[drive]\nmode = \"quasistatic\"\nstep = {}\n{}",
+            "[output]\nfields = []\ncheckpoint = \"none\"\n"
+            "[drive]\nmode = \"quasistatic\"\ndisplacement_step = {}\n{}",
             sphere ? 32 : 16, 2.6 * a,
             sphere ? fmt::format("kind = \"flat\"\nradius = {}\n", 300.0 * a)
                    : fmt::format("rms = {}\nrolloff = 2\n", rms * a),
@@ -56,7 +56,7 @@ struct Scenes {
         else if (path)
             s += "path = [\"approach\", \"pull-off\"]\n";
         else
-            s += fmt::format("path = [\"zero-load\"]\nload = {}\n", load * f.pressure());
+            s += fmt::format("path = [\"relax\"]\nload = {}\n", load * f.pressure());
         s += "[interface]\n";
         if (interface == atoms)
             s += fmt::format("epsilon = {}\nr0 = {}\ncutoff = {}\n", epsilon * f.energy, 3.28 * a,
@@ -165,7 +165,7 @@ TEST(Scaling, RubberUnderALoad) {
         const test::Written run(fmt::format(
             "[surface]\nsites = 128\nspacing = 10\nrms = 10\ncutoff = 16\nseed = 4\n"
             "[block]\nyoung = 0.001\npoisson = 0.49\n[interface]\nkind = \"wall\"\nadhesion = 0\n"
-            "[drive]\npath = [\"zero-load\"]\nload = {}\n[output]\nfields = []\n",
+            "[drive]\npath = [\"relax\"]\nload = {}\n[output]\nfields = []\n",
             load));
         EXPECT_NEAR(run("contact_fraction"), contact, 1e-3) << load;
     }
@@ -179,7 +179,7 @@ TEST(Scaling, WeakInterface) {
                                                {1, 1e-6, 0.2500}}) {
         const test::Written run(fmt::format("[surface]\nsites = 24\nrms = 1\nseed = {}\n"
                                             "[block]\nthickness = 24\n[drive]\n"
-                                            "path = [\"zero-load\"]\n[interface]\nepsilon = {}\n"
+                                            "path = [\"relax\"]\n[interface]\nepsilon = {}\n"
                                             "[output]\nfields = []\n",
                                             seed, epsilon));
         EXPECT_NEAR(run("binding_energy") / run("delta_gamma"), ratio, 1e-4);
@@ -192,7 +192,7 @@ TEST(Scaling, ABeadThatTouchesAGel) {
         "[surface]\nkind = \"flat\"\nsites = 128\nspacing = 550\nradius = 5e4\n[block]\n"
         "young = 2e-6\npoisson = 0.49\nthickness = 73\n[interface]\nkind = \"wall\"\n"
         "adhesion = 0\n[drive]\nmode = \"quasistatic\"\npath = [\"height -2000 Å\"]\n"
-        "step = 500\n[output]\nfields = []\n");
+        "displacement_step = 500\n[output]\nfields = []\n");
     EXPECT_NEAR(run.json["segments"][0]["pressure"].get<double>(), 2.2577e-5, 1e-8);
 }
 
@@ -214,7 +214,7 @@ TEST(Scaling, AMeanHeightFarInsideIsRefused) {
     for (const auto& [height, refused] : {std::pair{-5.0, true}, {1.5, true}, {2.9, false}}) {
         const Case c = read_case_text(
             fmt::format("[surface]\nsites = 16\nrms = 0.2\n[drive]\nmode = \"quasistatic\"\n"
-                        "hold = \"mean-height\"\npath = [\"height {} Å\"]\n"
+                        "control = \"mean-height\"\npath = [\"height {} Å\"]\n"
                         "[output]\nfields = []\n",
                         height),
             "deep.toml");
@@ -242,7 +242,7 @@ TEST(Scaling, ATolerancesUnitAndItsFloorAreNamed) {
     }
     const auto note = [](double tolerance) {
         return rounding_note(read_case_text(fmt::format("[surface]\nsites = 16\n[drive]\npath = "
-                                                        "[\"zero-load\"]\ntolerance = {}\n",
+                                                        "[\"relax\"]\ntolerance = {}\n",
                                                         tolerance),
                                             "s.toml"),
                              20.0);

@@ -183,7 +183,7 @@ TEST(Wall, WorkOfAdhesionIsTheScenes) {
     for (const char* young : {"2 MPa", "77 GPa"})
         for (const char* range : {"2.5 Å", "10 Å"}) {
             const std::vector<std::string> keys = {
-                "interface.kind=wall", "drive.path=zero-load", "interface.adhesion=3.12",
+                "interface.kind=wall", "drive.path=relax", "interface.adhesion=3.12",
                 std::string("interface.range=") + range, std::string("block.young=") + young};
             const Scene scene =
                 read_scene_text("[surface]\nsites = 32\nspacing = \"39 Å\"\n", "wall.toml", keys);
@@ -250,7 +250,7 @@ poisson = 0.49
 [interface]
 kind = "wall"
 [drive]
-path = ["zero-load"]
+path = ["relax"]
 )",
                                "wall.toml", keys);
     }
@@ -391,9 +391,9 @@ TEST(Wall, IsRefusedWhereItCannotBe) {
         EXPECT_THROW(read_case_text("[surface]\nsites = 32\n", "wall.toml", all), io::SceneError);
     };
     wrong({});
-    wrong({"drive.path=zero-load", "interface.frictionless=false"});
-    wrong({"drive.path=zero-load", "surface.lattice_ratio=2"});
+    wrong({"drive.path=relax", "interface.frictionless=false"});
+    wrong({"drive.path=relax", "surface.lattice_ratio=2"});
     const Scene scene = read_scene_text("[surface]\nsites = 32\n", "wall.toml",
-                                        {"interface.kind=wall", "drive.path=zero-load"});
+                                        {"interface.kind=wall", "drive.path=relax"});
     EXPECT_TRUE(scene.interface.frictionless);
 }

@@ -94,16 +94,16 @@ TEST(Works, InTimeTheDrivesWorkAndTheLossesMakeTheState) {
             EXPECT_NEAR(path("kinetic.pull_off"), path.per_area(left), 1e-3 * path.state());
             EXPECT_NEAR(path("lost.cycle"), path.per_area(path.last("damped") + left),
                         1e-3 * path.state());
-            EXPECT_NEAR(path.per_area(-path.last("interface_work")),
-                        path("work_of_adhesion.pull_off") - path("work_of_adhesion.approach"),
+            EXPECT_NEAR(path.per_area(-path.last("work_of_interface")),
+                        path("work_of_interface.pull_off") - path("work_of_interface.approach"),
                         1e-3 * path.state());
         }
 }
 
 TEST(Works, OfTheInterfaceOfFlatSurfacesIsTheStateWhateverIsLost) {
     const Path path(scene(flat, 96, "velocity = 20\ntimestep = 20"));
-    EXPECT_NEAR(path("work_of_adhesion.approach"), path.state(), 0.002 * path.state());
-    EXPECT_NEAR(path("work_of_adhesion.pull_off"), path.state(), 0.002 * path.state());
+    EXPECT_NEAR(path("work_of_interface.approach"), path.state(), 0.002 * path.state());
+    EXPECT_NEAR(path("work_of_interface.pull_off"), path.state(), 0.002 * path.state());
     EXPECT_GT(path("lost.cycle"), 2.0 * path.state());
 }
 
@@ -112,13 +112,13 @@ TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
     const Path top(scene(rough, 96, drive + "\"top\""));
     top.expect_identities(0.02);
     EXPECT_GT(top("lost.cycle"), 0.5 * top.state());
-    EXPECT_FALSE(top.holds("work_of_adhesion.approach")) << "the mean height jumps";
-    EXPECT_FALSE(top.holds("work_of_adhesion.pull_off"));
+    EXPECT_FALSE(top.holds("work_of_interface.approach")) << "the mean height jumps";
+    EXPECT_FALSE(top.holds("work_of_interface.pull_off"));
 
     const Path held(scene(rough, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
     for (const char* branch : {"approach", "pull_off"})
-        EXPECT_EQ(held(fmt::format("work_of_adhesion.{}", branch)),
+        EXPECT_EQ(held(fmt::format("work_of_interface.{}", branch)),
                   held(fmt::format("work_of_drive.{}", branch)));
     EXPECT_LT(held("lost.cycle"), 0.2 * top("lost.cycle"))
         << "held so, the block does not snap as a whole";
@@ -138,7 +138,7 @@ TEST(Works, OfTheDriveTendToThoseWithoutTime) {
                          moving("work_of_drive.pull_off") / still("work_of_drive.pull_off") - 1.0);
         EXPECT_LT(std::max(in, out), 0.6 * before) << velocity;
         before = std::max(in, out);
-        EXPECT_NEAR(moving("work_of_adhesion.pull_off"), moving.state(), 0.01 * moving.state());
+        EXPECT_NEAR(moving("work_of_interface.pull_off"), moving.state(), 0.01 * moving.state());
     }
     EXPECT_LT(before, 0.25);
 }
@@ -219,8 +219,8 @@ TEST(Works, OfSegmentsAreThoseOfTheSeries) {
     expect_segments_of_the_series(
         run(", \"hold 2 ps\"", "velocity = 40\ntimestep = 20\ndamping = 0.5"), true, false);
     expect_segments_of_the_series(run("", "mode = \"quasistatic\"\nhold = \"top\""), false, false);
-    expect_segments_of_the_series(run("", "mode = \"quasistatic\"\nhold = \"mean-height\""), false,
-                                  true);
+    expect_segments_of_the_series(run("", "mode = \"quasistatic\"\ncontrol = \"mean-height\""),
+                                  false, true);
 }
 
 TEST(Works, WithHeatOrALoadAreNotComparedWithTheState) {

@@ -33,7 +33,7 @@ rank = int(os.environ.get("OMPI_COMM_WORLD_RANK") or os.environ.get("PMI_RANK", 
 os.sched_setaffinity(0, json.loads(os.environ["PROCESSORS"])[rank])
 os.execv(sys.argv[1], sys.argv[1:])
 """
-STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["zero-load"]}}
+STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["relax"]}}
 
 
 def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):

@@ -35,7 +35,7 @@ sim = asperity.Simulation(conftest.SMALL, comm=comm)
 assert sim.u.z.shape == sim.maps().gap.shape == sim.substrate.height[sim.tile].shape
 assert sim.u.z.size * comm.size == 32 * 32
 sim.every(100, lambda s: s.steps, "count")
-while sim.work_of_adhesion.approach is None:
+while sim.work_of_interface.approach is None:
     sim.step()
 openmp = next(line.split()[-1] for line in open("/proc/self/maps") if re.search(r"/lib[gi]?omp\d*\.so", line))
 found["threads"] = ctypes.CDLL(openmp).omp_get_max_threads()
@@ -45,7 +45,7 @@ found["gap"] = comm.allreduce(rest.maps.gap.sum())
 sim.save(place / "saved.h5")
 sim.step(10**9)
 found["series"] = {name: values.tolist() for name, values in sim.series.items()}
-found["pull_off"] = sim.work_of_adhesion.pull_off
+found["pull_off"] = sim.work_of_interface.pull_off
 again = asperity.Simulation.resume(place / "saved.h5", comm=comm)
 again.step(10**9)
 assert again.work_of_drive.pull_off == sim.work_of_drive.pull_off and (whole(again) == whole(sim)).all()

@@ -13,7 +13,7 @@ from asperity import convert, maps
 from conftest import command
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
-          "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["zero-load"]}}
+          "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
 SURFACE = {"sites": 32, "spacing": 5, "rms": 2.5, "cutoff": 8, "seed": 3}
 GIVEN = dict(E="5 GPa", nu=0.3, work="200 mJ/m2")
 
@@ -77,7 +77,7 @@ def test_every_form_of_a_map_is_the_same_scene(place, known):
         from asperity.measured import scene_of
 
         scene, _, also = scene_of(str(place / name), "5 GPa", 0.3, "0.2 J/m^2", place / re.sub(r"\W", "", name), **more)
-        numbers[name] = asperity.run(scene, {"drive.path": ["zero-load"]}).binding_energy
+        numbers[name] = asperity.run(scene, {"drive.path": ["relax"]}).binding_energy
         assert also(0.5) == []  # the range is resolved
     assert all(n == pytest.approx(binding, rel=0.02) for n in numbers.values()), numbers
     assert np.ptp(list(numbers.values())) < 1e-4 * binding

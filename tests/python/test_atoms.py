@@ -59,13 +59,13 @@ def test_a_flat_layer_is_the_flat_surface(place):
     says = {"flat": [], "atoms": ["256 atoms", "a unit of measure", "over one flat layer (98.86)"]}
     for kind, file in ("flat", ""), ("atoms", 'file = "flat.h5"\n'):
         surface = f'[surface]\nkind = "{kind}"\n{file}sites = 16\n'
-        Path(f"{kind}.toml").write_text(surface + '[drive]\npath = ["zero-load"]\n')
+        Path(f"{kind}.toml").write_text(surface + '[drive]\npath = ["relax"]\n')
         run(f"{kind}.toml", kind, "drive.tolerance=1e-8", says=says[kind])
     flat, atoms = asperity.load("flat"), asperity.load("atoms")
-    numbers = ([of.binding_energy, of.contact_fraction, of.zero_load.mean_height] for of in (atoms, flat))
+    numbers = ([of.binding_energy, of.contact_fraction, of.relaxed.mean_height] for of in (atoms, flat))
     assert next(numbers) == pytest.approx(next(numbers), abs=1e-8, rel=0)
     assert atoms.surface.atoms == 256
-    assert atoms.theory.note.startswith("the substrate's atoms stand anywhere") and "gamma_eff" not in atoms.theory
+    assert atoms.theory.persson.note.startswith("the substrate's atoms stand anywhere") and "gamma_eff" not in atoms.theory.persson
 
 
 def test_the_scene_that_comes_with_asperity(stepped, data):
@@ -82,7 +82,7 @@ def test_the_scene_that_comes_with_asperity(stepped, data):
             says="the periodic box of the atoms in stepped.h5 is 41.6 x 41.6 Å")
     command("check", stepped, "--set", "interface.tail=true", "numerics.device=emulated", expect=2,
             says=["interface.tail", "numerics.device"])
-    command("sweep", stepped, "--progress", "off", "--out", "swept", "--set", "drive.path=zero-load",
+    command("sweep", stepped, "--progress", "off", "--out", "swept", "--set", "drive.path=relax",
             "drive.load=0,100")
     assert [point["status"] for point in json.loads(Path("swept/sweep.json").read_text())["points"]] == ["done"] * 2
     command("sweep", stepped, "--set", "drive.load=0,100", "--theory-only", expect=2)
@@ -126,7 +126,7 @@ def test_types(stepped, data):
     resume(stepped, "parts", *FAST, PAIRS)
     assert found("types") == found("parts")
     # A weaker type attracts less.
-    assert asperity.load("types").work_of_adhesion.approach < asperity.load("one").work_of_adhesion.approach
+    assert asperity.load("types").work_of_interface.approach < asperity.load("one").work_of_interface.approach
     command("export", "types", "--to", "xyz")
     written = list(Path("types/export").glob("*.xyz"))
     for file in written:

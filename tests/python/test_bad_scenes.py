@@ -26,18 +26,18 @@ BAD = {
         '[numerics]\naccuracy = "1%"',
         ["scene.toml:2:1: numerics.accuracy is not a key any more", "asperity cost SCENE --target 1%"]),
     "a search for states": (
-        '[drive]\npath = ["zero-load"]\nstates = "all"',
+        '[drive]\npath = ["relax"]\nstates = "all"',
         ["scene.toml:3:1: drive.states is not a key any more", "`asperity states SCENE` searches for further states"]),
     "absorbing seams": (
         '[block]\nseams = "absorb"',
         ["scene.toml:2:1: block.seams is not a key any more", "leave it out; drive.damping with drive.damping_from"]),
     "waves at finite strain": (
-        '[block]\nstrain = "finite"\n[drive]\npath = ["zero-load"]',
+        '[block]\nstrain = "finite"\n[drive]\npath = ["relax"]',
         ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),
     "a wall in time": ('[interface]\nkind = "wall"', ['scene.toml:2:8: interface.kind = "wall" on a path in time']),
     "mean height in time": (
-        '[drive]\nhold = "mean-height"',
-        ['scene.toml:2:8: drive.hold = "mean-height" on a path in time', 'take drive.mode = "quasistatic"']),
+        '[drive]\ncontrol = "mean-height"',
+        ['scene.toml:2:11: drive.control = "mean-height" on a path in time', 'take drive.mode = "quasistatic"']),
     "several": ("[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n",
                 ["scene.toml:2:7", "scene.toml:3:9", "scene.toml:5:1", "3 problems"]),
     # What stands in the map is looked at before anything is written.

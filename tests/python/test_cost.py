@@ -54,13 +54,13 @@ def parameters(**sections):
 def test_parameters_are_those_that_the_scene_has():
     assert parameters() == ["cutoff", "tail", "layers", "thickness", "precision", "timestep", "velocity", "damping",
                             "tolerance", "step", "model"]
-    assert parameters(drive={"path": ["zero-load"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
+    assert parameters(drive={"path": ["relax"]}) == ["cutoff", "tail", "thickness", "precision", "tolerance"]
     assert "damping" not in parameters(drive={"damping": 0})
-    for other in ({"interface": {"kind": "wall"}, "drive": {"path": ["zero-load"]}}, {"surface": {"sites": 16, "lattice_ratio": 2.0}}):
+    for other in ({"interface": {"kind": "wall"}, "drive": {"path": ["relax"]}}, {"surface": {"sites": 16, "lattice_ratio": 2.0}}):
         assert "precision" not in parameters(**other)  # pairs are in double
     wall = {"kind": "wall"}
-    assert parameters(interface=wall, drive={"path": ["zero-load"]}) == ["thickness", "tolerance"]  # it has no cutoff
-    assert "tail" in parameters(interface={**wall, "law": "smeared"}, drive={"path": ["zero-load"]})
+    assert parameters(interface=wall, drive={"path": ["relax"]}) == ["thickness", "tolerance"]  # it has no cutoff
+    assert "tail" in parameters(interface={**wall, "law": "smeared"}, drive={"path": ["relax"]})
     for parameter in case(surface={"sites": 32}).parameters:  # no value comes twice
         assert len({tuple(row.setting) for row in parameter.rows}) == len(parameter.rows) > 1, parameter.name
     for bad in ({"block": {"strain": "finite"}}, {"drive": {"temperature": 300}}, {"drive": {"max_steps": 10}}):
@@ -74,7 +74,7 @@ PHYSICS = ("interface.", "surface.", "drive.mode", "drive.path", "drive.velocity
 
 @pytest.mark.parametrize("sections, names", [
     ({}, ["layers", "precision", "timestep"]), ({"drive": {"mode": "quasistatic"}}, ["precision", "tolerance", "step"]),
-    ({"drive": {"path": ["zero-load"]}}, ["precision", "tolerance"]),
+    ({"drive": {"path": ["relax"]}}, ["precision", "tolerance"]),
     ({"block": {"strain": "finite"}}, ["layers", "precision", "timestep"])])
 def test_a_target_chooses_no_physics(sections, names):
     found = case(True, surface={"sites": 16}, **sections)
@@ -166,8 +166,8 @@ AT_REST = ["drive.mode=quasistatic", "drive.tolerance=0.001"]
 
 @pytest.mark.parametrize("given, best", [
     ([], ["block.model=lattice", "drive.timestep=10"]),
-    (AT_REST, ["drive.tolerance=1e-4", "drive.step=0.0625"]),
-    (["drive.path=zero-load"], ["drive.tolerance=2.5e-05"])], ids=["in time", "quasi-static", "state"])
+    (AT_REST, ["drive.tolerance=1e-4", "drive.displacement_step=0.0625"]),
+    (["drive.path=relax"], ["drive.tolerance=2.5e-05"])], ids=["in time", "quasi-static", "state"])
 def test_the_settings_for_a_target_keep_it(tmp_path, monkeypatch, given, best):
     """What is printed, put behind `run`, against the same experiment with the best numerics."""
     monkeypatch.chdir(tmp_path)
@@ -182,7 +182,7 @@ def test_the_settings_for_a_target_keep_it(tmp_path, monkeypatch, given, best):
         result = Values(json.loads((tmp_path / place / "result.json").read_text()))
         flat = result.number("delta_gamma")
         found = {"gamma": result.number("binding_energy") / flat, "contact": result.number("contact_fraction")}
-        if given != ["drive.path=zero-load"]:
+        if given != ["drive.path=relax"]:
             found |= {"in": result.number("work_of_drive.approach") / flat, "force": result.number("pull_off_force"),
                       "out": result.number("work_of_drive.pull_off") / flat}
         return found

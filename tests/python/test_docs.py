@@ -44,7 +44,7 @@ def test_commands(work, line):
     elif " adhesion " in words:
         words = words.replace("--sites 128", "--sites 16") + " --progress off"
     elif " estimate " in words:
-        words += " --parts tail --progress off --set surface.sites=16 block.thickness=4 drive.path=zero-load"
+        words += " --parts tail --progress off --set surface.sites=16 block.thickness=4 drive.path=relax"
     elif " cost " in words:
         words += (" --parameters precision --progress off --set surface.sites=16 block.thickness=4 drive.velocity=40"
                   " drive.timestep=40")

@@ -18,7 +18,7 @@ from asperity.variations import Variation, Variations
 from conftest import command
 
 GAMMA, CONTACT = FLAT[0], FLAT[2]
-TINY = {"name": "tiny", "surface": {"sites": 32, "rms": 0.6}, "block": {"thickness": 32}, "drive": {"path": ["zero-load"]}}
+TINY = {"name": "tiny", "surface": {"sites": 32, "rms": 0.6}, "block": {"thickness": 32}, "drive": {"path": ["relax"]}}
 
 
 @pytest.mark.parametrize("order", [1, 2])
@@ -73,7 +73,7 @@ def test_a_scene_has_the_parts_that_apply():
     def varied(**sections):
         return [name for name, part in parts_of(**sections).items() if part.rows]
 
-    still = {"path": ["zero-load"]}
+    still = {"path": ["relax"]}
     assert varied(drive=still) == ["convergence", "tail", "thickness", "width", "seeds"]
     assert varied(drive=still, surface={"kind": "flat", "sites": 16}) == ["convergence", "tail", "thickness"]
     assert varied(drive=still, interface={"kind": "wall"}) == ["convergence", "spacing", "thickness", "width", "seeds"]
@@ -96,10 +96,10 @@ def test_a_scene_has_the_parts_that_apply():
 
 
 def test_a_wider_box_has_the_same_waves():
-    rows = parts_of(drive={"path": ["zero-load"]})["width"].rows
-    assert rows[-1].setting == ["surface.sites=16", "block.thickness=16", "surface.rolloff=1.5", "surface.cutoff=8", "surface.seed=4"]
-    wide = parts_of(drive={"path": ["zero-load"]}, surface={"sites": 32, "rolloff": 1})["width"].rows[-1].setting
-    assert wide == ["surface.sites=64", "block.thickness=64", "surface.rolloff=2", "surface.cutoff=32", "surface.seed=4"]
+    rows = parts_of(drive={"path": ["relax"]})["width"].rows
+    assert rows[-1].setting == ["surface.sites=16", "block.thickness=16", "surface.rolloff=1.5", "surface.q_max=8", "surface.seed=4"]
+    wide = parts_of(drive={"path": ["relax"]}, surface={"sites": 32, "rolloff": 1})["width"].rows[-1].setting
+    assert wide == ["surface.sites=64", "block.thickness=64", "surface.rolloff=2", "surface.q_max=32", "surface.seed=4"]
 
 
 def test_a_part_whose_run_failed_is_named():
@@ -142,7 +142,7 @@ def test_an_estimate_runs_resumes_and_is_read(place):
 
 
 def test_half_of_the_spacing_of_a_wall_leads_to_its_limit(place):
-    wall = {"interface.kind": "wall", "interface.range": 1.5, "surface.rms": 1.5, "surface.cutoff": 8}
+    wall = {"interface.kind": "wall", "interface.range": 1.5, "surface.rms": 1.5, "surface.q_max": 8}
     found = asperity.estimate(TINY, wall, parts=["spacing"]).numbers["binding_energy"]
     fine = asperity.run(TINY, {**wall, "surface.sites": 256, "surface.spacing": 2.6 / 8, "block.thickness": 256})
     assert abs(found.value - fine.binding_energy) > 2 * found.error > 0  # the bias is seen
@@ -150,7 +150,7 @@ def test_half_of_the_spacing_of_a_wall_leads_to_its_limit(place):
 
 
 def test_the_command(place):
-    (place / "tiny.toml").write_text("[surface]\nsites = 32\nrms = 0.6\n[drive]\npath = [\"zero-load\"]\n")
+    (place / "tiny.toml").write_text("[surface]\nsites = 32\nrms = 0.6\n[drive]\npath = [\"relax\"]\n")
     words = ["estimate", "tiny.toml", "--parts", "tail,thickness", "--progress", "off"]
     assert "4 runs" in command(*words, "--plan", "--out", "planned") and not (place / "planned").exists()
     said = command(*words)
@@ -183,7 +183,7 @@ def test_a_path_measures_its_lattice_on_a_coarser_one():
     wall = {"interface": {"kind": "wall"}, "drive": {"mode": "quasistatic"}, "block": {"thickness": 64}}
     parts = parts_of(surface={"sites": 64, "cutoff": 16}, **wall)
     coarse, = parts["spacing"].rows
-    assert coarse.setting == ["surface.spacing=5.2", "surface.sites=32", "block.thickness=32", "surface.cutoff=16"]
+    assert coarse.setting == ["surface.spacing=5.2", "surface.sites=32", "block.thickness=32", "surface.q_max=16"]
     assert parts["thickness"].base is coarse and "block.thickness=64" in parts["thickness"].rows[0].setting
     assert parts["spacing"].found is not None and parts["seeds"].base is parts["spacing"].base is not coarse
     for more in ({"cutoff": 17}, {"cutoff": 16, "sites": 62}):

@@ -30,9 +30,9 @@ def frames_of_xyz(path):
 def test_states_and_trajectory_as_atoms(path_run):
     place = path_run.directory
     said = command("export", place, "--to", "xyz")
-    assert f"{place}/export/zero-load.xyz" in said and f"{place}/export/trajectory.xyz" in said
-    (head, rows), = frames_of_xyz(place / "export/zero-load.xyz")
-    state = path_run.fields["zero-load"]
+    assert f"{place}/export/relaxed.xyz" in said and f"{place}/export/trajectory.xyz" in said
+    (head, rows), = frames_of_xyz(place / "export/relaxed.xyz")
+    state = path_run.fields["relaxed"]
     assert len(rows) == 2 * 32 * 32  # two layers
     assert "Properties=species:S:1:pos:R:3:type:I:1:displacement:R:3:pressure:R:1:contact:I:1" in head
     names = ["x", "y", "z", "type", "dx", "dy", "dz", "pressure", "contact", "gap", "distance"]
@@ -77,9 +77,9 @@ def packed(item, form):
 def test_maps_and_trajectory_for_paraview(path_run):
     place = path_run.directory
     assert f"{place}/export/trajectory.pvd" in command("export", place, "--to", "vtk")
-    state = path_run.fields["zero-load"]
+    state = path_run.fields["relaxed"]
     found = {}
-    for item in tree.parse(place / "export/zero-load.vti").iter("DataArray"):
+    for item in tree.parse(place / "export/relaxed.vti").iter("DataArray"):
         found[item.get("Name")] = packed(item, "<f8" if item.get("type") == "Float64" else "u1")
     assert (found["pressure (GPa)"] == state.pressure.ravel()).all() and (found["contact"] == state.contact.ravel()).all()
     assert (found["displacement (Å)"].reshape(-1, 3)[:, 2] == state.u_z.ravel()).all()
@@ -102,9 +102,9 @@ def test_maps_lie_where_the_atoms_are(path_run):
     place = path_run.directory
     for kind in ("xyz", "vtk"):
         command("export", place, "--to", kind)
-    (_, rows), = frames_of_xyz(place / "export/zero-load.xyz")
+    (_, rows), = frames_of_xyz(place / "export/relaxed.xyz")
     rigid, sites = rows[rows[:, 3] == 1, :2], rows[rows[:, 3] == 2]
-    for name, expected in {"substrate": rigid, "zero-load": sites[:, :2] - sites[:, 4:6]}.items():
+    for name, expected in {"substrate": rigid, "relaxed": sites[:, :2] - sites[:, 4:6]}.items():
         image = tree.parse(place / f"export/{name}.vti").find("ImageData")
         origin, spacing = ([float(v) for v in image.get(key).split()] for key in ("Origin", "Spacing"))
         n = int(image.get("WholeExtent").split()[1]) + 1
@@ -138,13 +138,13 @@ def test_the_h5md_has_what_the_specification_demands(path_run):
 def test_pictures(path_run):
     command("export", path_run.directory, "--to", "png")
     for name in ("gap", "pressure", "contact"):
-        assert matplotlib.image.imread(path_run.directory / f"export/{name}-zero-load.png")[..., :3].std() > 0.02
+        assert matplotlib.image.imread(path_run.directory / f"export/{name}-relaxed.png")[..., :3].std() > 0.02
 
 
 def test_a_trajectory_changes_no_numbers_and_survives_a_stop(path_run, tmp_path):
     plain = asperity.run(SMALL, out=tmp_path / "plain")
     assert plain.binding_energy == path_run.binding_energy
-    assert plain.find("work_of_adhesion") == path_run.find("work_of_adhesion")
+    assert plain.find("work_of_interface") == path_run.find("work_of_interface")
     scene = tmp_path / "small.toml"
     scene.write_text("[surface]\nsites = 32\nrms = 0.5\n[drive]\nvelocity = 100\ntimestep = 20\n")
     words = ["run", scene, "--progress", "off", "--set", "output.trajectory=300", "output.velocities=true", "--out",
@@ -174,7 +174,7 @@ def test_what_cannot_be_exported_is_a_message(path_run, tmp_path):
 
 
 @pytest.mark.parametrize("name, shape", [("substrate/height", (3000, 1)), ("substrate/height", ()),
-                                         ("fields/zero-load/u_x", (7,)), ("fields/zero-load/gap", (5, 5))])
+                                         ("fields/relaxed/u_x", (7,)), ("fields/relaxed/gap", (5, 5))])
 @pytest.mark.parametrize("kind", ["xyz", "vtk"])
 def test_damaged_files_are_a_message(path_run, tmp_path, name, shape, kind):
     copy = tmp_path / "copy"

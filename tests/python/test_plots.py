@@ -52,7 +52,7 @@ def test_the_theory_over_roughness_meets_the_runs_own(path_run):
     ax = path_run.plot.roughness(axes())
     theory = next(c for c in style.drawn(ax).curves if c.label == "theory")
     at_own = np.interp(path_run.surface.rms, theory.x, theory.y)
-    assert at_own == pytest.approx(path_run.theory.gamma_eff / path_run.delta_gamma, abs=1e-3)
+    assert at_own == pytest.approx(path_run.theory.persson.gamma_eff / path_run.delta_gamma, abs=1e-3)
     assert theory.x[-1] == pytest.approx(1.8 * path_run.surface.rms)
 
 
@@ -61,7 +61,7 @@ def test_each_theory_is_over_its_own_reference(state_run):
     run = asperity.run({**state_run["scene"], "name": "given"}, {"theory.delta_gamma": 130.0, "drive.load": 100},
                        out=state_run.directory.with_name("given"))
     curves = {c.label: c for c in style.drawn(run.plot.roughness(axes())).curves}
-    for label, ratio in (("theory", run.theory.gamma_eff / 130),
+    for label, ratio in (("theory", run.theory.persson.gamma_eff / 130),
                          ("renormalised theory", theories.of_run(run).number("theory.renormalised.gamma_eff_ratio"))):
         curve = curves[label + " under a load of 100 MPa"]
         assert np.interp(run.surface.rms, curve.x, curve.y) == pytest.approx(ratio, abs=2e-3)
@@ -69,7 +69,7 @@ def test_each_theory_is_over_its_own_reference(state_run):
 
 
 def test_distributions_are_normalised(path_run):
-    state = path_run.fields["zero-load"]
+    state = path_run.fields["relaxed"]
     one = style.drawn(path_run.plot.pressures(axes())).curves[0]
     y = np.nan_to_num(one.y)
     fraction = np.sum(y[::2] * (one.x[1::2] - one.x[::2]))
@@ -79,14 +79,14 @@ def test_distributions_are_normalised(path_run):
 def test_maps_are_seen_from_above(path_run):
     ax = path_run.plot.map("gap", axes())
     shown = ax.images[0]
-    assert shown.origin == "lower" and (shown.get_array() == path_run.fields["zero-load"].gap).all()
+    assert shown.origin == "lower" and (shown.get_array() == path_run.fields["relaxed"].gap).all()
     assert shown.get_extent() == pytest.approx([0, 8.32, 0, 8.32])  # nm
 
 
 def test_what_is_not_there_is_a_message(state_run):
     with pytest.raises(asperity.InputOutputError, match="separation"):
         state_run.plot.separation(axes())
-    with pytest.raises(asperity.InputOutputError, match="states: zero-load"):
+    with pytest.raises(asperity.InputOutputError, match="states: relaxed"):
         state_run.plot.map("gap", axes(), state="pull-off")
     with pytest.raises(AttributeError, match="separation"):
         state_run.plot.sepration
@@ -129,7 +129,7 @@ def test_files_hold_the_curves(path_run, tmp_path):
     inline = style.inline_svg(fig)
     assert inline.startswith("<svg") and "<metadata" not in inline
     assert " width=" not in inline.split(">")[0] and "var(--ink)" in inline
-    fig = style.make(lambda ax: run_plots.map_of(path_run, path_run.fields["zero-load"], "gap", ax))
+    fig = style.make(lambda ax: run_plots.map_of(path_run, path_run.fields["relaxed"], "gap", ax))
     assert np.genfromtxt(io.StringIO(style.csv(fig)), delimiter=",").shape == (32, 32)
 
 
@@ -143,8 +143,8 @@ def test_points_carry_their_uncertainty():
         return approach.average(Table(["surface.rms", "surface.seed"], [
             {"set": {"surface.rms": 1.0, "surface.seed": i}, "theory": {}, "status": "done", "result": r}
             for i, r in enumerate(results)], True))
-    energy, ratio = "work_of_adhesion.approach", "work_of_adhesion.approach_ratio"
-    uncertainty = "work_of_adhesion.uncertainty.approach"
+    energy, ratio = "work_of_interface.approach", "work_of_interface.approach_ratio"
+    uncertainty = "work_of_interface.uncertainty.approach"
     one = {energy: 50.0, ratio: 0.5, uncertainty: 3.0}
     assert average(one) == pytest.approx((0.5, 0.03))
     spread = 0.04 / np.sqrt(2)  # of two, a deviation of 0.04

@@ -18,8 +18,8 @@ thickness = 90
 [drive]
 mode = "quasistatic"
 """
-FIELDS = '[output]\nfields = ["zero-load", "pull-off", "every:40"]\n'
-HELD = "drive.hold=mean-height"
+FIELDS = '[output]\nfields = ["relaxed", "pull-off", "every:40"]\n'
+HELD = "drive.control=mean-height"
 CYCLES = 'drive.path=["approach", "pull-off", "approach", "pull-off"]'
 
 
@@ -52,7 +52,7 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
     assert lost.approach > 1 and lost.pull_off > 1
     assert work.approach + lost.approach == pytest.approx(whole.binding_energy, abs=0.1)
     assert work.pull_off - lost.pull_off == pytest.approx(whole.binding_energy, abs=0.1)
-    assert {"zero-load", "pull-off", "step-40"} <= set(whole.fields)
+    assert {"relaxed", "pull-off", "step-40"} <= set(whole.fields)
     assert "dissipated" in whole.series and "time" not in whole.series
     stop("parts", "0.05s")
     resume("parts", "drive.max_steps=37")
@@ -62,11 +62,11 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
     run("held", HELD)
     held = asperity.load("held")
     assert held.binding_energy == pytest.approx(whole.binding_energy, abs=0.1)
-    for work in held.work_of_adhesion.approach, held.work_of_adhesion.pull_off:
+    for work in held.work_of_interface.approach, held.work_of_interface.pull_off:
         assert work == pytest.approx(whole.binding_energy, abs=0.5)
     stop("held-parts", "0.05s", HELD)
     before = Path("held-parts/result.json").read_bytes()
-    resume("held-parts", expect=2, says="differs from it in drive.hold")
+    resume("held-parts", expect=2, says="differs from it in drive.control")
     assert before == Path("held-parts/result.json").read_bytes()
     resume("held-parts", HELD)
     assert found("held-parts") == found("held")
@@ -75,14 +75,14 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
 def test_two_cycles(place):
     """Maps of both states at zero load; each branch's loss is of the last one, the energy of all."""
     run("cycles", CYCLES)
-    assert {"zero-load", "zero-load-2"} <= set(asperity.load("cycles").fields)
+    assert {"relaxed", "relaxed-2"} <= set(asperity.load("cycles").fields)
     run("parts", CYCLES, "drive.max_steps=150")
     resume("parts", CYCLES)
     assert found("parts") == found("cycles")
 
 
 def test_walls(place):
-    wall = ["interface.kind=wall", "interface.adhesion=60", 'output.fields=["zero-load"]']
+    wall = ["interface.kind=wall", "interface.adhesion=60", 'output.fields=["relaxed"]']
     run("wall", *wall, says="interface energy + energy dissipated")
     stop("parts", "0.02s", *wall)
     resume("parts", *wall)
@@ -95,7 +95,7 @@ def test_walls(place):
 
 
 def test_one_relaxation_stopped_inside(place):
-    zero = ["drive.path=zero-load", 'output.fields=["zero-load"]', "surface.sites=64", "drive.tolerance=1e-6"]
+    zero = ["drive.path=relax", 'output.fields=["relaxed"]', "surface.sites=64", "drive.tolerance=1e-6"]
     run("zero", *zero)
     stop("parts", "0.001s", *zero)
     resume("parts", *zero)
@@ -104,7 +104,7 @@ def test_one_relaxation_stopped_inside(place):
 
 @pytest.mark.parametrize("sets, expect, says", [
     (['output.fields=["every:10", "every:7"]'], 2, "twice"),
-    ([HELD, 'drive.path=["zero-load"]', "output.fields=[]"], 0, "drive.hold has no effect"),
-    (["output.fields=[]", 'drive.path=["zero-load","pull-off"]', "drive.load=100"], 0, "carries drive.load")])
+    ([HELD, 'drive.path=["relax"]', "output.fields=[]"], 0, "drive.control has no effect"),
+    (["output.fields=[]", 'drive.path=["relax","pull-off"]', "drive.load=100"], 0, "carries drive.load")])
 def test_what_a_check_says(place, sets, expect, says):
     command("check", "path.toml", "--set", *sets, expect=expect, says=says)

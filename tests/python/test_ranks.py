@@ -34,11 +34,11 @@ def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     threads = [numbers.pop("threads") for numbers, _ in found]
     assert threads == [len(processors), max(1, len(processors) // 2)]
     assert one[0] == two[0] and (one[1] == two[1]).all()
-    assert gaps[0] == pytest.approx(gaps[1], rel=1e-12) == path_run.fields["zero-load"].gap.sum()
+    assert gaps[0] == pytest.approx(gaps[1], rel=1e-12) == path_run.fields["relaxed"].gap.sum()
     assert one[0]["refused"] and one[0]["work"] > 0 and abs(one[0]["balance"]) < 1e-3
     assert one[0]["binding_energy"] == path_run.binding_energy
     assert one[0]["contact_fraction"] == path_run.contact_fraction
-    assert one[0]["pull_off"] == path_run.work_of_adhesion.pull_off
+    assert one[0]["pull_off"] == path_run.work_of_interface.pull_off
     series = one[0]["series"]
     of_run = numpy.isin(path_run.series["step"], series["step"])
     for name in set(series) - {"count"}:

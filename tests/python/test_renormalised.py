@@ -232,7 +232,7 @@ def test_persson_by_the_equation_of_first_passage(h, load):
         return np.interp(q, fine, np.append(0, np.cumsum(0.5 * (values[1:] + values[:-1]) * np.diff(fine))))
 
     T, energy = math.pi / 2 * modulus**2 * moment(3), math.pi / 2 * modulus * moment(2)
-    given_gamma, ratio = found["theory"]["delta_gamma"] / 1e3, found["theory"]["gamma_eff_ratio"]
+    given_gamma, ratio = found["theory"]["persson"]["delta_gamma"] / 1e3, found["theory"]["persson"]["gamma_eff_ratio"]
     area, gamma = survivors(load * gpa / 1e3, q, T, energy, np.ones(len(q)), modulus, ratio * given_gamma)
-    assert area == pytest.approx(found["theory"]["contact_fraction"], abs=3e-3)
+    assert area == pytest.approx(found["theory"]["persson"]["contact_fraction"], abs=3e-3)
     assert (gamma / given_gamma - 1) * area == pytest.approx(0, abs=3e-3)

@@ -64,7 +64,7 @@ def test_the_page_of_a_path(path_run):
         assert text in found.text, text
     # Numbers are those of the result, to the digits that are shown.
     assert f"{path_run.binding_energy / path_run.delta_gamma:.3f}" in found.text
-    assert f"{path_run.work_of_adhesion.pull_off:.2f} meV/Å²" in found.text
+    assert f"{path_run.work_of_interface.pull_off:.2f} meV/Å²" in found.text
     # Nothing is fetched from anywhere.
     assert [v for v in found.links if not v.startswith(("#", "data:"))] == []
     assert found.tags.count("figure") == found.tags.count("svg") == len(found.data) == 13
@@ -94,7 +94,7 @@ def test_values_can_be_read_by_pointing(path_run):
     assert force["pull-off"][0] == pytest.approx([height[segment][0], stress[segment][0]], rel=1e-4)
     one = next(d["map"] for d in maps if "gap" in d["map"]["unit"])
     raw = np.frombuffer(base64.b64decode(one["values"]), "<u2").reshape(one["n"], one["n"])
-    gap = path_run.fields["zero-load"].gap
+    gap = path_run.fields["relaxed"].gap
     assert one["low"] + raw / 65534 * (one["high"] - one["low"]) == pytest.approx(gap, abs=2e-5 * np.ptp(gap))
     left, top, right, bottom = curves[0]["frame"]
     assert 0 < left < right <= 1 and 0 < top < bottom <= 1
@@ -105,17 +105,18 @@ def stored(tmp_path, path, load):
     tmp_path.joinpath("result.json").write_text(json.dumps({
         "scene": {"surface": {"sites": 32, "spacing": 2.6}, "drive": {"path": path, "load": load}},
         "delta_gamma": 80.0, "binding_energy": 40.0, "contact_fraction": 0.5,
-        "work_of_adhesion": {"approach": 36.0, "pull_off": 44.0},
+        "work_of_interface": {"approach": 36.0, "pull_off": 44.0},
         "work_of_drive": {"approach": 30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
         "lost": {"cycle": 20.0},
-        "theory": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25, "gamma_full_contact": 20.0,
+        "theory": {"persson": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25,
+                               "gamma_full_contact": 20.0},
                    "renormalised": {"gamma_eff": 60.0}}}))
     return asperity.load(tmp_path)
 
 
 @pytest.mark.parametrize("path, load, at, under", [
-    (["zero-load"], 100.0, "under a load of 100 MPa", " under a load of 100 MPa"),
-    (["zero-load"], 0.0, "at zero load", ""),
+    (["relax"], 100.0, "under a load of 100 MPa", " under a load of 100 MPa"),
+    (["relax"], 0.0, "at zero load", ""),
     (["approach", "pull-off"], -5.5, "at zero load", " under a load of −5.5 MPa")])  # the state carries none
 def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     run = stored(tmp_path, path, load)
@@ -126,7 +127,7 @@ def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     first = "Without external force" if at == "at zero load" else "U" + at[1:]
     assert state.startswith(first + " the solids are bound") and theory.startswith(f"Persson’s theory{under} gives")
     assert theory.endswith(" meV/Å²" + f" {at}" * bool(under) + ".")
-    assert sentences.state_in_words(run, "zero-load") == at
+    assert sentences.state_in_words(run, "relaxed") == at
 
 
 def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
@@ -146,7 +147,7 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)
     rows = [re.findall(r"<td.*?>(.*?)</td>", row) for row in rows]
     over = {cells[0].split(":")[0]: cells[-1] for cells in rows if len(cells) == 4}
-    assert over["theory.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
+    assert over["theory.persson.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
 
 
 def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
@@ -184,9 +185,9 @@ def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path):
     found = page(damaged)
     assert "it is not an HDF5 file" in found.text and "binding energy at zero load" in found.text
     with unsealed(shaped / "run.h5") as file:
-        del file["substrate/height"], file["fields/zero-load/gap"]
+        del file["substrate/height"], file["fields/relaxed/gap"]
         file["substrate/height"] = np.zeros((3000, 1))
-        file["fields/zero-load/gap"] = np.zeros(3)
+        file["fields/relaxed/gap"] = np.zeros(3)
     found = page(shaped)
     assert "Height of the substrate: no figure" in found.text and "Gap: no figure" in found.text
     assert "Force and separation" in found.text
@@ -297,8 +298,8 @@ def test_where_a_sweep_over_roughness_has_half(curved, says):
     for rms, ratio in ((1.0, 0.8), (2.0, 0.3)):  # straight lines: the half is known
         result = {"delta_gamma": 50.0, "binding_energy_ratio": ratio, "contact_fraction": ratio + 0.15}
         if curved:
-            result |= {"contact_radius.zero_load": 20.0, "jkr.out_ratio": ratio - 0.05}
-        theory = {"delta_gamma": 50.0, "gamma_eff": 50.0 * ratio - 5.0, "contact_fraction": ratio - 0.1,
+            result |= {"contact_radius.relaxed": 20.0, "jkr.pull_off_ratio": ratio - 0.05}
+        theory = {"persson": {"delta_gamma": 50.0, "gamma_eff": 50.0 * ratio - 5.0, "contact_fraction": ratio - 0.1},
                   "renormalised": {"gamma_eff_ratio": ratio + 0.1}}
         points.append({"set": {"surface.rms": rms}, "delta_gamma": 50.0, "status": "done", "theory": theory,
                        "directory": f"rms={rms}", "result": result})

@@ -23,22 +23,22 @@ from conftest import SMALL, STATE, command, unsealed
 def test_a_result_is_what_the_files_hold(path_run):
     stored = json.loads((path_run.directory / "result.json").read_text())
     assert path_run.binding_energy == stored["binding_energy"]
-    assert path_run.work_of_adhesion.pull_off == stored["work_of_adhesion"]["pull_off"]
-    assert path_run["theory"]["gamma_eff"] == path_run.number("theory.gamma_eff")
+    assert path_run.work_of_interface.pull_off == stored["work_of_interface"]["pull_off"]
+    assert path_run["theory"]["persson"]["gamma_eff"] == path_run.number("theory.persson.gamma_eff")
     assert set(path_run) == set(stored)
     with h5py.File(path_run.directory / "run.h5") as file:
         assert (path_run.series["force"] == file["series/force"][:]).all()
-        pressure = file["fields/zero-load/pressure"][:]
-        assert (path_run.fields["zero-load"].pressure == pressure).all()
+        pressure = file["fields/relaxed/pressure"][:]
+        assert (path_run.fields["relaxed"].pressure == pressure).all()
         assert (path_run.substrate.height == file["substrate/height"][:]).all()
     assert pressure[3, 5] != pressure[5, 3]  # or the test could not tell x from y
     assert path_run.series.unit("force") == "eV/Å"
-    assert path_run.fields["zero-load"].unit("pressure") == "GPa"
+    assert path_run.fields["relaxed"].unit("pressure") == "GPa"
     assert path_run.title == "small: rms 0.5 Å, 32 × 32"
     with pytest.raises(AttributeError, match="binding_energy"):
         path_run.binding_enrgy
     with pytest.raises(AttributeError, match="pressure"):
-        path_run.fields["zero-load"].presure
+        path_run.fields["relaxed"].presure
 
 
 def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
@@ -57,16 +57,16 @@ def test_numbers_are_found_by_their_paths(path_run):
 
 
 def test_overrides_and_dictionaries_reach_the_program():
-    text = scene.toml_of({"surface": {"sites": 64, "rms": np.float64(0.25)}, "drive": {"path": ["zero-load"]},
+    text = scene.toml_of({"surface": {"sites": 64, "rms": np.float64(0.25)}, "drive": {"path": ["relax"]},
                           "block.model": "lattice"})
     assert text.startswith('block.model = "lattice"\n')
     named = {"name": "as named", "surface": {"sites": 64, "file": None}, "block.young": "80 GPa"}
     with scene.scene_file(named) as file:
-        found = program.check(file, scene.assignments({"surface.rms": "0.3 nm", "drive.path": ["zero-load"]}))
+        found = program.check(file, scene.assignments({"surface.rms": "0.3 nm", "drive.path": ["relax"]}))
     assert found["name"] == "as named" and not found["problems"]
     assert found["scene"]["surface"]["rms"] == pytest.approx(3.0)
     assert found["scene"]["block"]["young"] == 80.0
-    assert found["scene"]["drive"]["path"] == ["zero-load"]
+    assert found["scene"]["drive"]["path"] == ["relax"]
 
 
 def test_the_schema_is_the_programs():
@@ -112,7 +112,7 @@ def test_a_run_file_that_another_program_writes_to_says_so(state_run, tmp_path, 
         if closed:
             file.close()
         result = asperity.load(tmp_path / "copy")
-        for missing in (lambda: result.fields["zero-load"], lambda: result.series["force"]):
+        for missing in (lambda: result.fields["relaxed"], lambda: result.series["force"]):
             with pytest.raises(KeyError, match="run.h5 cannot be read to its end"):
                 missing()
 
@@ -190,15 +190,15 @@ def test_a_damaged_run_file_is_noted_and_the_rest_is_used(path_run, tmp_path):
 def test_an_array_of_another_shape_is_a_message(path_run, tmp_path, shape):
     def change(name):
         with unsealed(name) as file:
-            for place in ("substrate/height", "fields/zero-load/pressure"):
+            for place in ("substrate/height", "fields/relaxed/pressure"):
                 del file[place]
                 file[place] = np.zeros(shape)
     found = damaged(path_run, tmp_path, change)
     with pytest.raises(asperity.InputOutputError, match="height"):
         found.substrate.height
     with pytest.raises(asperity.InputOutputError, match="pressure"):
-        found.fields["zero-load"].pressure
-    assert (found.fields["zero-load"].gap == path_run.fields["zero-load"].gap).all()
+        found.fields["relaxed"].pressure
+    assert (found.fields["relaxed"].gap == path_run.fields["relaxed"].gap).all()
 
 
 def test_words_and_groups_in_place_of_numbers_are_a_message(path_run, tmp_path):
@@ -229,7 +229,7 @@ IN_TIME = ["drive.path=approach", "drive.velocity=800", "drive.timestep=20", "dr
     ["drive.path=approach", "drive.mode=quasistatic", "drive.max_steps=3"],
     [*IN_TIME, "block.model=lattice", "block.thickness=12"], [*IN_TIME, "block.thickness=96"]])
 def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
-    keys = ["surface.rms=4", "drive.path=zero-load", "drive.tolerance=0.3", *effects]
+    keys = ["surface.rms=4", "drive.path=relax", "drive.tolerance=0.3", *effects]
 
     def words(sites):
         return [word for key in [*keys, f"surface.sites={sites}"] for word in ("--set", key)]

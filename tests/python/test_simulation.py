@@ -54,25 +54,25 @@ def test_numbers_are_those_of_a_run(path_run, device):
         assert (path_run.series[name][of_run] == values).all(), name
         assert path_run.series.unit(name) == asperity.engine.SERIES[name][0], name
     for way in ("approach", "pull_off"):
-        assert getattr(sim.work_of_adhesion, way) == getattr(path_run.work_of_adhesion, way)
+        assert getattr(sim.work_of_interface, way) == getattr(path_run.work_of_interface, way)
         assert getattr(sim.work_of_drive, way) == getattr(path_run.work_of_drive, way)
     assert sim.lost_in_cycle == path_run.lost.cycle
 
 
 def test_relax_is_the_state_of_a_run_and_changes_nothing(path_run):
     sim = asperity.Simulation(SMALL)
-    while sim.work_of_adhesion.approach is None:
+    while sim.work_of_interface.approach is None:
         sim.step()
     before = state(sim)
     found = sim.relax()
     assert found.binding_energy == path_run.binding_energy
     assert found.contact_fraction == path_run.contact_fraction
-    maps = path_run.fields["zero-load"]
+    maps = path_run.fields["relaxed"]
     assert (found.maps.gap == maps.gap).all() and (found.maps.pressure == maps.pressure).all()
     assert found.maps.contact.mean() == found.contact_fraction
     assert (state(sim) == before).all()
     sim.step(10**9)
-    assert sim.work_of_adhesion.pull_off == path_run.work_of_adhesion.pull_off
+    assert sim.work_of_interface.pull_off == path_run.work_of_interface.pull_off
 
 
 def test_maps_of_a_slide_are_of_one_step():
@@ -328,7 +328,7 @@ def test_bad_use(tmp_path):
         text = str(error.value)
         assert words in text and "fix:" in text, text
 
-    refused("has no time", lambda: tiny(drive__path='["zero-load"]'))
+    refused("has no time", lambda: tiny(drive__path='["relax"]'))
     refused("has no time", lambda: tiny(drive__mode="quasistatic"))
     refused("surface.sites", lambda: tiny(surface__sites=-3))
     refused("surface.sitess", lambda: tiny(surface__sitess=3))
@@ -380,13 +380,13 @@ def test_bad_use(tmp_path):
 
 
 STATIC = {"name": "static", "surface": {"sites": 16, "rms": 1.0}, "block": {"thickness": 16},
-          "drive": {"mode": "quasistatic", "hold": "mean-height"}}
+          "drive": {"mode": "quasistatic", "control": "mean-height"}}
 
 
 @pytest.mark.parametrize("hold", ["top", "mean-height"])
 def test_statics_meets_the_path_of_a_run(results, hold):
     """Led to points of a run's path on the way in, and out again, it has their forces, energies and losses."""
-    soft = {"drive.hold": hold, "block.thickness": 128}
+    soft = {"drive.control": hold, "block.thickness": 128}
     run = asperity.run(STATIC, soft, out=results / f"statics-{hold}")
     statics, name = asperity.Statics(STATIC, soft), {"top": "top", "mean-height": "mean_height"}[hold]
     column = {"top": "top_displacement"}.get(name, name)
@@ -436,7 +436,7 @@ def test_statics_under_loads():
 @pytest.mark.parametrize("hold", ["top", "mean-height"])
 def test_statics_copied_and_set_free(hold):
     """A copy leads back to where it was taken; what is set free is a state of a run, from wherever it started."""
-    statics = asperity.Statics(STATIC, {"drive.hold": hold, "drive.tolerance": 1e-6})
+    statics = asperity.Statics(STATIC, {"drive.control": hold, "drive.tolerance": 1e-6})
     name = {"top": "top", "mean-height": "mean_height"}[hold]
     setattr(statics, name, getattr(statics, name) - 10.0)
     held = statics.relax()
@@ -454,7 +454,7 @@ def test_statics_copied_and_set_free(hold):
     assert (back.energy, back.force) == pytest.approx((held.energy, held.force), abs=1e-4)
     assert statics.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-5)
     # In another engine, and written to: the sites come back from 0.1 Å.
-    other, moved = asperity.Statics(STATIC, {"drive.hold": hold, "drive.tolerance": 1e-6}), there
+    other, moved = asperity.Statics(STATIC, {"drive.control": hold, "drive.tolerance": 1e-6}), there
     moved.u[...] += 0.1 * numpy.sin(numpy.arange(16.0))
     other.restore(asperity.engine.State(moved.u, moved.top))
     assert other.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-4)

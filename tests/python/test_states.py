@@ -15,7 +15,7 @@ import asperity.state_search
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
 interface = { frictionless = true }
-drive = { path = ["zero-load"] }
+drive = { path = ["relax"] }
 """
 AREA = (64 * 2.6)**2
 RUN = ["run", "hill.toml", "--progress", "off", "--out"]
@@ -44,7 +44,7 @@ def test_two_states_and_the_work_between_them(whole, place):
     assert whole["deepest"] == 1 and first["found"] == ["run", "approach"] and whole["approach_less_run"] == 0.0
     assert first["binding_energy"] == asperity.run("hill.toml").binding_energy < deeper["binding_energy"] / 2
     # A path from the one to the other: no force at both ends, between them the work and the barrier.
-    statics = asperity.Statics("hill.toml", {"drive.hold": "mean-height"})
+    statics = asperity.Statics("hill.toml", {"drive.control": "mean-height"})
     statics.free()
     largest, work, z = 0.0, 0.0, first["mean_height"]
     while z > deeper["mean_height"]:
@@ -100,7 +100,7 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
 def test_lateral_forces_on_a_soft_steep_surface(place):
     """An approach, a run, a press and random displacements end in states of their own, and none is called complete."""
     Path("soft.toml").write_text("surface = { sites = 16, rms = 4, seed = 2, rolloff = 1 }\n"
-                                 "block = { young = 8, thickness = 16 }\ndrive = { path = [\"zero-load\"] }\n")
+                                 "block = { young = 8, thickness = 16 }\ndrive = { path = [\"relax\"] }\n")
     said = command("states", "soft.toml", says=["meV/Å² relative to that of a run", "random starts led to"])
     found = json.loads(Path("results/soft-states/states.json").read_text())
     by = {name: state for state in found["states"] for name in state["found"]}
@@ -133,7 +133,7 @@ def test_a_checkpoint_while_a_relaxation_goes_on(place):
 def test_jkr_is_of_a_state_without_load(place):
     for load in (0, 20):
         command(*RUN, f"sphere-{load}", "--set", "surface.kind=flat", "surface.radius=500", f"drive.load={load}")
-        assert (asperity.load(f"sphere-{load}").find("jkr.zero_load") is not None) == (load == 0)
+        assert (asperity.load(f"sphere-{load}").find("jkr.relaxed") is not None) == (load == 0)
 
 
 @pytest.mark.parametrize("words, says", [

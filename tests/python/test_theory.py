@@ -25,12 +25,12 @@ def test_the_numbers_of_the_paper(place):
     command("theory", PAPER, "--set", "surface.rms=5", "--out", "paper",
             says=["critical rms   6.972", "hold together without any load"])
     result = asperity.load("paper")
-    assert result.theory.gamma_eff == pytest.approx(15.159, abs=result.theory.gamma_eff_error + 5e-4)
-    assert result.theory.contact_fraction == pytest.approx(0.66628, abs=result.theory.contact_fraction_error)
+    assert result.theory.persson.gamma_eff == pytest.approx(15.159, abs=result.theory.persson.gamma_eff_error + 5e-4)
+    assert result.theory.persson.contact_fraction == pytest.approx(0.66628, abs=result.theory.persson.contact_fraction_error)
     assert result.units.theory.renormalised.gamma_eff == "meV/Å^2"
-    assert result.theory.gamma_full_contact == pytest.approx(11.353, abs=0.002)
+    assert result.theory.persson.gamma_full_contact == pytest.approx(11.353, abs=0.002)
     with h5py.File("paper/theory.h5") as file:
-        assert file["profile/A"][-1] == pytest.approx(result.theory.contact_fraction, abs=1e-12)
+        assert file["profile/A"][-1] == pytest.approx(result.theory.persson.contact_fraction, abs=1e-12)
         assert file["profile/gamma_eff"].attrs["unit"] == "meV/Å^2" and file["profile/U_el"][-1] == 0
     assert not {"energy", "binding_energy"} & set(result) and "steps" not in result.run  # no simulation
 
@@ -47,16 +47,16 @@ def test_what_it_says(place, given, says):
 
 def test_limits_without_numbers(place):
     command("theory", "rough.toml", "--out", "rough", says="there is no adhesive solution")
-    assert asperity.load("rough").theory.gamma_eff == asperity.load("rough").theory.contact_fraction == 0
+    assert asperity.load("rough").theory.persson.gamma_eff == asperity.load("rough").theory.persson.contact_fraction == 0
     command("theory", "rough.toml", "--out", "rough", expect=2, says="already holds a result")
     command("theory", "rough.toml", "--set", "surface.kind=flat", "--out", "flat")
-    assert asperity.load("flat").theory.contact_fraction == 1
+    assert asperity.load("flat").theory.persson.contact_fraction == 1
 
 
 @pytest.mark.parametrize("words, expect, says", [
     ("rough.toml --set theory.delta_gamma=-1", 2, "theory.delta_gamma = -1"),
     ("rough.toml --set theory.spectrum=exact", 2, "theory.spectrum"),
-    ("rough.toml --set surface.cutoff=1 surface.rolloff=1", 2, "no roughness"),
+    ("rough.toml --set surface.q_max=1 surface.rolloff=1", 2, "no roughness"),
     ("gone.toml", 2, "there is no such file"), ("rough.toml --out rough.toml/x", 4, "rough.toml/x")])
 def test_what_is_wrong_is_said(place, words, expect, says):
     command("theory", *words.split(), expect=expect, says=says)
@@ -67,7 +67,7 @@ def test_a_run_carries_the_theory_of_its_scene(place):
     Path("small.toml").write_text("[surface]\nsites = 32\nrms = 0.5\n[drive]\nmax_steps = 2\n")
     command("run", "small.toml", "--progress", "off", "--out", "run")
     command("theory", "small.toml", "--out", "theory")
-    run, theory = (asperity.load(name).theory for name in ("run", "theory"))
+    run, theory = (asperity.load(name).theory.persson for name in ("run", "theory"))
     for key in ("gamma_full_contact", "gamma_eff"):
         assert run[key] == pytest.approx(theory[key], abs=1e-9)
     assert "renormalised" not in run and "sphere" not in run
@@ -82,8 +82,8 @@ def test_a_wall_without_adhesion(place):
     """There is no θ, and all else of the theory; a sweep runs whether its theory can be computed or not."""
     Path("wall.toml").write_text("[surface]\nsites = 32\nrms = 0.5\n[block]\nthickness = 32\n"
                                  "[interface]\nkind = 'wall'\nlaw = 'exponential'\nadhesion = 0\n"
-                                 "[drive]\npath = ['zero-load']\nload = 50\n")
+                                 "[drive]\npath = ['relax']\nload = 50\n")
     command("theory", "wall.toml", "--out", "theory")
-    assert asperity.load("theory").theory.contact_fraction > 0
-    for number, given in enumerate([["drive.load=50,100"], ["surface.rolloff=1", "surface.cutoff=1,2"]]):
+    assert asperity.load("theory").theory.persson.contact_fraction > 0
+    for number, given in enumerate([["drive.load=50,100"], ["surface.rolloff=1", "surface.q_max=1,2"]]):
         command("sweep", "wall.toml", "--set", *given, "--out", f"sweep-{number}", "--progress", "off")

@@ -28,7 +28,7 @@ def exported(path_run):
 @pytest.fixture(scope="module")
 def block(path_run):
     """Positions of the block's atoms at zero load, [site, 3]: what every reader must find."""
-    state = path_run.fields["zero-load"]
+    state = path_run.fields["relaxed"]
     y, x = np.divmod(np.arange(SITES), 32)
     spacing = path_run.edge / 32
     rest = np.column_stack([(x + 0.5) * spacing, (y + 0.5) * spacing, np.full(SITES, state.reference_height)])
@@ -42,9 +42,9 @@ def frames(path_run):
 
 def test_ase_reads_extended_xyz(path_run, exported, block, frames):
     io = pytest.importorskip("ase.io")
-    atoms = io.read(exported / "zero-load.xyz")
+    atoms = io.read(exported / "relaxed.xyz")
     assert atoms.positions[SITES:] == pytest.approx(block, abs=1e-5)
-    pressure = path_run.fields["zero-load"].pressure.ravel()
+    pressure = path_run.fields["relaxed"].pressure.ravel()
     assert atoms.arrays["pressure"][SITES:] == pytest.approx(pressure, rel=1e-5, abs=1e-9)
     assert list(atoms.pbc) == [True, True, False] and atoms.cell[0][0] == pytest.approx(path_run.edge)
     assert list(atoms.symbols[:1]) + list(atoms.symbols[-1:]) == ["X", "Au"]
@@ -60,11 +60,11 @@ def test_ase_reads_extended_xyz(path_run, exported, block, frames):
 
 def test_ovito_reads_atoms(path_run, exported, block, frames):
     import_file = pytest.importorskip("ovito.io").import_file
-    data = import_file(str(exported / "zero-load.xyz")).compute()
+    data = import_file(str(exported / "relaxed.xyz")).compute()
     assert data.particles.count == 2 * SITES
     assert data.particles.positions[SITES:] == pytest.approx(block, abs=1e-4)
     assert data.cell[0][0] == pytest.approx(path_run.edge) and list(data.cell.pbc) == [True, True, False]
-    pressure = path_run.fields["zero-load"].pressure.ravel()
+    pressure = path_run.fields["relaxed"].pressure.ravel()
     assert data.particles["pressure"][SITES:] == pytest.approx(pressure, rel=1e-5, abs=1e-9)
     film = import_file(str(exported / "trajectory.xyz"))
     assert film.source.num_frames == len(frames)
@@ -97,7 +97,7 @@ def vtk_arrays(data):
 
 def test_vtk_reads_maps(path_run, exported):
     vtk = pytest.importorskip("vtk")
-    for name, at, maps in (("zero-load", 0.5, path_run.fields["zero-load"]), ("substrate", 0.0, None)):
+    for name, at, maps in (("relaxed", 0.5, path_run.fields["relaxed"]), ("substrate", 0.0, None)):
         reader = vtk.vtkXMLImageDataReader()
         reader.SetFileName(str(exported / f"{name}.vti"))
         reader.Update()

@@ -57,8 +57,9 @@ TEST(Guard, SeesWhatIsNoPhysics) {
 
 TEST(Guard, NoStepJumpsOverThePotential) {
     for (const char* hold : {"top", "mean-height"}) {
-        const std::string scene = still + "drive.hold = \"" + hold + "\"\n";
-        const io::Json as_ever = result_of(scene), huge = result_of(scene + "drive.step = 1e6\n");
+        const std::string scene = still + "drive.control = \"" + hold + "\"\n";
+        const io::Json as_ever = result_of(scene),
+                       huge = result_of(scene + "drive.displacement_step = 1e6\n");
         for (const char* name : {"work_of_drive.approach", "work_of_drive.pull_off"}) {
             EXPECT_GT(number(as_ever, name), 60.0);
             EXPECT_NEAR(number(huge, name), number(as_ever, name), 0.05) << hold << " " << name;
@@ -83,7 +84,7 @@ TEST(Guard, APullThatNothingReachesIsNoZeroLoad) {
         EXPECT_LT(number(result_of(scene + "drive.load = -500\n"), "work_of_drive.approach"),
                   200.0);
     }
-    EXPECT_TRUE(has(refusal<io::PhysicsError>(rough + "drive.path = [\"zero-load\"]\n"
+    EXPECT_TRUE(has(refusal<io::PhysicsError>(rough + "drive.path = [\"relax\"]\n"
                                                       "drive.load = -8500\n"),
                     "smaller pull"));
 }

@@ -42,7 +42,7 @@ TEST_P(HardScene, StaysStable) {
     const io::Json result = follow(GetParam().name);
     const double residual = std::abs(number(result, "energy.balance_error"));
     EXPECT_LT(residual, GetParam().residual);
-    // The zero-load state is found, no better than flat on flat and no worse than nothing.
+    // The state at zero load is found, no better than flat on flat and no worse than nothing.
     const double fraction = number(result, "binding_energy") / number(result, "delta_gamma");
     EXPECT_GT(fraction, 0.0);
     EXPECT_LT(fraction, 1.0 + 1e-9);

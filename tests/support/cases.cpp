@@ -157,7 +157,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     Scene scene;
     scene.surface.sites = options.block.sites;
     scene.surface.spacing = options.block.spacing;
-    scene.interface.cutoff = std::min(scene.interface.cutoff, 0.5 * scene.edge());
+    scene.interface.cutoff = std::min(scene.interface.cutoff.value_or(13.12), 0.5 * scene.edge());
     Case c = resolve(scene);
     c.tolerance = tolerance;
     c.simulation = options;

@@ -103,7 +103,7 @@ struct Relaxed {
     double mean_height = 0.0;    ///< above the substrate's zero, Å
 };
 Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options, double reference_height);
-/// The zero-load state of this block on this surface.
+/// The state at zero load of this block on this surface.
 Relaxed relax_spectral(const BlockOptions& block, const InterfaceOptions& interface,
                        const Surface& surface, double tolerance, bool frictionless = false);
 

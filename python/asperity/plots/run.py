@@ -77,7 +77,7 @@ def loading(run: Result, ax: Axes) -> bool:
     """Force over the displacement of the driven top plane: what a testing machine records."""
     columns = _columns(run, "top_displacement", "top_force", "segment")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
-    if not columns or run.key("drive.hold") == "mean-height":
+    if not columns or run.key("drive.control") == "mean-height":
         return False
     unit, label = force_unit(run)
     return _by_segment(ax, run, columns[0], columns[1] / unit) and finish(ax, TOP, label, zero=True)
@@ -151,15 +151,15 @@ def spectrum(run: Result, ax: Axes) -> bool:
 
 def roughness(run: Result, ax: Axes) -> bool:
     """γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
-    flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.h_rms") or 0.0
+    flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.persson.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
     at, pressed = run.load_words
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
-    names = (("jkr.in_averaged", "approach, by JKR", BLUE, "o"), ("jkr.out", "pull-off, by JKR", RED, "s")) \
-        if run.curved else (("work_of_adhesion.approach", "interface, approach", BLUE, "o"),
-                            ("work_of_adhesion.pull_off", "interface, pull-off", RED, "s"),
+    names = (("jkr.approach_averaged", "approach, by JKR", BLUE, "o"), ("jkr.pull_off", "pull-off, by JKR", RED, "s")) \
+        if run.curved else (("work_of_interface.approach", "interface, approach", BLUE, "o"),
+                            ("work_of_interface.pull_off", "interface, pull-off", RED, "s"),
                             ("work_of_drive.approach", "drive, approach", SKY, "<"),
                             ("work_of_drive.pull_off", "drive, pull-off", YELLOW, ">"),
                             ("binding_energy", f"state {at}", GREEN, "^"))
@@ -181,7 +181,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     if not all("theory" in p for p in points):
         return []
     curves = []
-    for words, line, key, flat in (("theory", "-", "gamma_eff", "theory.delta_gamma"),
+    for words, line, key, flat in (("theory", "-", "persson.gamma_eff", "theory.persson.delta_gamma"),
                                    ("renormalised theory", DASHES[3], "renormalised.gamma_eff", "delta_gamma")):
         found = [(value, gamma / point.number(flat)) for value, point in zip(values, points)
                  if (gamma := point.number("theory." + key)) is not None]
@@ -231,7 +231,7 @@ def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     elif name == "pressure":
         look = {"label": "pressure (GPa), positive is repulsive", "cmap": PRESSURE}
     elif name == "gap" and run.curved:  # around a sphere it grows without end; beyond the cutoff it does not matter
-        look["high"] = run.number("scene.interface.cutoff")
+        look["high"] = run.number("interface.cutoff")
     return image(ax, state[name], run.edge, **look)
 
 
@@ -243,7 +243,7 @@ class RunPlots:
     """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
 
     Of the run: separation, loading, contact, energy, balance, spectrum, roughness, height.
-    Of a state: gaps(state="zero-load"), pressures(...), map("gap", state="zero-load").
+    Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed").
     """
 
     def __init__(self, run: Result):
@@ -256,7 +256,7 @@ class RunPlots:
         if name in OF_RUN:
             return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
         if name in OF_STATE:
-            return lambda ax=None, state="zero-load": self._draw(name, ax, OF_STATE[name], self._state(state))
+            return lambda ax=None, state="relaxed": self._draw(name, ax, OF_STATE[name], self._state(state))
         raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
 
     def _state(self, name: str) -> State:
@@ -265,7 +265,7 @@ class RunPlots:
                                    f"states: {', '.join(self._run.fields) or 'none'}", "see output.fields")
         return self._run.fields[name]
 
-    def map(self, name: str, ax: Axes | None = None, state: str = "zero-load") -> Axes:
+    def map(self, name: str, ax: Axes | None = None, state: str = "relaxed") -> Axes:
         """A map of a state: "gap", "pressure", "contact", ..."""
         return self._draw(name, ax, map_of, self._run, self._state(state), name)
 

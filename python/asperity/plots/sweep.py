@@ -59,41 +59,41 @@ class Trace:
         return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
 
 
-THEORY = Trace("theory{under}", "theory.gamma_eff_ratio", GREY, "-")
-FULL = Trace("theory{under}, assuming full contact", "theory.gamma_full_contact_ratio", GREEN, DASHES[1])
+THEORY = Trace("theory{under}", "theory.persson.gamma_eff_ratio", GREY, "-")
+FULL = Trace("theory{under}, assuming full contact", "theory.persson.gamma_full_contact_ratio", GREEN, DASHES[1])
 RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
 SPHERE = Trace("curved, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
-AREA = [Trace("theory{under}", "theory.contact_fraction", GREY, "-"),
+AREA = [Trace("theory{under}", "theory.persson.contact_fraction", GREY, "-"),
         Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
 GAMMA, CONTACT = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$"
 Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, SPHERE], [
-        Trace("interface, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o",
-              uncertainty="work_of_adhesion.uncertainty.approach"),
-        Trace("interface, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False,
-              uncertainty="work_of_adhesion.uncertainty.pull_off"),
+        Trace("interface, approach", "work_of_interface.approach_ratio", BLUE, "", "o",
+              uncertainty="work_of_interface.uncertainty.approach"),
+        Trace("interface, pull-off", "work_of_interface.pull_off_ratio", RED, "", "s", False,
+              uncertainty="work_of_interface.uncertainty.pull_off"),
         Trace("drive, approach", "work_of_drive.approach_ratio", SKY, "", "<",
               uncertainty="work_of_drive.uncertainty.approach"),
         Trace("drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
               uncertainty="work_of_drive.uncertainty.pull_off"),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
-        Trace("curved, in", "jkr.in_ratio", SKY, "", "D"),
-        Trace("curved, out", "jkr.out_ratio", YELLOW, "", "v", False),
-        Trace("curved, energy at zero load", "jkr.zero_load_ratio", PINK, "", "^")]),
+        Trace("curved, in", "jkr.approach_ratio", SKY, "", "D"),
+        Trace("curved, out", "jkr.pull_off_ratio", YELLOW, "", "v", False),
+        Trace("curved, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
     "readings": (GAMMA, [THEORY, RENORMALISED], [
-        Trace("∫F dz, approach", "work_of_adhesion.approach_ratio", BLUE, "", "o"),
-        Trace("∫F dz, pull-off", "work_of_adhesion.pull_off_ratio", RED, "", "s", False),
-        Trace("atom by atom, both ways", "work_of_adhesion.pairwise_ratio", YELLOW, "", "D", False),
+        Trace("∫F dz, approach", "work_of_interface.approach_ratio", BLUE, "", "o"),
+        Trace("∫F dz, pull-off", "work_of_interface.pull_off_ratio", RED, "", "s", False),
+        Trace("atom by atom, both ways", "pair_binding_energy_ratio", YELLOW, "", "D", False),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^")]),
     "area": (CONTACT, AREA, [Trace("state {at}", "contact_fraction", GREEN, "", "^")]),
     "separation": ("mean separation (Å)", [
         Trace("renormalised theory{under}", "theory.renormalised.separation", PINK, DASHES[3])], [
-        Trace("state {at}", "zero_load.mean_height", GREEN, "", "^")]),
+        Trace("state {at}", "relaxed.mean_height", GREEN, "", "^")]),
     "radius": ("√(contact area / π) (Å)", [], [
-        Trace("{at}", "contact_radius.zero_load", GREEN, "", "^"),
+        Trace("{at}", "contact_radius.relaxed", GREEN, "", "^"),
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
     "pull-off": ("largest attraction on the way out (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
