@@ -41,7 +41,8 @@ inline constexpr Quantity result_quantities[] = {
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
-     "its uncertainty: what forces of the size of drive.tolerance can stand for"},
+     "convergence of its solver, not its error (asperity estimate): what forces of the size of "
+     "drive.tolerance can stand for"},
     {"work_of_interface.approach", "meV/Å^2", per::area,
      "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, during "
      "the approach; of dynamic paths, and of quasi-static ones that control the mean height"},
@@ -50,7 +51,7 @@ inline constexpr Quantity result_quantities[] = {
     {"pair_binding_energy", "meV/Å^2", per::area,
      "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
     {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
-     "uncertainty of work_of_interface.approach without time, for the sequence of instabilities "
+     "convergence of work_of_interface.approach without time, for the sequence of instabilities "
      "that the path takes"},
     {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
@@ -60,7 +61,7 @@ inline constexpr Quantity result_quantities[] = {
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
      "work that the drive gives during the pull-off to rest out of reach: its work on the solids"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
-     "uncertainty of work_of_drive.approach without time, for the sequence of instabilities that "
+     "convergence of work_of_drive.approach without time, for the sequence of instabilities that "
      "the path takes"},
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.approach", "meV/Å^2", per::area,
@@ -78,8 +79,8 @@ inline constexpr Quantity result_quantities[] = {
      "energy, and that of vibrations, above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest out of reach"},
-    {"lost.uncertainty.approach", "meV/Å^2", per::area, "uncertainty of lost.approach"},
-    {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "uncertainty of lost.pull_off"},
+    {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
+    {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
      "sites closer to an atom than the inflection of the pair potential, at zero load; over a wall "
      "those that touch it, or nearer than its largest tension (smeared)"},

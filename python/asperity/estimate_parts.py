@@ -114,7 +114,7 @@ def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
 
 
 def widened(count: int, wider: bool) -> Rule:
-    """`count` rows of other surfaces of the base's width, then count + 1 of half of it, or of twice. The error falls between
+    """`count` rows of other surfaces of the base's width, then some of half of it, or of twice. The error falls between
     the inverse of the width (waves that are missing) and of the area (means over a finite one)."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         here, there = np.array([base, *rows[:count]]), rows[count:]
@@ -299,7 +299,8 @@ def _surfaces(scene: Variations, part: Callable, seeds: int) -> None:
         cutoff = min(own("surface.q_max"), scene.sites // 2)
         box = [*_box(scene, factor), f"surface.rolloff={factor * own('surface.rolloff'):.10g}",
                f"surface.q_max={factor * cutoff:.10g}"]
-        part("width", "geometry", f"{seeds} surfaces of {factor * scene.sites:.0f} x {factor * scene.sites:.0f} sites",
-             others + [(f"{factor:g} of the width, seed {n}", [*box, f"surface.seed={n}"]) for n in numbers],
+        of_box = numbers if wider else range(first, first + 2 * seeds)  # small ones scatter more, and take a quarter
+        part("width", "geometry", f"{len(of_box)} surfaces of {factor * scene.sites:.0f} x {factor * scene.sites:.0f} sites",
+             others + [(f"{factor:g} of the width, seed {n}", [*box, f"surface.seed={n}"]) for n in of_box],
              widened(len(others), wider))
     part("seeds", "realisation", f"{seeds} surfaces", others, mean)

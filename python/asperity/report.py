@@ -88,6 +88,8 @@ def _top(page: Page, run: Result) -> None:
     page.add("numbers", sentences.key_numbers(run))
     for sentence in sentences.results(run):
         page.add("paragraph", sentence)
+    if any("converged" in number.note for number in sentences.key_numbers(run)):
+        page.add("paragraph", sentences.CONVERGED)
     if not run.part("scene"):
         return
     # A result without a path or a state came from the theory alone.

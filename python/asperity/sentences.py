@@ -210,6 +210,8 @@ def results(run: Result) -> list[str]:
     return [t for t in text if t]
 
 
+CONVERGED = ("Behind a number stands how far its solver converged. Cutoff, spacing, thickness, width, velocity and the choice of the "
+             "surface are not in that: `asperity estimate` measures them.")
 ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout",
                    "edges: the box is periodic sideways")
 

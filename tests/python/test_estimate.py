@@ -97,7 +97,7 @@ def test_a_scene_has_the_parts_that_apply():
 
 def test_a_wider_box_has_the_same_waves():
     rows = parts_of(drive={"path": ["relax"]})["width"].rows
-    assert rows[-1].setting == ["surface.sites=16", "block.thickness=16", "surface.rolloff=1.5", "surface.q_max=8", "surface.seed=4"]
+    assert rows[-1].setting == ["surface.sites=16", "block.thickness=16", "surface.rolloff=1.5", "surface.q_max=8", "surface.seed=8"]
     wide = parts_of(drive={"path": ["relax"]}, surface={"sites": 32, "rolloff": 1})["width"].rows[-1].setting
     assert wide == ["surface.sites=64", "block.thickness=64", "surface.rolloff=2", "surface.q_max=32", "surface.seed=4"]
 
@@ -137,7 +137,7 @@ def test_an_estimate_runs_resumes_and_is_read(place):
     again = load_estimate("found")
     assert again.numbers == made.numbers and again.quote() == made.quote() and str(again) == str(made)
     asperity.estimate(TINY, {"interface.cutoff": 8.2}, "found", seeds=3)
-    assert {path: path.stat().st_mtime_ns for path in place.glob("found/*/result.json")} == before and len(before) == 10
+    assert {path: path.stat().st_mtime_ns for path in place.glob("found/*/result.json")} == before and len(before) == 13
     assert "Budget" in made.report().read_text()
 
 
