@@ -122,8 +122,6 @@ def widened(count: int, wider: bool) -> Rule:
         beyond = 1.0 / (2.0**1.5 - 1.0)
         factor = 1.0 + beyond if wider else beyond
         noise = math.hypot(standard_error(here), standard_error(there))
-        if abs(difference) <= 2.0 * noise:  # nothing that the scatter would not do
-            return Found(0.0, factor * max(abs(difference), noise))
         return Found(factor * difference, max(beyond * abs(difference), factor * noise))
     return rule
 
@@ -226,11 +224,12 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     if scene.mixed and scene.scene.text("numerics.precision") == "mixed":
         part("precision", "convergence", "double precision", scene.precisions("double"))
     _truncation(scene, part)
+    order = 1 if spacing_also(2) else None  # None: that of the quantity
     if coarse:
-        parts.append(Part("spacing", "discretisation", f"spacing {2 * own('surface.spacing'):.4g} Å", [coarse], coarser(2), base))
+        parts.append(Part("spacing", "discretisation", f"spacing {2 * own('surface.spacing'):.4g} Å", [coarse], coarser(2, order), base))
     elif scene.continuous:
         part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å",
-             [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2))
+             [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2, order))
     else:
         part("spacing", "discretisation", "not varied: the spacing is that of the atoms")
     _in_time(scene, part, start)

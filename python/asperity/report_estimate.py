@@ -145,7 +145,7 @@ def _set(text: str) -> str:
 
 def page_of(estimate: Estimate) -> Page:
     """Written by its write()."""
-    page = Page(estimate.directory, "Estimate", estimate.name, _set(quote(estimate.first)) + ".")
+    page = Page(estimate.directory, "Estimate", estimate.name, quote(estimate.first) + ".")
     page.section("numbers", "Numbers")
     for n in list(estimate.numbers.values())[1:]:
         page.add("paragraph", _set(quote(n)) + ".")
@@ -155,7 +155,9 @@ def page_of(estimate: Estimate) -> Page:
     page.figure("budget", "Budget of " + estimate.first.name, "Bars: what each part shifts; whiskers: its standard error.",
                 lambda ax: chart(estimate, ax))
     page.section("left-out", "What is not in the error")
-    page.add("lists", [("", [*estimate.unseen, *LEFT_OUT, *estimate.notes])])
+    page.add("lists", [("", [*estimate.unseen, *LEFT_OUT])])
+    page.section("notes", "Notes")
+    page.add("lists", estimate.notes and [("", estimate.notes)])
     return page
 
 

@@ -55,12 +55,14 @@ def test_twice_the_standard_error_of_few_surfaces_holds_their_mean():
     assert mean(GAMMA, 1.0, values[1:], []) == (2.0, standard_error(values))
 
 
-def test_a_width_is_corrected_only_where_it_is_seen():
-    here, other = [70.0, 70.2], [60.0, 60.1, 60.2]
-    seen = widened(2, False)(GAMMA, 70.1, np.array(here + other), [])
-    assert seen.shift == pytest.approx(10.0 / (2**1.5 - 1)) and seen.error == pytest.approx(seen.shift)
-    noise = widened(2, False)(GAMMA, 70.1, np.array(here + [60.0, 75.0, 73.0]), [])
-    assert noise.shift == 0.0 and noise.error > 0.5
+def test_a_width_is_continued_and_carries_the_scatter():
+    here, factor = [70.0, 70.2], 1 / (2**1.5 - 1)
+    seen = widened(2, False)(GAMMA, 70.1, np.array(here + [60.0, 60.1, 60.2]), [])
+    assert seen.shift == pytest.approx(10.0 * factor) and seen.error == pytest.approx(seen.shift)
+    noisy = widened(2, False)(GAMMA, 70.1, np.array(here + [60.0, 75.0, 73.0]), [])
+    assert noisy.shift == pytest.approx(0.7667 * factor, rel=1e-3) and noisy.error > 2 * factor
+    wider = widened(2, True)(GAMMA, 70.1, np.array(here + [80.0, 80.1, 80.2]), [])
+    assert wider.shift == pytest.approx(10.0 * (1 + factor)) and wider.error == pytest.approx(10.0 * factor)
 
 
 def parts_of(**sections):
