@@ -174,7 +174,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True},
-             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "step": 0.25 * used}}
+             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
     files.write(place / f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
     kept = surface_made(str(place / f"{stem}.toml"))[1]

@@ -14,7 +14,7 @@ from conftest import command
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
-SURFACE = {"sites": 32, "spacing": 5, "rms": 2.5, "cutoff": 8, "seed": 3}
+SURFACE = {"sites": 32, "spacing": 5, "rms": 2.5, "q_max": 8, "seed": 3}
 GIVEN = dict(E="5 GPa", nu=0.3, work="200 mJ/m2")
 
 

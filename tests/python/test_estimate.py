@@ -183,11 +183,11 @@ def test_a_path_in_time_is_led_to_the_one_without(place):
 def test_a_path_measures_its_lattice_on_a_coarser_one():
     """Which takes a quarter of the sites; the same waves fit on it."""
     wall = {"interface": {"kind": "wall"}, "drive": {"mode": "quasistatic"}, "block": {"thickness": 64}}
-    parts = parts_of(surface={"sites": 64, "cutoff": 16}, **wall)
+    parts = parts_of(surface={"sites": 64, "q_max": 16}, **wall)
     coarse, = parts["spacing"].rows
     assert coarse.setting == ["surface.spacing=5.2", "surface.sites=32", "block.thickness=32", "surface.q_max=16"]
     assert parts["thickness"].base is coarse and "block.thickness=64" in parts["thickness"].rows[0].setting
     assert parts["spacing"].found is not None and parts["seeds"].base is parts["spacing"].base is not coarse
-    for more in ({"cutoff": 17}, {"cutoff": 16, "sites": 62}):
+    for more in ({"q_max": 17}, {"q_max": 16, "sites": 62}):
         fine, = parts_of(surface={"sites": 64, **more}, **wall)["spacing"].rows
         assert "surface.spacing=1.3" in fine.setting
