@@ -152,8 +152,7 @@ def test_half_of_the_spacing_of_a_wall_leads_to_its_limit(place):
 
 
 def test_the_command(place):
-    (place / "tiny.toml").write_text("[surface]\nsites = 32\nrms = 0.6\n[drive]\npath = [\"relax\"]\n")
-    words = ["estimate", "tiny.toml", "--parts", "tail,thickness", "--progress", "off"]
+    words = ["estimate", write_tiny(place), "--parts", "tail,thickness", "--progress", "off"]
     assert "4 runs" in command(*words, "--plan", "--out", "planned") and not (place / "planned").exists()
     said = command(*words)
     for text in ("γ_eff = ", "one standard error", "left out: --parts", "plastic flow", "estimate.png"):
@@ -168,6 +167,19 @@ def test_the_command(place):
                         (["--set", "drive.mode=quasistatic", "drive.path=[\"load 100 MPa\"]"], "has no number to estimate")):
         command("estimate", "tiny.toml", *wrong, "--out", "bad", expect=2, says=says)
     assert not (place / "bad").exists()
+
+
+def test_what_a_solver_leaves_is_no_error_of_a_number(place):
+    said = command("run", write_tiny(place), "--out", "run", "--progress", "off",
+                   says=["convergence of the above", "not in it: asperity estimate"])
+    assert "±" not in said and "uncertainty" not in said
+    page = asperity.load("run").report().read_text()
+    assert "solver converged to" in page and "are not in that" in page and "±" not in page
+
+
+def write_tiny(place):
+    (place / "tiny.toml").write_text("[surface]\nsites = 32\nrms = 0.6\n[drive]\npath = [\"relax\"]\n")
+    return "tiny.toml"
 
 
 def test_a_path_in_time_is_led_to_the_one_without(place):

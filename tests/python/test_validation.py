@@ -13,6 +13,7 @@ sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion  # noqa: E402
 import rings  # noqa: E402
 import snaps  # noqa: E402
+import stated_errors  # noqa: E402
 
 
 def test_rings_without_adhesion_are_hertz():
@@ -52,3 +53,10 @@ def test_strong_adhesion_makes_a_surface_sticky(results):
     assert strong["kappa"] < 0 < weak["kappa"]
     # Without adhesion κ is about 2: adhesion always takes from 1/κ.
     assert weak["kappa"] < 0.5
+
+
+def test_the_error_of_an_estimate_holds_other_surfaces(results):
+    rows = stated_errors.compared(0, results / "stated", jobs=2, seeds=range(101, 105), sites=(32,))
+    assert [row["quantity"] for row in rows] == ["binding_energy", "binding_energy_ratio", "contact_fraction"]
+    for row in rows:
+        assert row["error"] > 0 and abs(row["off"]) < 2.5, row

@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """How often the truth lies within the error that `asperity estimate` states (docs/howto/estimate.md).
 
-    scenes/validation/coverage.py [--first 0] [--scenes 20] [--jobs 1] [--out results/coverage]
+    scenes/validation/stated_errors.py [--first 0] [--scenes 20] [--jobs 1] [--out results/stated-errors]
 
 Scenes are drawn at random: 64 to 128 sites, pairs by Lennard-Jones and by Morse with short cutoffs, and an exponential
 wall. The estimate of each is compared with 16 other surfaces of twice the width, with a tail and twice the cutoff, or
@@ -72,7 +72,7 @@ def main() -> None:
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--scenes", type=int, default=20)
     parser.add_argument("--jobs", type=int, default=1)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/coverage"))
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/stated-errors"))
     given = parser.parse_args()
     rows = []
     for number in range(given.first, given.first + given.scenes):
@@ -81,7 +81,7 @@ def main() -> None:
             print(f"{r['scene']:3} {r['kind']:13} {r['sites']:4}  {r['quantity']:20} {r['as it is']:9.4f} "
                   f"{r['estimate']:9.4f} ± {r['error']:.4f}  truth {r['truth']:9.4f} ± {r['of truth']:.4f}  "
                   f"{r['off']:+5.2f} errors", flush=True)
-        with open(given.out / "coverage.csv", "w", newline="") as file:
+        with open(given.out / "stated-errors.csv", "w", newline="") as file:
             writer = csv.DictWriter(file, rows[0])
             writer.writeheader()
             writer.writerows(rows)
