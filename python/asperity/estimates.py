@@ -20,7 +20,7 @@ import numpy as np
 from . import files, maps, program
 from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
 from .estimate_parts import CURVED, FLAT, Found, Part, Plan, SpacingAlso, edges, is_coarse, number_of, places, plan_of
-from .pool import DONE, PoolOptions
+from .pool import DONE, PoolOptions, refuse_jobs
 from .result import Values, read_json
 from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
 from .terminal import duration
@@ -70,6 +70,12 @@ class Estimate:
     @property
     def first(self) -> Number:
         return next(iter(self.numbers.values()))
+
+    def number(self, path: str = "") -> Number:
+        """Of this path; "": the first one."""
+        if path and path not in self.numbers:
+            raise SceneError(self.name, f"has no number {path!r}", "it has " + ", ".join(self.numbers), "ask for one of these")
+        return self.numbers[path] if path else self.first
 
     @property
     def unseen(self) -> list[str]:
@@ -244,6 +250,7 @@ class Estimating:
         of_file = keys["surface"]["kind"] == "file"
         map_parts = _map_parts(keys, scene, self.place / "maps", spacing_also(2) if is_coarse(varied) else None) if of_file else ()
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
+        only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
         for name in only:
             if name not in [part.name for part in self.plan.parts]:
                 raise SceneError(f"--parts {name}", "is none of them", "this scene has "
@@ -280,7 +287,7 @@ class Estimating:
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
         notes = list(self.notes)
-        if self.varied.moves and self.keys["drive"]["control"] == "top":
+        if self.varied.moves and self.keys["drive"]["control"] == "top" and self.keys["surface"]["radius"] == "none":
             notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
                          'a machine; drive.control="mean-height" has none.')
         for one in self.plan.parts:
@@ -309,9 +316,10 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
     out      the directory; None: results/<scene>-estimate
     jobs     runs side by side; they share the processors
     seeds    surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path
-    parts    only these parts of the error: "tail", "seeds", ...
+    parts    only these parts of the error: ["tail", "seeds"], or "tail,seeds"
     """
     program.refuse_ranks()
+    refuse_jobs(jobs)
     with scene_file(scene) as file:
         said: list[str] = []
         making = Estimating(file, assignments(overrides), None if out is None else str(out),

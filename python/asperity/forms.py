@@ -59,7 +59,7 @@ def _quote(self: Estimate, path: str = "") -> str:
     """A number as it is published, with its error and the parts of it; "": the first one."""
     from .report_estimate import quote
 
-    return quote(self.numbers[path] if path else self.first)
+    return quote(self.number(path))
 
 
 def _text_of_estimate(self: Estimate) -> str:

@@ -20,7 +20,7 @@ from . import files, maps, program, report_estimate
 from .errors import BY_CODE, InternalError, SceneError, Stopped
 from .estimate_parts import SpacingAlso
 from .estimates import Estimate, Estimating, surface_made
-from .pool import DONE, PHYSICS, STOPPED, PoolOptions
+from .pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
 from .report import write_run_page
 from .result import Result, Values
 from .scene import scene_file, toml_of
@@ -48,7 +48,7 @@ class Adhesion:
 
     def quote(self, path: str = "") -> str:
         """A number as it is published: "binding_energy", "lost.cycle", ...; "": the first one."""
-        return report_estimate.quote(self.estimate.numbers[path] if path else self.estimate.first)
+        return report_estimate.quote(self.estimate.number(path))
 
     def __repr__(self) -> str:
         return f"<Adhesion {self.directory}: {self.quote()}>"
@@ -204,6 +204,7 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
     jobs     runs side by side; they share the processors
     """
     program.refuse_ranks()
+    refuse_jobs(jobs)
     place = files.chosen(None if out is None else str(out), _place(str(map)))
     scene, notes, also = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel,
                                   sites=sites)

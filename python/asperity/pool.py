@@ -25,6 +25,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
+from numbers import Integral
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -79,6 +80,13 @@ class PoolOptions:
     progress: str = "auto"
     executor: Executor | None = None
     """whose workers run them"""
+
+
+def refuse_jobs(jobs: object) -> None:
+    """Raises SceneError for what is no number of runs side by side."""
+    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
+        raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
+                         "leave it out for one after the other")
 
 
 def look_at(job: Job) -> Outcome:

@@ -18,7 +18,6 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
-from numbers import Integral
 from pathlib import Path
 from typing import Any
 
@@ -28,7 +27,7 @@ import numpy as np
 from . import files, program, terminal, theories
 from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
-from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all
+from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from .result import Result, Values, read_json
 from .scene import SceneLike, scene_file
 from .tables import Columns, Table, columns_of, text_of
@@ -395,9 +394,7 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
                OMP_NUM_THREADS says more: mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need
                this package, the program and the same file system.
     """
-    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
-        raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
-                         "leave it out for one after the other")
+    refuse_jobs(jobs)
     if executor is None:
         program.refuse_ranks()
     elif not isinstance(executor, Executor):

@@ -177,6 +177,17 @@ def test_what_a_solver_leaves_is_no_error_of_a_number(place):
     assert "solver converged to" in page and "are not in that" in page and "±" not in page
 
 
+def test_what_cannot_be_asked_for_is_refused(place):
+    for given in ({"jobs": 0}, {"jobs": True}, {"seeds": 1}, {"parts": "nothing"}):
+        with pytest.raises(asperity.SceneError):
+            asperity.estimate(TINY, **given)
+    assert not list(place.iterdir())
+    made = asperity.estimate(TINY, parts="tail", out="tail")
+    assert list(made.numbers["binding_energy"].parts) == ["tail"]
+    with pytest.raises(asperity.SceneError, match="it has binding_energy, "):
+        made.quote("work_of_drive.approach")
+
+
 def write_tiny(place):
     (place / "tiny.toml").write_text("[surface]\nsites = 32\nrms = 0.6\n[drive]\npath = [\"relax\"]\n")
     return "tiny.toml"
