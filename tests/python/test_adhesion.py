@@ -153,3 +153,23 @@ def test_pieces_of_maps():
     slope = 0.3 * np.arange(32)
     assert np.abs(maps.without_tilt(wave + slope[:, None] - slope) - wave).max() < 0.02
     assert maps.jump(wave) == pytest.approx(1.0, abs=0.5) and maps.jump(wave[:, :12]) > maps.PERIODIC
+
+
+def test_pieces_of_a_scaled_map_are_scaled_alike(place):
+    draw = np.random.default_rng(4)
+    heights = np.cumsum(np.cumsum(draw.normal(size=(64, 64)), axis=0), axis=1)  # its opposite edges jump
+    np.save("map.npy", heights)
+    scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "nm", "file_size": 83.2, "sites": 32,
+                         "detrend": "periodic", "resample": "band-limited"},
+             "block": {"thickness": 32}, "drive": {"path": ["relax"]}}
+    as_measured = asperity.run(scene, out="whole").surface.rms
+    found = asperity.estimate(scene, {"surface.rms": 0.5}, "found", parts="edge,places").numbers["binding_energy"]
+    quarter, mirrored = (np.load(f"found/maps/{name}.npy") for name in ("quarter-1", "mirrored"))
+    np.testing.assert_allclose(quarter, 10 * heights[:32, :32] * 0.5 / as_measured, rtol=1e-9)
+    assert mirrored.shape == (128, 128)
+    assert asperity.load("found/mirrored").surface.rms == pytest.approx(mirrored.std(), rel=0.02)  # not scaled again
+    assert found.parts["edge"].shift == found.parts["places"].shift == 0.0
+    four = [asperity.load(f"found/quarter-{i}").binding_energy for i in (1, 2, 3, 4)]
+    assert found.parts["places"].error == pytest.approx(1.624 * np.std(four, ddof=1) / 2, rel=1e-3)
+    mirror = asperity.load("found/mirrored").binding_energy
+    assert found.parts["edge"].error == pytest.approx(0.5 * abs(mirror - found.value))
