@@ -140,7 +140,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     if edge > 0.0 and size is not None and abs(edge / keys.number("surface.file_size") - 1) > 0.01:
         notes.append(f"the file says how wide it is, {edge:.6g} Å: --size is not used")
     points = len(heights)
-    memory = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
     n = _smooth_below(max(most, maps.FEWEST))
     spacing = edge / n
