@@ -34,9 +34,9 @@
 //
 // Everything that happens across x comes last: of the column of 3 x 3 nodes at x (over y and z)
 // each force component needs a part for x itself, one for x - 1 and one for x + 1. So a pack of
-// columns is read with 27 aligned loads, turned into nine such parts (72 operations), and the two
-// outer ones are moved over by a lane. A row keeps the packs before and behind in registers; no
-// value is loaded twice for its x neighbours.
+// columns is read with 27 aligned loads and turned into nine such parts (72 operations). A buffer
+// in the first-level cache keeps those of a stretch of a row, and the outer ones are read from it a
+// number further on or back: no value is loaded twice for its x neighbours.
 #pragma once
 
 #include "kernels/exact_sum.hpp"

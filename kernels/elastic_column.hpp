@@ -11,30 +11,6 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// One displacement component in a pack of columns: at each of the planes below, at and above the
-/// node, the node's own row and the sum and difference of the rows around it, already combined over
-/// z.
-template <class V>
-struct Rows {
-    V c, sum, difference; ///< y = 0; y = 1 plus y = -1; y = 1 minus y = -1
-
-    ASPERITY_INLINE static Rows load(const double* p, std::ptrdiff_t row) {
-        const V north = V::load_once(p + row), south = V::load_once(p - row);
-        return {V::load_once(p), north + south, north - south};
-    }
-    ASPERITY_INLINE friend Rows operator+(const Rows& a, const Rows& b) {
-        return {a.c + b.c, a.sum + b.sum, a.difference + b.difference};
-    }
-    ASPERITY_INLINE friend Rows operator-(const Rows& a, const Rows& b) {
-        return {a.c - b.c, a.sum - b.sum, a.difference - b.difference};
-    }
-};
-
-template <class V>
-struct Column {
-    Rows<V> own, P, M;
-};
-
 /// The stencil's coefficients, a copy in every lane. Many are equal (make_stencil): inside a level
 /// six numbers are left, which stay in registers.
 template <class V, Face face>
@@ -56,103 +32,153 @@ struct Weights {
     }
 };
 
-template <Face face, class V>
-ASPERITY_INLINE Column<V> load_column(const double* p, std::ptrdiff_t row, std::ptrdiff_t plane) {
-    const Rows<V> own = Rows<V>::load(p, row);
-    if constexpr (face == Face::lower) {
-        const Rows<V> up = Rows<V>::load(p + plane, row);
-        return {own, up, up};
-    } else if constexpr (face == Face::upper) {
-        const Rows<V> down = Rows<V>::load(p - plane, row);
-        return {own, down, {-down.c, -down.sum, -down.difference}};
-    } else {
-        const Rows<V> up = Rows<V>::load(p + plane, row), down = Rows<V>::load(p - plane, row);
-        return {own, up + down, up - down};
-    }
-}
+/// Distances from a node to those around it, in elements: in its own plane, in the plane above and
+/// in the plane below, at y - 1, y and y + 1.
+struct Around {
+    std::ptrdiff_t own[3], above[3], below[3];
 
-/// What the columns at x give to one force component at x, at x - 1 and at x + 1.
-template <class V>
-struct Parts {
-    V here, west, east;
+    ASPERITY_INLINE Around(std::ptrdiff_t row, std::ptrdiff_t plane)
+        : own{-row, 0, row}, above{plane - row, plane, plane + row}, below{-plane - row, -plane,
+                                                                           row - plane} {
+#if defined(__x86_64__) && !defined(__CUDACC__)
+        // Eight registers for the distances, and one pointer for each component: g++ 12 would keep
+        // a pointer for each of the 27 nodes, on the stack.
+        asm("" : "+r"(own[0]), "+r"(own[2]), "+r"(above[0]), "+r"(above[1]), "+r"(above[2]));
+        asm("" : "+r"(below[0]), "+r"(below[1]), "+r"(below[2]));
+#endif
+    }
 };
+
+/// One displacement component in a pack of columns. P and M (elastic_cell.hpp) are formed of what
+/// was summed over y before.
+template <Face face, class V>
+class Component {
+public:
+    /// The rows at y + 1 and y - 1 of a plane.
+    struct Sides {
+        V sum, difference;
+    };
+    struct Outside {
+        Sides above, below;
+        ASPERITY_INLINE V P_sum() const { return P(above.sum, below.sum); }
+        ASPERITY_INLINE V M_sum() const { return M(above.sum, below.sum); }
+        ASPERITY_INLINE V P_difference() const { return P(above.difference, below.difference); }
+        ASPERITY_INLINE V M_difference() const { return M(above.difference, below.difference); }
+    };
+
+    ASPERITY_INLINE Component(const double* at, const Around& around) : at_(at), around_(around) {}
+
+    ASPERITY_INLINE V here() const { return V::load_once(at_); }
+    ASPERITY_INLINE V above() const { return lies_above ? node(around_.above[1]) : V(0.0); }
+    ASPERITY_INLINE V below() const { return lies_below ? node(around_.below[1]) : V(0.0); }
+    ASPERITY_INLINE Sides beside() const { return sides(around_.own); }
+    ASPERITY_INLINE Outside outside() const {
+        const Sides none = {V(0.0), V(0.0)};
+        const Sides above = lies_above ? sides(around_.above) : none;
+        return {above, lies_below ? sides(around_.below) : none};
+    }
+    ASPERITY_INLINE static V P(V above, V below) {
+        return !lies_below ? above : !lies_above ? below : above + below;
+    }
+    ASPERITY_INLINE static V M(V above, V below) {
+        return !lies_below ? above : !lies_above ? -below : above - below;
+    }
+
+private:
+    static constexpr bool lies_above = face != Face::upper, lies_below = face != Face::lower;
+
+    ASPERITY_INLINE V node(std::ptrdiff_t distance) const { return V::load_once(at_ + distance); }
+    ASPERITY_INLINE Sides sides(const std::ptrdiff_t (&distance)[3]) const {
+        const V north = node(distance[2]), south = node(distance[0]);
+        return {north + south, north - south};
+    }
+
+    const double* at_;
+    const Around& around_;
+};
+
+/// What columns at x give to the three force components (k = 0, 1, 2) at x, at x - 1 and at x + 1.
 template <class V>
 struct ColumnParts {
-    Parts<V> x, y, z;
+    V here[3], west[3], east[3];
+
+    ASPERITY_INLINE void take_here(int k, V part) { here[k] = part; }
+    ASPERITY_INLINE void take_beside(int k, V to_west, V to_east) {
+        west[k] = to_west;
+        east[k] = to_east;
+    }
 };
 
-/// even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it
-/// sees the column at its +x side) and x + 1 with a minus.
-template <class V>
-ASPERITY_INLINE Parts<V> parts(V here, V even, V odd) {
-    return {here, even + odd, even - odd};
-}
-
-template <Face face, class V>
-ASPERITY_INLINE ColumnParts<V> column_parts(const VectorVolume<const double>& u, std::ptrdiff_t at,
-                                            const Weights<V, face>& s) {
-    const auto row = u.x.row, plane = u.x.plane;
-    V cx, ex, ox, cy, ey, oy, cz, ez, oz; // centre, even and odd parts of the three components
+/// Hands the parts of the columns at ux, uy, uz to `parts`, which takes them as ColumnParts does.
+///
+/// The components come in the order y, z, x, each displacement is read where it is first needed,
+/// and each part is handed on as soon as it is complete: so what lives in between fits into the
+/// sixteen registers of AVX2 beside the six coefficients.
+template <Face face, class V, class Taker>
+ASPERITY_INLINE void column_parts(const double* ux, const double* uy, const double* uz,
+                                  const Around& around, const Weights<V, face>& s, Taker& parts) {
+    using C = Component<face, V>;
+    // even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it
+    // sees the column at its +x side) and x + 1 with a minus.
+    const auto beside = [&](int k, V even, V odd) { parts.take_beside(k, even + odd, even - odd); };
+    V odd_x, here_y, even_y, here_z, even_z;
     {
-        const Column<V> a = load_column<face, V>(u.x.origin + at, row, plane);
-        cx = s.own_c * a.own.c;
-        cx = fma(s.own_t, a.own.sum, cx);
-        cx = fma(s.out_c, a.P.c, cx);
-        cx = fma(s.out_t, a.P.sum, cx);
-        ex = s.own_e * a.own.c;
-        ex = fma(s.own_d, a.own.sum, ex);
-        ex = fma(s.out_e, a.P.c, ex);
-        ex = fma(s.out_d, a.P.sum, ex);
-        oy = s.own_d * a.own.difference;
-        oy = fma(s.out_d, a.P.difference, oy);
-        oz = s.out_e * a.M.c;
-        oz = fma(s.out_d, a.M.sum, oz);
+        const C u(uy, around);
+        const auto own = u.beside();
+        const auto out = u.outside();
+        odd_x = fma(s.out_d, out.P_difference(), s.own_d * own.difference);
+        here_z = s.out_e * out.M_difference();
+        even_z = s.out_d * out.M_difference();
         if constexpr (face != Face::inner) {
-            oz = fma(s.tau_r, a.own.c, oz);
-            oz = fma(s.tau_rd, a.own.sum, oz);
+            here_z = fma(s.tau_r, own.difference, here_z);
+            even_z = fma(s.tau_rd, own.difference, even_z);
         }
+        const V c = u.here(), P = C::P(u.above(), u.below());
+        here_y = fma(s.out_c, P, fma(s.own_e, own.sum, s.own_c * c));
+        even_y = fma(s.out_t, P, fma(s.own_d, own.sum, s.own_t * c));
+        here_y = fma(s.out_e, out.P_sum(), here_y);
+        even_y = fma(s.out_d, out.P_sum(), even_y);
     }
     {
-        const Column<V> a = load_column<face, V>(u.y.origin + at, row, plane);
-        cy = s.own_c * a.own.c;
-        cy = fma(s.own_e, a.own.sum, cy);
-        cy = fma(s.out_c, a.P.c, cy);
-        cy = fma(s.out_e, a.P.sum, cy);
-        ey = s.own_t * a.own.c;
-        ey = fma(s.own_d, a.own.sum, ey);
-        ey = fma(s.out_t, a.P.c, ey);
-        ey = fma(s.out_d, a.P.sum, ey);
-        ox = s.own_d * a.own.difference;
-        ox = fma(s.out_d, a.P.difference, ox);
-        cz = s.out_e * a.M.difference;
-        ez = s.out_d * a.M.difference;
+        const C u(uz, around);
+        const auto out = u.outside();
+        here_y = fma(s.out_e, out.M_difference(), here_y);
+        even_y = fma(s.out_d, out.M_difference(), even_y);
+        const V above = u.above(), below = u.below();
+        odd_x = fma(s.out_e, C::M(above, below), odd_x);
+        odd_x = fma(s.out_d, out.M_sum(), odd_x);
+        const auto own = u.beside();
+        const V c = u.here(), P = C::P(above, below);
         if constexpr (face != Face::inner) {
-            cz = fma(s.tau_r, a.own.difference, cz);
-            ez = fma(s.tau_rd, a.own.difference, ez);
+            odd_x = fma(-s.tau_r, c, odd_x);
+            odd_x = fma(-s.tau_rd, own.sum, odd_x);
+            here_y = fma(-s.tau_r, own.difference, here_y);
+            even_y = fma(-s.tau_rd, own.difference, even_y);
         }
+        parts.take_here(1, here_y);
+        here_z = fma(s.out_n, P, fma(s.own_t, own.sum, fma(s.own_c, c, here_z)));
+        even_z = fma(s.out_e, P, fma(s.own_n, own.sum, fma(s.own_t, c, even_z)));
+        parts.take_here(2, fma(s.out_e, out.P_sum(), here_z));
+        even_z = fma(s.out_d, out.P_sum(), even_z);
     }
     {
-        const Column<V> a = load_column<face, V>(u.z.origin + at, row, plane);
-        cz = fma(s.own_c, a.own.c, cz);
-        cz = fma(s.own_t, a.own.sum, cz);
-        cz = fma(s.out_n, a.P.c, cz);
-        cz = fma(s.out_e, a.P.sum, cz);
-        ez = fma(s.own_t, a.own.c, ez);
-        ez = fma(s.own_n, a.own.sum, ez);
-        ez = fma(s.out_e, a.P.c, ez);
-        ez = fma(s.out_d, a.P.sum, ez);
-        ox = fma(s.out_e, a.M.c, ox);
-        ox = fma(s.out_d, a.M.sum, ox);
-        cy = fma(s.out_e, a.M.difference, cy);
-        ey = fma(s.out_d, a.M.difference, ey);
+        const C u(ux, around);
+        const auto own = u.beside();
+        const auto out = u.outside();
+        beside(1, even_y, fma(s.out_d, out.P_difference(), s.own_d * own.difference));
+        const V above = u.above(), below = u.below(), c = u.here();
+        V odd_z = fma(s.out_d, out.M_sum(), s.out_e * C::M(above, below));
         if constexpr (face != Face::inner) {
-            ox = fma(-s.tau_r, a.own.c, ox);
-            ox = fma(-s.tau_rd, a.own.sum, ox);
-            cy = fma(-s.tau_r, a.own.difference, cy);
-            ey = fma(-s.tau_rd, a.own.difference, ey);
+            odd_z = fma(s.tau_r, c, odd_z);
+            odd_z = fma(s.tau_rd, own.sum, odd_z);
         }
+        beside(2, even_z, odd_z);
+        const V P = C::P(above, below);
+        const V here_x = fma(s.out_c, P, fma(s.own_t, own.sum, s.own_c * c));
+        const V even_x = fma(s.out_e, P, fma(s.own_d, own.sum, s.own_e * c));
+        parts.take_here(0, fma(s.out_t, out.P_sum(), here_x));
+        beside(0, fma(s.out_d, out.P_sum(), even_x), odd_x);
     }
-    return {parts(cx, ex, ox), parts(cy, ey, oy), parts(cz, ez, oz)};
 }
 
 /// Energy of the cells whose lower corners are a pack of nodes, straight from the definition.

@@ -118,11 +118,13 @@ template <bool damped, bool observed>
 void kick_rows(const VectorPlane<const double>& force, int z, int y0, int y1, const Kick& plan,
                const VectorVolume<double>& v, KickSums& sums) {
     Kicker<V, damped, observed> kicker(plan, v);
-    for (int y = y0; y < y1; ++y)
+    for (int y = y0; y < y1; ++y) {
         for (int x = 0; x < v.x.nx; x += V::width)
             kicker(z * v.x.plane + y * v.x.row + x, v.x.nx - x,
                    {V::load(force.x.line(y) + x), V::load(force.y.line(y) + x),
                     V::load(force.z.line(y) + x)});
+        kicker.end_row();
+    }
     kicker.add_to(sums);
 }
 

@@ -95,6 +95,13 @@ template <class T>
 ASPERITY_INLINE Lane<T> sqrt(Lane<T> a) {
     return std::sqrt(a.r);
 }
+ASPERITY_INLINE Lane<double> with_last_bit(Lane<double> a) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &a.r, sizeof bits);
+    bits |= 1;
+    std::memcpy(&a.r, &bits, sizeof bits);
+    return a;
+}
 ASPERITY_INLINE Lane<double> power_of_two(Lane<double> n) { return asperity::power_of_two(n.r); }
 ASPERITY_INLINE Lane<float> power_of_two(Lane<float> n) {
     const float biased = n.r + (0x1.8p23f + 127.0f);

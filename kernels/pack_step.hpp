@@ -37,18 +37,22 @@ inline void drift_rows(const ElasticLevel& level, int z, double dt, int y0, int 
     using V = Pack<double>;
     const V step(dt);
     const int nx = level.u.x.nx;
-    const auto move = [&](const double* speed, double* place) {
-        const auto moved = [&](int x) { return fma(step, V::load(speed + x), V::load(place + x)); };
-        int x = 0;
-        for (; x + V::width <= nx; x += V::width)
-            moved(x).store(place + x);
-        if (x < nx) moved(x).store_first(place + x, nx - x);
+    const auto move = [&](const double* speed, double* place, int count) {
+        fma(step, V::load(speed), V::load(place)).store_first(place, count);
     };
     const VectorPlane<double> u = level.u[z], v = level.v[z];
     for (int y = y0; y < y1; ++y) {
-        move(v.x.line(y), u.x.line(y));
-        move(v.y.line(y), u.y.line(y));
-        move(v.z.line(y), u.z.line(y));
+        double *const ux = u.x.line(y), *const uy = u.y.line(y), *const uz = u.z.line(y);
+        const double *const vx = v.x.line(y), *const vy = v.y.line(y), *const vz = v.z.line(y);
+        const auto move_all = [&](int x, int count) {
+            move(vx + x, ux + x, count);
+            move(vy + x, uy + x, count);
+            move(vz + x, uz + x, count);
+        };
+        int x = 0;
+        for (; x + V::width <= nx; x += V::width)
+            move_all(x, V::width);
+        if (x < nx) move_all(x, nx - x);
     }
 }
 

@@ -347,6 +347,10 @@ ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     return P(1.0) / sqrt(a);
 #endif
 }
+/// The numbers, the last bit of their fractions set.
+ASPERITY_INLINE Pack<double> with_last_bit(Pack<double> a) {
+    return Pack<double>((DoubleRegister)((DoubleMask)a.r | 1));
+}
 /// 2^n in each lane, as power_of_two() of a number.
 ASPERITY_INLINE Pack<double> power_of_two(Pack<double> n) {
     return Pack<double>(

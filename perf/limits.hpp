@@ -21,8 +21,9 @@ enum class Timed {
     lattice, ///< pairs of sites with atoms on their lattice, four at a time
     rows,    ///< pairs with atoms of a row, two at a time
     cells,   ///< pairs with atoms anywhere, two at a time
-    node,    ///< force, kick and drift of a node at small strain, undamped
-    finite   ///< the same at finite strain, without a dilatation term
+    node,    ///< force, kick and drift of a node at small strain, four planes and the upper one
+    damped,  ///< the same with damping
+    finite   ///< as node, at finite strain, without a dilatation term
 };
 /// Seconds of one core for a pair or node of a kernel, in loops of its operations where none waits
 /// for another and nothing is loaded: what this processor's arithmetic allows at best. Best of

@@ -62,11 +62,15 @@ template <Face face>
 ASPERITY_INLINE Triple<Number> small_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
                                            const Stencil& stencil) {
     const Weights<Number, face> weights(stencil);
-    const ColumnParts<Number> west = column_parts<face>(u, at - 1, weights);
-    const ColumnParts<Number> here = column_parts<face>(u, at, weights);
-    const ColumnParts<Number> east = column_parts<face>(u, at + 1, weights);
-    return {(east.x.west + west.x.east) + here.x.here, (east.y.west + west.y.east) + here.y.here,
-            (east.z.west + west.z.east) + here.z.here};
+    const Around around(u.x.row, u.x.plane);
+    const auto columns = [&](std::ptrdiff_t x) {
+        ColumnParts<Number> parts;
+        column_parts(u.x.origin + x, u.y.origin + x, u.z.origin + x, around, weights, parts);
+        return parts;
+    };
+    const ColumnParts<Number> west = columns(at - 1), here = columns(at), east = columns(at + 1);
+    const auto force = [&](int k) { return (east.west[k] + west.east[k]) + here.here[k]; };
+    return {force(0), force(1), force(2)};
 }
 
 /// The force on node i of the upper faces.
@@ -274,6 +278,7 @@ private:
         Kicker<Number, damped, observe> kicker(plan, level.v);
         const auto v = kicker(z * level.v.x.plane + y * level.v.x.row + x, 1, f);
         KickSums added;
+        kicker.end_row();
         kicker.add_to(added);
         if constexpr (observe) sums.sum[AdvanceSum::kinetic].merge(added.kinetic);
         if constexpr (damped) {

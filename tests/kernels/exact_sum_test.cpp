@@ -4,6 +4,8 @@
 // Sums that do not know the order of their terms: on which "the same bits on any number of ranks"
 // rests.
 #include "kernels/exact_sum.hpp"
+#include "kernels/kick.hpp"
+#include "kernels/lane.hpp"
 
 #include <gtest/gtest.h>
 
@@ -183,4 +185,41 @@ TEST(ExactSum, ACarryChangesNoValue) {
         EXPECT_EQ(sum.value(), before);
         EXPECT_LE(std::abs(sum.bin[1]), 0x1p-23);
     }
+}
+
+TEST(ExactSum, ProductsMayComeInAnyOrderToo) {
+    // Terms halfway between two coarse quanta and between two fine ones among them: where a bin
+    // that holds something decides which way they go.
+    using Number = ASPERITY_VARIANT::Lane<double>;
+    std::mt19937_64 random(9);
+    std::vector<std::pair<double, double>> factors;
+    const auto whole = [&](int bits) {
+        return static_cast<double>(random() % (1ULL << bits)) - std::ldexp(0.5, bits);
+    };
+    for (int i = 0; i < 3000; ++i) {
+        factors.push_back({whole(20) + 0.5, 0x1p-22});
+        factors.push_back({whole(30) + 0.5, 0x1p-50});
+        factors.push_back({whole(53) * 0x1p-53, whole(26) * 0x1p-26});
+    }
+    ExactSum first;
+    for (int round = 0; round < 30; ++round) {
+        ASPERITY_VARIANT::ProductSum<Number> lane;
+        for (std::size_t i = 0; i < factors.size(); ++i) {
+            lane.add(factors[i].first, factors[i].second);
+            if (random() % 1000 == 0) lane.close();
+        }
+        lane.close();
+        ExactSum sum;
+        ASPERITY_VARIANT::collect(lane.sum(), sum);
+        if (round == 0) first = sum;
+        // To the last quantum, which the sum's value no longer shows.
+        sum.merge({{-first.bin[0], -first.bin[1]}});
+        EXPECT_EQ(sum.value(), 0.0);
+        std::shuffle(factors.begin(), factors.end(), random);
+    }
+    ExactSum apart; // term by term
+    for (const auto& [a, b] : factors)
+        apart.add(a * b);
+    apart.merge({{-first.bin[0], -first.bin[1]}});
+    EXPECT_NEAR(apart.value(), 0.0, 2 * 9000 * 0x1p-51);
 }
