@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The program: a table of commands, each with its description, its options and its function.
-// The main loop of a simulation is DynamicRun::integrate() in engine/run/dynamic_run.cpp.
+// The main loop of a run is follow() in engine/run/run.cpp.
 // Every rank of mpirun runs this; how they end together is in engine/commands/exit_code.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/commands.hpp"

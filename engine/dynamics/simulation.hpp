@@ -17,6 +17,7 @@
 #include "engine/interface/interface.hpp"
 #include "engine/phases.hpp"
 #include "engine/scene/device_choice.hpp"
+#include "engine/step_record.hpp"
 
 #include <array>
 #include <memory>
@@ -36,31 +37,6 @@ struct SimulationOptions {
     double temperature = 0.0;  ///< K
     std::uint64_t seed = 1;    ///< of the noise
     DeviceChoice device;       ///< that takes the steps; none: the processor
-};
-
-/// Global values of one step, the same bits on every rank. Energies in eV.
-struct StepRecord {
-    long long step = 0;
-    double time = 0.0;        ///< fs
-    double top = 0.0;         ///< displacement of the top plane, Å
-    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
-    double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
-    double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
-    // Along x and y, of a path that slides; else 0.
-    std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
-    std::array<double, 2> lateral_force{}; ///< of the substrate on the lowest layer, eV/Å
-    // Only where the step was observed:
-    bool observed = false;
-    double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    long long in_contact = 0, repulsive = 0; ///< sites
-    double closest = 0.0;                    ///< smallest pair distance, Å
-    /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
-    /// what the block had at the start, and what was written to its fields.
-    double work = 0.0;
-    double damped = 0.0;         ///< since the start, less the heat that a thermostat's noise gave
-    double interface_work = 0.0; ///< int F dz of the mean height, likewise
-    /// (work - energy - damped) over the largest of the energies and of the work so far.
-    double residual = 0.0;
 };
 
 /// Work and dissipation since the start, eV.
@@ -192,20 +168,7 @@ void Simulation::visit(Visitor& v) {
     double top = block_.top();
     v("top", top);
     v("drive", drive_);
-    v("record.time", record_.time);
-    v("record.top", record_.top);
-    v("record.mean_height", record_.mean_height);
-    v("record.force", record_.force);
-    v("record.top_force", record_.top_force);
-    v("record.interface_energy", record_.interface_energy);
-    v("record.elastic_energy", record_.elastic_energy);
-    v("record.kinetic_energy", record_.kinetic_energy);
-    v("record.in_contact", record_.in_contact);
-    v("record.repulsive", record_.repulsive);
-    v("record.work", record_.work);
-    v("record.interface_work", record_.interface_work);
-    v("record.damped", record_.damped);
-    v("record.residual", record_.residual);
+    v("record", record_);
     v("balance.top_work", balance_.top_work);
     v("balance.drag_work", balance_.drag_work);
     v("balance.damped", balance_.damped);
@@ -219,8 +182,6 @@ void Simulation::visit(Visitor& v) {
     v("pending.heat", pending_.heat);
     if (slides()) {
         v("slide", slide_);
-        v("record.slide", record_.slide);
-        v("record.lateral_force", record_.lateral_force);
         v("balance.lateral", balance_.lateral);
     }
     if constexpr (Visitor::restores) {

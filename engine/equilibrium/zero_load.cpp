@@ -106,10 +106,4 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     return found;
 }
 
-void show_relaxation(io::Progress& progress, long long iteration, double residual) {
-    if (!progress.due()) return;
-    progress.update(
-        {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
-}
-
 } // namespace asperity

@@ -6,13 +6,44 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/equilibrium/path_results.hpp"
 #include "engine/equilibrium/relaxation.hpp"
 #include "engine/equilibrium/state_array.hpp"
 #include "engine/setup/case.hpp"
-#include "io/terminal.hpp"
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
 
 namespace asperity {
+
+/// Of the relaxed state under zero load.
+struct ZeroLoad {
+    double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
+    double pairwise = 0.0;       ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
+    double elastic = 0.0;        ///< U_el / A0, meV/Å^2
+    double contact_fraction = 0.0;
+    double repulsive_fraction = 0.0;
+    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double residual = 0.0;    ///< largest force left, eV/Å
+    long long iterations = 0;
+    /// Of the binding energy: what forces as large as drive.tolerance stand for in the softest wave
+    /// of the box, meV/Å^2.
+    double uncertainty = 0.0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("binding_energy", binding_energy);
+        v("pairwise", pairwise);
+        v("elastic", elastic);
+        v("contact_fraction", contact_fraction);
+        v("repulsive_fraction", repulsive_fraction);
+        v("mean_height", mean_height);
+        v("residual", residual);
+        v("iterations", iterations);
+        v("uncertainty", uncertainty);
+    }
+};
 
 /// Where the block, undisplaced, feels the strongest attraction on its way down: the descent that
 /// starts there ends where a slow approach does, but for lateral forces on steep, soft surfaces.
@@ -44,8 +75,5 @@ struct LayerAtRest {
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop,
                           const std::array<double, 2>& place);
-
-/// "relaxing, largest force 1e-3 eV/Å"
-void show_relaxation(io::Progress& progress, long long iteration, double residual);
 
 } // namespace asperity

@@ -2,44 +2,77 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/path_maps.hpp"
 
+#include "engine/run/run_session.hpp"
+#include "engine/units.hpp"
+
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace asperity {
 
-void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to) {
-    for (int y = 0; y < to.x.ny; ++y) {
-        std::copy_n(from.x.line(y), to.x.nx, to.x.line(y));
-        std::copy_n(from.y.line(y), to.y.nx, to.y.line(y));
-        std::copy_n(from.z.line(y), to.z.nx, to.z.line(y));
-    }
+PathMaps::PathMaps(RunSession& session) : session_(session), times_(session.scene_case().maps) {
+    if (times_.pull_off) layer_ = VectorField<double>(session.grid().tile(0), 1);
 }
 
-PathMaps::PathMaps(const MapTimes& times, const ProcessGrid& grid) : times_(times), grid_(grid) {
-    if (times.pull_off) layer_ = VectorField<double>(grid.tile(0), 1);
+bool PathMaps::is_due(long long step) const { return times_.every && step % *times_.every == 0; }
+
+/// From the step after the end of the approach on.
+bool PathMaps::delayed_is_due(const Path& path, double time) const { // fs
+    const std::optional<double>& contact = path.results().contact_made;
+    if (delayed_written_ == times_.after_approach.size() || !contact || time <= *contact)
+        return false;
+    return time >= *contact + times_.after_approach[delayed_written_].first * units::picosecond;
 }
 
-void PathMaps::watch(long long step, Segment::Kind kind, double attraction,
-                     const VectorPlane<const double>& layer, const Interface& interface,
-                     double reference_height, Recorder& recorder) {
-    if (due(step))
-        recorder.fields(fmt::format("step-{}", step), layer, grid_, interface, reference_height);
+Path::Wish PathMaps::wish(const Path& path) const {
+    const double next = static_cast<double>(path.steps()) * session_.scene_case().simulation.dt;
+    const bool at_end = times_.segments && path.about_to_conclude();
+    return {.layer = at_end || (times_.pull_off && session_.row_is_due(path)) ||
+                     is_due(path.steps()) || delayed_is_due(path, next)};
+}
+
+void PathMaps::look(Path& path) {
+    const StepRecord& now = path.now();
+    const Segment::Kind kind = path.scene_case().path[path.segment()].kind;
+    if (is_due(now.step)) write(path, fmt::format("step-{}", now.step), path.layer());
+    while (delayed_is_due(path, now.time))
+        write(path, times_.after_approach[delayed_written_++].second, path.layer());
+    if (!now.observed) return;
     if (kind != Segment::pull_off) attraction_ = 0.0; // the next pull-off begins anew
-    if (kind != Segment::pull_off || attraction <= attraction_ || !times_.pull_off) return;
-    attraction_ = attraction;
-    place_ = interface.place();
-    reference_height_ = reference_height;
+    if (kind != Segment::pull_off || -now.force <= attraction_ || !times_.pull_off) return;
+    attraction_ = -now.force;
+    place_ = path.interface().place();
+    reference_height_ = path.reference_height();
     kept_ = true;
-    copy_layer(layer, layer_.plane(0));
+    const auto t = session_.phases().time(Phase::output);
+    copy_layer(path.layer(), layer_.plane(0));
 }
 
-void PathMaps::write_kept(Interface& interface, Recorder& recorder) {
+void PathMaps::look_at_end(Path& path) {
+    if (times_.segments) write(path, fmt::format("segment-{}", *path.ended()), path.layer());
+}
+
+void PathMaps::look_at_state(Path& path, const LayerAtRest& state) {
+    if (times_.relaxed) write(path, "relax", state.layer.view()[0]);
+}
+
+void PathMaps::finish(Path& path) {
+    if (path.done())
+        for (std::size_t i = delayed_written_; i < times_.after_approach.size(); ++i)
+            session_.progress().say(
+                fmt::format("the maps \"{}\" were not written: the path ended before",
+                            times_.after_approach[i].second));
     if (!std::exchange(kept_, false)) return;
-    interface.slide_to(place_[0], place_[1]);
-    recorder.fields("pull-off", std::as_const(layer_).plane(0), grid_, interface,
-                    reference_height_);
+    path.interface().slide_to(place_[0], place_[1]);
+    session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
+                               path.interface(), reference_height_);
+}
+
+void PathMaps::write(Path& path, const std::string& state, const VectorPlane<const double>& layer) {
+    const auto t = session_.phases().time(Phase::output);
+    session_.recorder().fields(state, layer, path.grid(), path.interface(),
+                               path.reference_height());
 }
 
 std::vector<StateArray> PathMaps::arrays() {

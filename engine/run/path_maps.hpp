@@ -1,35 +1,32 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Maps along a path (output.fields): those of every so many steps or points are written at once;
-// those of the largest attraction of the last pull-off are kept until the end of the work.
+// Maps along a path (output.fields). Those of every so many steps or points, of the ends of
+// segments, of states and of times after the approach are written at once; those of the largest
+// attraction of the last pull-off are kept until the run ends.
 #pragma once
 
 #include "engine/equilibrium/state_array.hpp"
-#include "engine/run/recorder.hpp"
-#include "engine/setup/case.hpp"
+#include "engine/run/observer.hpp"
 
 #include <array>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace asperity {
 
-/// The owned sites.
-void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to);
+class RunSession;
 
-class PathMaps {
+class PathMaps : public Observer {
 public:
-    PathMaps(const MapTimes& times, const ProcessGrid& grid);
+    explicit PathMaps(RunSession& session);
 
-    /// Whether watch() has anything to do at all, and at this step without an attraction.
-    bool any() const { return times_.every || times_.pull_off; }
-    bool due(long long step) const { return times_.every && step % *times_.every == 0; }
-    /// layer: of the step or point, as the interface's place is. Collective.
-    void watch(long long step, Segment::Kind kind, double attraction,
-               const VectorPlane<const double>& layer, const Interface& interface,
-               double reference_height, Recorder& recorder);
-    /// At the end of the work. Collective.
-    void write_kept(Interface& interface, Recorder& recorder);
+    Path::Wish wish(const Path& path) const override;
+    void look(Path& path) override;
+    void look_at_end(Path& path) override;
+    void look_at_state(Path& path, const LayerAtRest& state) override;
+    void finish(Path& path) override;
 
     /// For checkpoints: numbers, and the layer that is kept.
     template <class Visitor>
@@ -38,12 +35,18 @@ public:
         v("reference_height", reference_height_);
         v("place", place_);
         v("kept", kept_);
+        v("delayed_written", delayed_written_);
     }
     std::vector<StateArray> arrays();
 
 private:
+    bool is_due(long long step) const;
+    bool delayed_is_due(const Path& path, double time) const;
+    void write(Path& path, const std::string& state, const VectorPlane<const double>& layer);
+
+    RunSession& session_;
     const MapTimes& times_;
-    const ProcessGrid& grid_;
+    std::size_t delayed_written_ = 0; ///< of times_.after_approach, the first
     // The lowest layer where the pull-off attracted most.
     double attraction_ = 0.0, reference_height_ = 0.0; ///< eV/Å, Å
     std::array<double, 2> place_{};                    ///< of the block over the substrate, Å

@@ -4,7 +4,7 @@
 
 #include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"
-#include "engine/run/expected_path.hpp"
+#include "engine/path/expected_path.hpp"
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
 #include "io/machine.hpp"

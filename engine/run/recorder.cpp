@@ -245,55 +245,42 @@ std::array<std::vector<double>, 3> whole_layer(const Communicator& ranks, const 
 
 } // namespace
 
-Recorder::Frame Recorder::begin_frame(const Simulation& simulation, bool velocities) const {
-    const Block& block = simulation.block();
-    const Block::Level& level = block.levels().front();
-    Frame frame{simulation.steps(), simulation.time(), velocities, {}, {}};
-    frame.u = whole_layer(communicator_, block.grid(), level.u.view()[0]);
+void Recorder::frame(const Path& path, bool velocities) {
+    const StepRecord& now = path.now();
+    std::array<std::vector<double>, 3> u = whole_layer(communicator_, path.grid(), path.layer()), v;
     for (std::size_t axis : {0u, 1u}) // positions are over the substrate
-        if (const double place = simulation.place()[axis]; place != 0.0)
-            for (double& u : frame.u[axis])
-                u += place;
-    if (velocities) frame.v_before = whole_layer(communicator_, block.grid(), level.v.view()[0]);
-    return frame;
-}
-
-void Recorder::end_frame(const Frame& frame, const Simulation& simulation) {
-    std::array<std::vector<double>, 3> v_after;
-    if (frame.velocities)
-        v_after = whole_layer(communicator_, simulation.block().grid(),
-                              simulation.block().levels().front().v.view()[0]);
+        if (const double place = now.slide[axis]; place != 0.0)
+            for (double& x : u[axis])
+                x += place;
+    if (velocities) v = whole_layer(communicator_, path.grid(), path.velocities());
     communicator_.on_root([&] {
-        const auto& block = simulation.options().block;
+        const BlockOptions& block = path.scene_case().simulation.block;
         const auto sites = static_cast<std::size_t>(block.sites);
         std::vector<float> position(3 * sites * sites), velocity;
         for (std::size_t i = 0; i < sites * sites; ++i) {
             // Sites stand over the hollows of the substrate (docs/explanation/model.md).
             const std::array<double, 3> rest = {
                 (static_cast<double>(i % sites) + 0.5) * block.spacing,
-                (static_cast<double>(i / sites) + 0.5) * block.spacing,
-                simulation.reference_height()};
+                (static_cast<double>(i / sites) + 0.5) * block.spacing, path.reference_height()};
             for (std::size_t c = 0; c < 3; ++c)
-                position[3 * i + c] = static_cast<float>(rest[c] + frame.u[c][i]);
+                position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
         }
-        if (frame.velocities) {
+        if (velocities) {
             velocity.resize(position.size());
             for (std::size_t i = 0; i < sites * sites; ++i)
-                for (std::size_t c = 0; c < 3; ++c) {
-                    const double v = 0.5 * (frame.v_before[c][i] + v_after[c][i]);
-                    velocity[3 * i + c] = static_cast<float>(1e3 * v); // Å/fs to Å/ps
-                }
+                for (std::size_t c = 0; c < 3; ++c)
+                    velocity[3 * i + c] = static_cast<float>(1e3 * v[c][i]); // Å/fs to Å/ps
         }
         const double edge = block.sites * block.spacing;
-        const double height = 2.0 * simulation.interface().start_height() + // room for both ends
+        const double height = 2.0 * path.interface().start_height() + // room for both ends
                               block.thickness * block.spacing;
         io::PayloadWriter record;
         record.put(static_cast<std::uint64_t>(sites * sites));
-        record.put<std::uint64_t>(frame.velocities ? 1 : 0);
+        record.put<std::uint64_t>(velocities ? 1 : 0);
         for (const double length : {edge, edge, height})
             record.put(length);
-        record.put<std::int64_t>(frame.step);
-        record.put(frame.time * 1e-3);
+        record.put<std::int64_t>(now.step);
+        record.put(now.time * 1e-3);
         record.put(position);
         record.put(velocity);
         journal_->append(frame_record, record.bytes());

@@ -9,7 +9,7 @@
 // small fraction of the time. It is always whole.
 #pragma once
 
-#include "engine/dynamics/simulation.hpp"
+#include "engine/path/path.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/setup/effects.hpp"
 #include "io/files.hpp"
@@ -62,17 +62,9 @@ public:
                                               const VectorPlane<const double>& layer,
                                               const Communicator& ranks, const ProcessGrid& grid,
                                               const Interface& interface, double reference_height);
-    /// The lowest layer before a step, on the root, and its velocities half a step before.
-    struct Frame {
-        long long step = 0;
-        double time = 0.0; ///< fs
-        bool velocities = false;
-        std::array<std::vector<double>, 3> u, v_before; ///< Å, Å/fs
-    };
-    Frame begin_frame(const Simulation& simulation, bool velocities) const;
-    /// After the step: one frame (H5MD). Its velocity is the mean of those half a step before and
-    /// after, which is (u(n+1) - u(n-1)) / 2 dt.
-    void end_frame(const Frame& frame, const Simulation& simulation);
+    /// A frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities where
+    /// they are wanted.
+    void frame(const Path& path, bool velocities);
 
     /// Everything recorded so far, in the journal.
     Position position();

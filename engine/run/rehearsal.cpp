@@ -4,7 +4,7 @@
 
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/zero_load.hpp"
-#include "engine/run/checkpoint.hpp"
+#include "engine/path/checkpoint.hpp"
 #include "engine/run/recorder.hpp"
 #include "io/error.hpp"
 
@@ -170,7 +170,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     };
     std::optional<QuasistaticPath> path;
     std::optional<Simulation> simulation;
-    Snapshot snapshot;
+    StateCopy kept;
     const auto relax = [&](double load) {
         if (piece.starts_with(Segment::relax)) waves->set_uniform(height - start);
         return find_zero_load(*waves, *below, start, load, piece, stop).has_value();
@@ -194,7 +194,8 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         if (timed) done.far_step = shortest(step);
         simulation->start(height);
         if (timed) done.near_step = shortest(step);
-        if (piece.effects.observation) part(Piece::kept, [&] { snapshot.take(*simulation); });
+        if (piece.effects.observation)
+            part(Piece::kept, [&] { kept.take(state_of(simulation->block_to_write())); });
     }
     double begun = now();
     try {

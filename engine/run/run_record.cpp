@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_record.hpp"
 
+#include "engine/device/device_block.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -190,13 +191,26 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     return result;
 }
 
-void add_energies(const StepRecord& now, io::Result& result) {
-    result.set("energy.balance_error", now.residual);
-    result.set("energy.work", now.work);
-    result.set("energy.kinetic", now.kinetic_energy);
-    result.set("energy.elastic", now.elastic_energy);
-    result.set("energy.interface", now.interface_energy);
-    result.set("energy.damped", now.damped);
+void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result) {
+    const Case& c = path.scene_case();
+    const StepRecord& now = failed ? *failed : path.now();
+    if (path.phases()) add_phases(*path.phases(), result);
+    if (c.in_time) result.set("run.device", describe_device(c.simulation.device));
+    result.set("run.steps", failed ? failed->step : path.steps());
+    if (const auto iterations = path.iterations()) result.set("run.iterations", *iterations);
+    if (path.steps() > 0 || now.observed) {
+        result.set("energy.balance_error", now.residual);
+        result.set("energy.work", now.work);
+        result.set("energy.kinetic", now.kinetic_energy);
+        result.set("energy.elastic", now.elastic_energy);
+        result.set("energy.interface", now.interface_energy);
+        result.set("energy.damped", now.damped);
+    } else if (const std::optional<ZeroLoad>& z = path.results().zero_load) {
+        const double area = c.area() / units::milli_per_unit;
+        result.set("energy.kinetic", 0.0);
+        result.set("energy.elastic", z->elastic * area);
+        result.set("energy.interface", -z->pairwise * area);
+    }
 }
 
 void add_phases(const Phases& phases, io::Result& result) {

@@ -5,11 +5,10 @@
 // described in io/quantities.hpp.
 #pragma once
 
-#include "engine/equilibrium/path_results.hpp"
-#include "engine/setup/case.hpp"
+#include "engine/path/path.hpp"
 #include "io/result.hpp"
 
-#include <string>
+#include <optional>
 
 namespace asperity {
 
@@ -21,8 +20,8 @@ io::Result surface_result(const Case& c, const Surface& surface);
 /// results, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 
-/// Energies of the last observed step or point.
-void add_energies(const StepRecord& now, io::Result& result);
+/// Steps and energies of a path; failed: the step or point that a guard ended it at.
+void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result);
 void add_phases(const Phases& phases, io::Result& result);
 
 } // namespace asperity

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_session.hpp"
 
+#include "engine/path/checkpoint.hpp"
 #include "engine/run/curve.hpp"
-#include "engine/run/expected_path.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/summary.hpp"
 #include "io/json.hpp"
@@ -57,52 +57,52 @@ std::string physics_of(const Case& c, const Surface& surface) {
 
 } // namespace
 
-RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& on)
-    : case_(c), options_(options), ranks(on), surface(surface_of(c, ranks)),
-      grid(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
+RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
+    : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
+      grid_(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
       interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
-      progress(options.progress, !ranks.root()), maps(c.maps, grid),
-      fingerprint_(physics_of(c, surface)) {
+      progress_(options.progress, !ranks.root()), maps_(*this),
+      fingerprint_(physics_of(c, surface_)) {
     print_notes();
 }
 
 void RunSession::print_notes() {
-    progress.finish();
+    progress_.finish();
     for (const std::string& note : storage_.take_notes()) // however little progress is shown
         print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
 }
 
-int RunSession::carry_out(std::size_t bytes, const std::function<void()>& work,
+int RunSession::carry_out(Path& path, const std::function<void()>& work,
                           const AddToResult& add_to) {
     interruptions_.checkpoint_written();
     try {
-        if (ranks.root())
+        if (ranks_.root())
             print_unless_closed([&] {
-                print_opening(stdout, case_, surface, grid, omp_get_max_threads(), bytes,
+                print_opening(stdout, case_, surface_, grid_, omp_get_max_threads(), path.bytes(),
                               storage_.path());
             });
         work();
-        const auto t = phases.time(Phase::output);
+        const auto t = phases_.time(Phase::output);
         recorder_->write();
     } catch (const io::Error& error) {
-        progress.finish();
-        write_failure({error.code(), error.what()}, add_to);
+        progress_.finish();
+        write_failure(path, {error.code(), error.what()}, add_to);
         throw;
     } catch (const std::bad_alloc&) {
-        progress.finish();
-        write_failure({io::exit_code::scene, "out of memory"}, add_to);
+        progress_.finish();
+        write_failure(path, {io::exit_code::scene, "out of memory"}, add_to);
         throw;
     } catch (const std::exception& error) {
-        progress.finish();
-        write_failure({io::exit_code::internal, error.what()}, add_to);
+        progress_.finish();
+        write_failure(path, {io::exit_code::internal, error.what()}, add_to);
         throw;
     }
-    progress.finish();
-    ranks.on_root([&] {
-        const io::Result result = write_result(nullptr, add_to);
+    progress_.finish();
+    ranks_.on_root([&] {
+        const io::Result result = write_result(path, nullptr, add_to);
         storage_.require_in_place();
         print_unless_closed([&] {
-            print_summary(stdout, case_, result, results, storage_.path());
+            print_summary(stdout, case_, result, path.results(), storage_.path());
             if (stopped_ != Stopped::no)
                 fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));
         });
@@ -133,58 +133,95 @@ Interruption RunSession::ask() {
     return now;
 }
 
-bool RunSession::stop_here(const WriteState& write, const std::string& where) {
-    const Interruption now = ask();
-    if (now > Interruption::checkpoint) {
-        stop_now(write, where);
+bool RunSession::row_is_due(const Path& path) const {
+    if (!case_.in_time || path.about_to_conclude()) return true;
+    const Scene& scene = case_.scene;
+    const bool last = scene.drive.max_steps > 0 && path.steps() + 1 >= scene.drive.max_steps;
+    return last || path.steps() % scene.output.series == 0;
+}
+
+bool RunSession::stop_here(Path& path) {
+    const long long most = case_.scene.drive.max_steps;
+    if (most > 0 && path.steps() >= most && !path.about_to_conclude()) {
+        stopped_ = Stopped::max_steps;
+        save_if_on(path);
         return true;
     }
-    if (now == Interruption::checkpoint) save(write);
+    if (case_.in_time && !interruptions_.look_is_due()) return false; // steps are short
+    const Interruption now = ask();
+    if (now > Interruption::checkpoint) {
+        stop_now(path);
+        return true;
+    }
+    if (now == Interruption::checkpoint) save(path);
     interruptions_.looked();
     return false;
 }
 
-void RunSession::stop_now(const WriteState& write, const std::string& where) {
-    save(write);
-    if (ranks.root())
-        progress.say(fmt::format(
-            "stopping: the state at {} is in {}/checkpoint.h5; resume with --resume auto", where,
-            storage_.path()));
+void RunSession::stop_now(Path& path) {
+    save(path);
+    if (ranks_.root())
+        progress_.say(fmt::format(
+            "stopping: the state at {} is in {}/checkpoint.h5; resume with --resume auto",
+            path.position(), storage_.path()));
 }
 
-bool RunSession::stop_relaxation(const WriteState& write) {
+bool RunSession::stop_within(Path& path) {
     const Interruption now = ask();
-    if (now == Interruption::checkpoint && write) save(write);
+    if (now == Interruption::checkpoint && path.relaxes_freely()) save(path);
     return now > Interruption::checkpoint;
 }
 
-void RunSession::save(const WriteState& write) {
-    const auto t = phases.time(Phase::checkpoint);
+void RunSession::save(Path& path) {
+    const auto t = phases_.time(Phase::checkpoint);
     recorder_->synchronize();
-    storage_.save(write);
+    storage_.save([&](const io::FilePlace& place) {
+        CollectNumbers numbers;
+        collect(numbers);
+        write_state(place, path, numbers);
+    });
     recorder_->write_if_cheap();
     interruptions_.checkpoint_written();
 }
 
-void RunSession::save_if_on(const WriteState& write) {
-    if (case_.effects.checkpoints) save(write);
+void RunSession::write_state(const io::FilePlace& place, Path& path,
+                             const CollectNumbers& of_session) {
+    CollectNumbers numbers = of_session;
+    path.collect(numbers);
+    write_checkpoint(place, ranks_, grid_, joined(path.arrays(), maps_.arrays()), numbers.numbers,
+                     fingerprint_);
+}
+
+void RunSession::save_if_on(Path& path) {
+    if (case_.effects.checkpoints) save(path);
 }
 
 io::FilePlace RunSession::file(const std::string& name) const {
-    return ranks.root() ? storage_.file(name) : io::FilePlace(name);
+    return ranks_.root() ? storage_.file(name) : io::FilePlace(name);
 }
 
-std::optional<io::FilePlace> RunSession::checkpoint_to_resume() {
-    const auto place = storage_.checkpoint_to_resume();
+void RunSession::begin(Path& path) {
+    const std::optional<io::FilePlace> place = storage_.checkpoint_to_resume();
     print_notes();
-    return place;
+    if (place) {
+        const auto arrays = [&](const StateNumbers& all) {
+            RestoreNumbers numbers(all);
+            path.restore(numbers);
+            restore(numbers);
+            return joined(path.arrays(), maps_.arrays());
+        };
+        read_checkpoint(*place, ranks_, grid_, arrays, fingerprint_);
+        path.restored();
+    }
+    open_recorder();
+    if (place) progress_.say(fmt::format("going on from {} of {}", path.position(), place->path()));
 }
 
 void RunSession::open_recorder() {
     const auto add = [this](io::Hdf5File& file) {
         io::describe_origin(file, scene_toml(case_.scene, false));
     };
-    recorder_.emplace(ranks.root() ? storage_.directory() : io::Directory("."), surface, ranks,
+    recorder_.emplace(ranks_.root() ? storage_.directory() : io::Directory("."), surface_, ranks_,
                       case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, case_.effects,
                       resumed_at_, add);
 }
@@ -194,8 +231,7 @@ void RunSession::collect(CollectNumbers& numbers) {
     double processor = processor_seconds();
     numbers("run.records", records);
     numbers("run.processor_seconds", processor);
-    numbers("run.maps", maps);
-    numbers("run.results", results);
+    numbers("run.maps", maps_);
 }
 
 void RunSession::restore(RestoreNumbers& numbers) {
@@ -203,8 +239,7 @@ void RunSession::restore(RestoreNumbers& numbers) {
     numbers("run.records", records);
     resumed_at_ = records;
     numbers("run.processor_seconds", processor_before_);
-    numbers("run.maps", maps);
-    numbers("run.results", results);
+    numbers("run.maps", maps_);
 }
 
 double RunSession::processor_seconds() const {
@@ -216,21 +251,9 @@ double RunSession::processor_seconds() const {
     return processor_before_ + seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-double RunSession::way_done(std::size_t segment, double top, double start_height) const {
-    const ExpectedPath path = expected_path(case_, start_height);
-    const double ended = std::accumulate(
-        path.ways.begin(), path.ways.begin() + static_cast<std::ptrdiff_t>(segment), 0.0);
-    const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
-    const double depth = path.deepest + top; // of an approach still to come, of a pull-off done
-    double here = 0.0;
-    if (case_.path[segment].kind == Segment::approach) here = path.ways[segment] - depth;
-    if (case_.path[segment].kind == Segment::pull_off) here = depth;
-    here = std::clamp(here, 0.0, path.ways[segment]);
-    return all > 0.0 ? std::clamp((ended + here) / all, 0.0, 0.99) : 0.0;
-}
-
-void RunSession::write_failure(const Failure& failure, const AddToResult& add_to) {
-    if (!ranks.root()) return;
+void RunSession::write_failure(const Path& path, const Failure& failure,
+                               const AddToResult& add_to) {
+    if (!ranks_.root()) return;
     // A run that could not begin to record leaves its directory as it was.
     if (!recorder_ && failure.code != io::exit_code::physics) return;
     try {
@@ -238,17 +261,18 @@ void RunSession::write_failure(const Failure& failure, const AddToResult& add_to
     } catch (const std::exception&) { // what run.h5 held before must do
     }
     try {
-        write_result(&failure, add_to);
+        write_result(path, &failure, add_to);
     } catch (const std::exception&) { // the first error is the one to report
     }
 }
 
-io::Result RunSession::write_result(const Failure* failure, const AddToResult& add_to) {
-    io::Result result = run_result(case_, surface, results);
+io::Result RunSession::write_result(const Path& path, const Failure* failure,
+                                    const AddToResult& add_to) {
+    io::Result result = run_result(case_, surface_, path.results());
     add_to(result);
     result.set("run.wall_seconds", interruptions_.seconds());
     result.set("run.processor_seconds", processor_seconds());
-    add_phases(phases, result);
+    add_phases(phases_, result);
     if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
     if (const auto digest = io::sealed_digest(storage_.directory(), "run.h5"))
         result.set("run.file_digest", fmt::format("crc32:{:08x}", *digest));

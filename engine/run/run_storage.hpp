@@ -15,7 +15,7 @@
 #pragma once
 
 #include "decomposition/communicator.hpp"
-#include "engine/run/checkpoint.hpp"
+#include "engine/path/checkpoint.hpp"
 #include "engine/run/recorder.hpp"
 #include "engine/run/run.hpp"
 #include "io/result_directory.hpp"

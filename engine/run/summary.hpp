@@ -4,7 +4,7 @@
 // What a run prints at its beginning and at its end.
 #pragma once
 
-#include "engine/equilibrium/path_results.hpp"
+#include "engine/path/path_results.hpp"
 #include "engine/setup/case.hpp"
 #include "io/result.hpp"
 

@@ -4,8 +4,8 @@
 // asperity._engine: the paths of the engine that a script steps and leads, for Python. engine.py
 // makes the classes of them that users see.
 #include "decomposition/communicator.hpp"
-#include "engine/run/static_path.hpp"
-#include "engine/run/time_path.hpp"
+#include "engine/script/led_path.hpp"
+#include "engine/script/stepped_path.hpp"
 #include "engine/units.hpp"
 #include "io/machine.hpp"
 #include "io/scene_reader.hpp"
@@ -82,7 +82,7 @@ py::array array_of(const PlaneView<double>& plane, std::shared_ptr<const void> o
     return array;
 }
 
-py::object arrays_of(TimePath& path, const std::optional<TimePath::View>& view,
+py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& view,
                      bool writable = true) {
     if (!view) return py::none();
     const auto one = [&](const PlaneView<double>& plane) {
@@ -99,7 +99,7 @@ py::array array_of(const InterfaceMaps& maps, const std::vector<T>& values) {
 }
 
 /// [y, x, 3], or three of [y, x].
-void set_external(TimePath& path, const py::object& field) {
+void set_external(SteppedPath& path, const py::object& field) {
     if (field.is_none()) return path.clear_external();
     const py::module_ numpy = py::module_::import("numpy");
     py::object planes = numpy.attr("asarray")(field, "float64");
@@ -208,7 +208,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("maps", &RestState::maps, "its SiteMaps: gap, contact, pressure")
         .def("__repr__", shown);
 
-    using Sim = TimePath;
+    using Sim = SteppedPath;
     py::class_<Sim, std::shared_ptr<Sim>>(m, "Simulation")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides,
                          const std::optional<int>& communicator) {
@@ -345,7 +345,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_property("_top_position", &Sim::top_position, &Sim::set_top_position)
         .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
 
-    using Point = StaticPath::Point;
+    using Point = LedPath::Point;
     py::class_<Point>(m, "Point", "A point of a path without time: force balance at what is held.")
         .def_readonly(
             "top", &Point::top,
@@ -371,7 +371,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("number", &Point::step, "points of the path since it began")
         .def("__repr__", shown);
 
-    using State = StaticPath::State;
+    using State = LedPath::State;
     py::class_<State>(m, "State",
                       "Where the sites stand, of Statics.copy(): all that a state depends on.")
         .def(py::init([](const py::array_t<double, py::array::c_style | py::array::forcecast>& u,
@@ -392,14 +392,14 @@ PYBIND11_MODULE(_engine, m) {
             "displacements of the lowest layer, Å, [component, y, x], to be read and written")
         .def_readwrite("top", &State::top, "displacement of the top plane, Å");
 
-    py::class_<StaticPath>(m, "Statics")
+    py::class_<LedPath>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
             const Given scene = read(file, overrides);
-            return working([&] { return std::make_unique<StaticPath>(scene.resolved); });
+            return working([&] { return std::make_unique<LedPath>(scene.resolved); });
         }))
         .def(
             "relax",
-            [](StaticPath& s) { return working([&] { return s.relax(look_for_signals); }); },
+            [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
             "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
             "Without a new target: the point where it is. Ctrl-C ends it at a point; the next "
             "relax() goes on.\n"
@@ -407,7 +407,7 @@ PYBIND11_MODULE(_engine, m) {
             "is reached.")
         .def(
             "free",
-            [](StaticPath& s) { return working([&] { return s.release(look_for_signals); }); },
+            [](LedPath& s) { return working([&] { return s.release(look_for_signals); }); },
             "The state that the sites come to from where they are with nothing held but "
             "drive.load: "
             "a RestState.\n\n"
@@ -415,26 +415,26 @@ PYBIND11_MODULE(_engine, m) {
             "next "
             "relax() begins\na path there. Raises PhysicsError if no state is found; the "
             "sites then stay.")
-        .def("copy", &StaticPath::copy, "Where the sites stand: a State, for restore().")
-        .def("restore", &StaticPath::restore, py::arg("state"),
+        .def("copy", &LedPath::copy, "Where the sites stand: a State, for restore().")
+        .def("restore", &LedPath::restore, py::arg("state"),
              "Puts the sites where a State has them. The next relax() begins a path there: work, "
              "dissipated and number\ncount from there.")
         .def(
-            "maps", [](const StaticPath& s) { return working([&] { return s.maps(); }); },
+            "maps", [](const LedPath& s) { return working([&] { return s.maps(); }); },
             "The SiteMaps of the sites there: gap, contact, pressure.")
-        .def_property_readonly("now", &StaticPath::now, "the Point of the last relax()")
+        .def_property_readonly("now", &LedPath::now, "the Point of the last relax()")
         .def_property(
-            "mean_height", [](const StaticPath& s) { return s.now().mean_height; },
-            &StaticPath::set_mean_height,
+            "mean_height", [](const LedPath& s) { return s.now().mean_height; },
+            &LedPath::set_mean_height,
             "mean height of the lowest layer above the substrate's zero, Å. Written: where the "
             "next relax() leads it")
         .def_property(
-            "top", [](const StaticPath& s) { return s.now().top; }, &StaticPath::set_top,
+            "top", [](const LedPath& s) { return s.now().top; }, &LedPath::set_top,
             "displacement of the top plane since the start, Å. Written: where the next relax() "
             "leads it")
         .def_property_readonly(
             "_case", // what a search needs of it, in the units of the engine
-            [](const StaticPath& s) {
+            [](const LedPath& s) {
                 const Case& c = s.scene_case();
                 const bool atoms = c.scene.surface.kind == SurfaceKind::atoms;
                 return py::dict(
@@ -449,6 +449,6 @@ PYBIND11_MODULE(_engine, m) {
                     "lateral"_a = !c.scene.interface.frictionless &&
                                   c.scene.interface.kind != InterfaceKind::wall);
             })
-        .def("_load", py::overload_cast<double>(&StaticPath::set_load))
-        .def("_load", py::overload_cast<const std::string&>(&StaticPath::set_load));
+        .def("_load", py::overload_cast<double>(&LedPath::set_load))
+        .def("_load", py::overload_cast<const std::string&>(&LedPath::set_load));
 }

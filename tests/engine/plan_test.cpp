@@ -3,9 +3,9 @@
 //
 // What a plan says of a run follows the scene, and is what runs take: their time here, their memory
 // in tests/python/test_result.py.
+#include "engine/path/expected_path.hpp"
 #include "engine/run/plan.hpp"
-#include "engine/run/run_session.hpp"
-#include "engine/run/time_path.hpp"
+#include "engine/script/stepped_path.hpp"
 #include "io/terminal.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
@@ -128,18 +128,13 @@ TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
 
 TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
     // The top moves at one speed: of the whole path as much is done as of the steps.
-    const io::Scratch scratch;
-    RunOptions options;
-    options.out = scratch / "run";
-    options.progress = io::ProgressMode::off;
     const Case c = case_with(
         {"surface.sites=64", "block.thickness=32", "drive.velocity=50", "drive.timestep=10"});
-    const RunSession session(c, options, Communicator());
-    TimePath path(c, {}, Communicator());
+    SteppedPath path(c, {}, Communicator());
     std::vector<double> told;
     while (path.step(100, {}) == 100) {
         const Simulation& s = path.simulation();
-        told.push_back(session.way_done(s.drive().segment(), s.now().top, s.reference_height()));
+        told.push_back(way_done(c, s.reference_height(), s.drive().segment(), s.now().top));
     }
     ASSERT_GT(told.size(), 4u);
     const double all = static_cast<double>(path.now().step);

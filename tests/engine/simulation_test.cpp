@@ -3,7 +3,7 @@
 //
 // Decisions of the drive; the sums and the energy balance of a simulation.
 #include "engine/interface/flat_reference.hpp"
-#include "engine/run/state_numbers.hpp"
+#include "engine/path/state_numbers.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A checkpoint whose digest is right: it is put behind the bytes here, or none would get past it.
-#include "engine/run/checkpoint.hpp"
-#include "engine/equilibrium/path_results.hpp"
+#include "engine/path/checkpoint.hpp"
+#include "engine/path/path_results.hpp"
 #include "engine/run/run_storage.hpp"
 #include "target.hpp"
 
@@ -23,12 +23,14 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         RestoreNumbers restore(numbers);
         PathResults results;
         Dissipation dissipation;
-        fuzz::try_out([&] { restore("run.results", results); });
-        fuzz::try_out([&] { restore("path.dissipation", dissipation); });
+        fuzz::try_out([&] { restore("results", results); });
+        fuzz::try_out([&] { restore("points.dissipation", dissipation); });
         const ProcessGrid grid(1, 0, 4, 1);
         Field<double> field(grid.tile(0), 2);
-        read_checkpoint(file.name(), Communicator(), grid, {{"/level0/u_x", 0, &field, 2}},
-                        "scene");
+        const auto arrays = [&](const StateNumbers&) {
+            return std::vector<StateArray>{{"/level0/u_x", 0, &field, 2}};
+        };
+        read_checkpoint(file.name(), Communicator(), grid, arrays, "scene");
     });
     return 0;
 }

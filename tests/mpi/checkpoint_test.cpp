@@ -3,10 +3,11 @@
 //
 // A run that was interrupted goes on as if it had not been: the same bits, whatever number of ranks
 // wrote the checkpoint and whatever number reads it. Reference: the uninterrupted run on one rank.
-#include "engine/run/checkpoint.hpp"
+#include "engine/path/state_numbers.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
+#include "support/simulation_checkpoint.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -85,11 +86,11 @@ TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
     more("rows", rows);
     more("binding", binding);
     EXPECT_THROW(more("rows", rows), std::logic_error) << "two of one name";
-    write_checkpoint(scratch.file, before, more, "scene A");
+    test::write_checkpoint(scratch.file, before, more, "scene A");
     world().barrier();
     if (world().root()) {
         Simulation after = make(Communicator());
-        const StateNumbers numbers = read_checkpoint(scratch.file, after, "scene A");
+        const StateNumbers numbers = test::read_checkpoint(scratch.file, after, "scene A");
         EXPECT_EQ(std::get<std::int64_t>(numbers.at("rows")), rows);
         EXPECT_EQ(std::get<double>(numbers.at("binding")), binding);
         EXPECT_EQ(after.steps(), first_part);
@@ -110,12 +111,12 @@ TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
         Simulation before = make(Communicator());
         before.start(start_height);
         advance(before, first_part);
-        write_checkpoint(scratch.file, before, {}, "scene A");
+        test::write_checkpoint(scratch.file, before, {}, "scene A");
     }
     world().barrier();
     Simulation after = make(world());
     advance(after, 3); // whatever it did before must be forgotten
-    EXPECT_FALSE(read_checkpoint(scratch.file, after, "scene A").contains("rows"));
+    EXPECT_FALSE(test::read_checkpoint(scratch.file, after, "scene A").contains("rows"));
     EXPECT_EQ(after.steps(), first_part);
     advance(after, second_part);
     EXPECT_EQ(trace(after), expected);
@@ -133,10 +134,10 @@ void goes_on(const SimulationOptions& o, const char* name) {
     Simulation before = made();
     before.start(start_height);
     advance(before, first_part);
-    write_checkpoint(scratch.file, before, {}, "scene A");
+    test::write_checkpoint(scratch.file, before, {}, "scene A");
     world().barrier();
     Simulation after = made();
-    read_checkpoint(scratch.file, after, "scene A");
+    test::read_checkpoint(scratch.file, after, "scene A");
     advance(before, second_part);
     advance(after, second_part);
     EXPECT_GT(before.now().elastic_energy, 0.0);
@@ -155,10 +156,10 @@ TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {
     const test::SharedScratch scratch("other_scene");
     Simulation s = make(world());
     s.start(start_height);
-    write_checkpoint(scratch.file, s, {},
-                     R"({"surface":{"rms":1,"seed":1},"drive":{"dt":10,"load":1}})");
+    test::write_checkpoint(scratch.file, s, {},
+                           R"({"surface":{"rms":1,"seed":1},"drive":{"dt":10,"load":1}})");
     const auto read = [&] {
-        read_checkpoint(
+        test::read_checkpoint(
             scratch.file, s,
             R"({"surface":{"rms":1,"seed":2},"drive":{"dt":10},"output":{"fields":true}})");
     };
@@ -173,7 +174,7 @@ TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {
 TEST(Checkpoint, WhatIsNoneIsRefused) {
     const test::SharedScratch scratch("no_checkpoint");
     Simulation s = make(world());
-    const auto read = [&] { read_checkpoint(scratch.file, s, "scene A"); };
+    const auto read = [&] { test::read_checkpoint(scratch.file, s, "scene A"); };
     for (const char* content : {"", "not HDF5"}) {
         if (world().root() && *content) std::ofstream(scratch.file) << content;
         world().barrier();
@@ -182,22 +183,4 @@ TEST(Checkpoint, WhatIsNoneIsRefused) {
         else
             EXPECT_THROW(read(), RootFailure);
     }
-}
-
-TEST(Snapshot, PutsTheSimulationBack) {
-    Simulation s = make(world());
-    s.start(start_height);
-    advance(s, first_part);
-    Snapshot snapshot;
-    EXPECT_TRUE(snapshot.empty());
-    snapshot.take(s);
-    EXPECT_EQ(snapshot.step(), first_part);
-    const std::uint64_t there = test::fingerprint(s.block());
-    advance(s, second_part);
-    const std::uint64_t end = trace(s);
-    snapshot.restore(s);
-    EXPECT_EQ(s.steps(), first_part);
-    EXPECT_EQ(test::fingerprint(s.block()), there);
-    advance(s, second_part);
-    EXPECT_EQ(trace(s), end);
 }

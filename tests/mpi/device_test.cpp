@@ -6,11 +6,11 @@
 // Reference: the processor's steps on one rank (same_bits_test).
 #include "engine/device/device_block.hpp"
 #include "engine/dynamics/simulation.hpp"
-#include "engine/run/checkpoint.hpp"
 #include "io/error.hpp"
 #include "kernels/variant.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
+#include "support/simulation_checkpoint.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -131,12 +131,12 @@ TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
             Simulation s = make(c, world(), device_first);
             s.start(height);
             trace.follow(s, steps / 2);
-            write_checkpoint(scratch.file, s, {}, "");
+            test::write_checkpoint(scratch.file, s, {}, "");
             Trace beyond; // the state goes on after it has been read
             beyond.follow(s, 10);
         }
         Simulation s = make(c, world(), !device_first);
-        read_checkpoint(scratch.file, s, "");
+        test::read_checkpoint(scratch.file, s, "");
         trace.follow(s, steps - steps / 2);
         trace.conclude(s);
         EXPECT_EQ(trace, expected) << (device_first ? "device first" : "processor first");

@@ -4,7 +4,7 @@
 // A quasi-static path that is stopped, between points or within a relaxation, and resumed from a
 // checkpoint is the same bits as one that never stopped, and as that of one rank.
 #include "engine/equilibrium/quasistatic.hpp"
-#include "engine/run/checkpoint.hpp"
+#include "engine/path/checkpoint.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
 
@@ -98,7 +98,8 @@ struct Contact {
         write_checkpoint(file, ranks, grid, path.states(), collect.numbers, "it");
     }
     void read(const std::string& file, const Communicator& ranks) {
-        const StateNumbers numbers = read_checkpoint(file, ranks, grid, path.states(), "it");
+        const StateNumbers numbers = read_checkpoint(
+            file, ranks, grid, [&](const auto&) { return path.states(); }, "it");
         RestoreNumbers restore(numbers);
         restore("path", path);
         path.resume();

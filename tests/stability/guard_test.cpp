@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // What ends a path, in time and without: nothing that is no physics leaves a result without a word.
-#include "engine/run/guard.hpp"
+#include "engine/path/guard.hpp"
 
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A scene without time in a loop of the caller's own (asperity.Statics of Python): its solids in
-// force balance, where they are led. What is found depends on the way there, as on a path of a run;
-// what is lost on it is counted. It starts out of reach.
+// A quasi-static path (engine/path/static_path.hpp) by hand (asperity.Statics of Python): its
+// solids in force balance, where they are led. What is found depends on the way there, as on a path
+// of a run; what is lost on it is counted. It starts out of reach.
 //
 // The mean height is held, or the top plane; the first one that is set decides, or a load, which
 // then holds what drive.control says. Of a scene in time the same solids are taken, as if
 // drive.mode were "quasistatic".
 #pragma once
 
-#include "engine/equilibrium/quasistatic.hpp"
-#include "engine/run/time_path.hpp"
+#include "engine/path/static_path.hpp"
+#include "engine/script/stepped_path.hpp"
 
 #include <exception>
 #include <optional>
@@ -19,9 +19,9 @@
 
 namespace asperity {
 
-class StaticPath {
+class LedPath {
 public:
-    explicit StaticPath(const Case& c);
+    explicit LedPath(const Case& c);
     const Case& scene_case() const { return case_; }
 
     // Where the next relax() goes. Throw io::SceneError where the other one is held.
@@ -72,25 +72,19 @@ private:
     void hold(Held held);
     void begin();
     void place(const State& state);
-    bool interrupts();
-    void lead();
-    void guard() const;
+    template <class Work>
+    auto while_looking(const Look& look, const Work& work);
 
     const Case case_;
     const Surface surface_;
-    Interface interface_;
-    SpectralBlock block_;
+    StaticPath path_;
     std::optional<Held> held_;
-    /// Of the block as it is; none: it has not begun, or is to begin anew.
-    std::optional<QuasistaticPath> path_;
     bool placed_ = false; ///< it begins where the block is, not out of reach
     Point before_;        ///< the last of the path before
     struct Goal {
         std::optional<double> at{}, load{}; ///< Å, eV/Å
     };
     Goal target_; ///< where the next relaxation leads it
-    LookNowAndThen* looking_ = nullptr;
-    std::exception_ptr thrown_;
 };
 
 } // namespace asperity

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/state_numbers.hpp"
+#include "engine/path/state_numbers.hpp"
 
 #include "io/error.hpp"
 

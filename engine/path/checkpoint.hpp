@@ -11,49 +11,50 @@
 // run_storage.hpp.
 #pragma once
 
-#include "engine/dynamics/simulation.hpp"
+#include "engine/block/block.hpp"
 #include "engine/equilibrium/state_array.hpp"
-#include "engine/run/state_numbers.hpp"
+#include "engine/path/state_numbers.hpp"
 #include "io/files.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace asperity {
+
+class Path;
 
 /// Writes arrays, each as whole planes, and numbers. Collective. fingerprint: of the scene; only
 /// the scene that wrote a checkpoint goes on from it.
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint);
-/// Reads them back; halos are left to the caller. Collective. Throws io::FileError if the file is
-/// damaged or cannot be read, io::SceneError if it is of another scene.
+/// Reads them back; halos are left to the caller. arrays: those to be read, which the numbers may
+/// decide. Collective. Throws io::FileError if the file is damaged or cannot be read,
+/// io::SceneError if it is of another scene.
+using ArraysOf = std::function<std::vector<StateArray>(const StateNumbers&)>;
 StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
-                             const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                             const ProcessGrid& grid, const ArraysOf& arrays,
                              const std::string& fingerprint);
 /// The numbers alone, of whatever scene. Not collective. Throws io::FileError.
 StateNumbers read_checkpoint_numbers(const io::FilePlace& place);
 
-/// The same with a simulation: its fields, and its numbers as "simulation.*".
-void write_checkpoint(const io::FilePlace& place, Simulation& simulation, CollectNumbers numbers,
-                      const std::string& fingerprint, const std::vector<StateArray>& arrays = {});
-StateNumbers read_checkpoint(const io::FilePlace& place, Simulation& simulation,
-                             const std::string& fingerprint,
-                             const std::vector<StateArray>& arrays = {});
+/// Displacements and half-step velocities of each level.
+std::vector<StateArray> state_of(Block& block);
+/// One list behind another.
+std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more);
 
 /// The last state known to be good, in memory, to be written when a guard stops the run.
 class Snapshot {
 public:
-    void take(Simulation& simulation);
+    void take(Path& path);
     bool empty() const { return fields_.empty(); }
-    /// Puts the simulation back to the state taken.
-    void restore(Simulation& simulation) const;
-    long long step() const { return step_; }
+    /// Puts the path back to the state taken.
+    void restore(Path& path) const;
 
 private:
     StateCopy fields_;
     StateNumbers numbers_;
-    long long step_ = 0;
 };
 
 } // namespace asperity

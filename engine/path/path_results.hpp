@@ -4,10 +4,10 @@
 // What a run has come to so far: the numbers behind the summary and result.json.
 #pragma once
 
-#include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
+#include "engine/equilibrium/zero_load.hpp"
 #include "engine/scene/segment.hpp"
-#include "engine/units.hpp"
+#include "engine/step_record.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,34 +16,6 @@
 #include <vector>
 
 namespace asperity {
-
-/// Of the relaxed state under zero load.
-struct ZeroLoad {
-    double binding_energy = 0.0; ///< gamma_state = -(U_LJ + U_el) / A0, meV/Å^2
-    double pairwise = 0.0;       ///< -U_LJ / A0: the atom-by-atom work, meV/Å^2
-    double elastic = 0.0;        ///< U_el / A0, meV/Å^2
-    double contact_fraction = 0.0;
-    double repulsive_fraction = 0.0;
-    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
-    double residual = 0.0;    ///< largest force left, eV/Å
-    long long iterations = 0;
-    /// Of the binding energy: what forces as large as drive.tolerance stand for in the softest wave
-    /// of the box, meV/Å^2.
-    double uncertainty = 0.0;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("binding_energy", binding_energy);
-        v("pairwise", pairwise);
-        v("elastic", elastic);
-        v("contact_fraction", contact_fraction);
-        v("repulsive_fraction", repulsive_fraction);
-        v("mean_height", mean_height);
-        v("residual", residual);
-        v("iterations", iterations);
-        v("uncertainty", uncertainty);
-    }
-};
 
 /// Energies of an approach or a pull-off that has ended, meV/Å^2, from or to rest out of reach.
 /// Works are positive where the solids attract: taken up on the way in, given on the way out.

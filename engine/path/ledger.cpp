@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/ledger.hpp"
+#include "engine/path/ledger.hpp"
 
 namespace asperity {
 
@@ -14,6 +14,15 @@ Works& Works::operator+=(const Works& more) {
     add(interface, more.interface);
     add(uncertainty, more.uncertainty);
     return *this;
+}
+
+Works Works::operator-(const Works& earlier) const {
+    Works between = *this;
+    between.on_solids -= earlier.on_solids;
+    between.lateral -= earlier.lateral;
+    between.lost -= earlier.lost;
+    if (between.interface) *between.interface -= earlier.interface.value_or(0.0);
+    return between;
 }
 
 std::optional<double> Ledger::per_area(const std::optional<double>& energy) const {

@@ -20,4 +20,7 @@ struct ExpectedPath {
 /// start: height of the lowest layer at the start, Å.
 ExpectedPath expected_path(const Case& c, double start);
 
+/// Done of the whole way, 0 to 1, as far as the top plane's displacement in a segment tells.
+double way_done(const Case& c, double start, std::size_t segment, double top);
+
 } // namespace asperity

@@ -11,7 +11,7 @@
 // state.
 #pragma once
 
-#include "engine/equilibrium/path_results.hpp"
+#include "engine/path/path_results.hpp"
 #include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 
@@ -30,6 +30,8 @@ struct Works {
     std::optional<double> uncertainty; ///< of on_solids and lost; without time only
 
     Works& operator+=(const Works& more);
+    /// From an earlier place on the path to this one.
+    Works operator-(const Works& earlier) const;
 
     template <class Visitor>
     void visit(Visitor& v) {

@@ -5,13 +5,14 @@
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
-#include "engine/setup/case.hpp"
-#include "io/error.hpp"
 
+#include <functional>
 #include <optional>
 #include <string>
 
 namespace asperity {
+
+class Path;
 
 /// Largest relative error of the energy balance that counts as physics.
 inline constexpr double largest_energy_error = 0.02;
@@ -22,14 +23,13 @@ inline constexpr double largest_energy_error = 0.02;
 std::optional<std::string> violation(const StepRecord& now, double lowest_height,
                                      const std::string& place);
 
+/// Throws io::PhysicsError where that is so at path.now(). kept: says what is left to go on from.
+/// Collective.
+void guard(const Path& path, const std::function<std::string()>& kept = {});
+
 /// "site (3, 7) moves at 1e+05 m/s": that of the lowest layer with the largest velocity, which may
 /// be infinite or no number. Collective.
 std::string fastest_site(const Simulation& simulation);
-/// Of a step in time at which something was wrong; where: its fastest_site(); kept: what is left to
-/// go on from.
-io::PhysicsError step_failed(const std::string& wrong, const std::string& where, const Case& c,
-                             const std::string& kept);
-
 /// At the end of an approach. Throws io::PhysicsError where it was to end under a pull (load, eV/Å,
 /// negative) larger than the largest attraction that it met. slack: what a force may be wrong by,
 /// eV/Å; area: Å^2.

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/expected_path.hpp"
+#include "engine/path/expected_path.hpp"
 
 #include "engine/units.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace asperity {
 
@@ -44,6 +45,19 @@ ExpectedPath expected_path(const Case& c, double start) {
         path.deepest = std::max(path.deepest, -at);
     }
     return path;
+}
+
+double way_done(const Case& c, double start, std::size_t segment, double top) {
+    const ExpectedPath path = expected_path(c, start);
+    const double ended = std::accumulate(
+        path.ways.begin(), path.ways.begin() + static_cast<std::ptrdiff_t>(segment), 0.0);
+    const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
+    const double depth = path.deepest + top; // of an approach still to come, of a pull-off done
+    double here = 0.0;
+    if (c.path[segment].kind == Segment::approach) here = path.ways[segment] - depth;
+    if (c.path[segment].kind == Segment::pull_off) here = depth;
+    here = std::clamp(here, 0.0, path.ways[segment]);
+    return all > 0.0 ? std::clamp((ended + here) / all, 0.0, 0.99) : 0.0;
 }
 
 } // namespace asperity

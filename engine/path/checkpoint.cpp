@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/checkpoint.hpp"
+#include "engine/path/checkpoint.hpp"
+
+#include "engine/path/path.hpp"
 
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
@@ -22,33 +24,7 @@ namespace asperity {
 
 namespace {
 
-constexpr int format_version = 3;
-
-/// Displacements and half-step velocities of each level.
-std::vector<StateArray> fields_of(Block& block) {
-    std::vector<StateArray> list;
-    for (const Block::Level& level : block.levels()) {
-        const int n = level.shape.level, planes = level.shape.cells;
-        const Block::Fields fields = block.fields(level);
-        add_arrays(n, "u", fields.u, planes, list);
-        add_arrays(n, "v", fields.v, planes, list);
-    }
-    return list;
-}
-
-/// A list of arrays is for both ways; who gets this one only reads.
-std::vector<StateArray> fields_to_read(const Simulation& simulation) {
-    return fields_of(const_cast<Block&>(simulation.block()));
-}
-
-std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more) {
-    list.insert(list.end(), more.begin(), more.end());
-    return list;
-}
-
-} // namespace
-
-namespace {
+constexpr int format_version = 4;
 
 /// Numbers of one type: their names, a line each, and their values.
 template <class T>
@@ -127,6 +103,22 @@ private:
 
 } // namespace
 
+std::vector<StateArray> state_of(Block& block) {
+    std::vector<StateArray> list;
+    for (const Block::Level& level : block.levels()) {
+        const int n = level.shape.level, planes = level.shape.cells;
+        const Block::Fields fields = block.fields(level);
+        add_arrays(n, "u", fields.u, planes, list);
+        add_arrays(n, "v", fields.v, planes, list);
+    }
+    return list;
+}
+
+std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+}
+
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint) {
@@ -189,7 +181,7 @@ StateNumbers read_checkpoint_numbers(const io::FilePlace& place) {
 }
 
 StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
-                             const ProcessGrid& grid, const std::vector<StateArray>& arrays,
+                             const ProcessGrid& grid, const ArraysOf& arrays,
                              const std::string& fingerprint) {
     std::unique_ptr<io::Hdf5File> file;
     NumberLists lists;
@@ -209,7 +201,8 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
         lists = NumberLists(*file);
     });
     lists.broadcast(ranks);
-    for (const StateArray& array : arrays) {
+    StateNumbers numbers = lists.by_name();
+    for (const StateArray& array : arrays(numbers)) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
             std::vector<double> dense;
@@ -221,40 +214,21 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
             scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
         }
     }
-    return lists.by_name();
-}
-
-void write_checkpoint(const io::FilePlace& place, Simulation& simulation, CollectNumbers numbers,
-                      const std::string& fingerprint, const std::vector<StateArray>& arrays) {
-    numbers("simulation", simulation);
-    write_checkpoint(place, simulation.communicator(), simulation.block().grid(),
-                     joined(fields_to_read(simulation), arrays), numbers.numbers, fingerprint);
-}
-
-StateNumbers read_checkpoint(const io::FilePlace& place, Simulation& simulation,
-                             const std::string& fingerprint,
-                             const std::vector<StateArray>& arrays) {
-    Block& block = simulation.block_to_write();
-    StateNumbers numbers = read_checkpoint(place, simulation.communicator(), block.grid(),
-                                           joined(fields_of(block), arrays), fingerprint);
-    RestoreNumbers restore(numbers);
-    restore("simulation", simulation);
-    block.exchange();
     return numbers;
 }
 
-void Snapshot::take(Simulation& simulation) {
-    fields_.take(fields_to_read(simulation));
+void Snapshot::take(Path& path) {
+    fields_.take(path.arrays());
     CollectNumbers collect;
-    simulation.visit(collect);
+    path.collect(collect);
     numbers_ = std::move(collect.numbers);
-    step_ = simulation.steps();
 }
 
-void Snapshot::restore(Simulation& simulation) const {
-    fields_.restore(fields_of(simulation.block_to_write()));
+void Snapshot::restore(Path& path) const {
+    fields_.restore(path.arrays());
     RestoreNumbers restore(numbers_);
-    simulation.visit(restore);
+    path.restore(restore);
+    path.restored();
 }
 
 } // namespace asperity

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/guard.hpp"
+#include "engine/path/guard.hpp"
 
 #include "decomposition/global_largest.hpp"
+#include "engine/path/path.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/terminal.hpp"
@@ -41,16 +42,16 @@ std::string fastest_site(const Simulation& simulation) {
                        fastest.value / units::metre_per_second);
 }
 
-io::PhysicsError step_failed(const std::string& wrong, const std::string& where, const Case& c,
-                             const std::string& kept) {
-    const double set = c.scene.drive.timestep, limit = c.longest_timestep;
-    return {wrong,
-            fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
-                        "contact, and less where atoms are pressed into the wall or hit it fast",
-                        where, set, limit),
-            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
-                        "drive.velocity; {}",
-                        std::min(0.5 * set, 0.2 * limit), kept)};
+void guard(const Path& path, const std::function<std::string()>& kept) {
+    const Case& c = path.scene_case();
+    const double lowest = path.surface().statistics.lowest - reach_of(c.simulation.interface);
+    const StepRecord now = path.now();
+    const auto wrong =
+        violation(now, lowest, fmt::format("{} {}", c.in_time ? "step" : "point", now.step));
+    if (!wrong) return;
+    Path::Remedy remedy = path.remedy();
+    if (kept) remedy.fix += "; " + kept(); // may put the path back
+    throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
 }
 
 void require_load_reached(double load, double attraction, double slack, double area) {

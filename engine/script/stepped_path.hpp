@@ -1,16 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A scene's path in time in a loop of the caller's own (asperity.Simulation of Python): it is
-// stepped, observed, led by hand, pushed and saved. It starts and turns as a run has it, to the
-// same bits (driven_path.hpp).
+// A path in time (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
+// Python): it is stepped, observed, led by hand, pushed and saved. It is the one that a run drives.
 //
 // All ranks of the communicator make the same calls with the same arguments, but for what is
 // written to the sites of their own tiles.
 #pragma once
 
-#include "engine/equilibrium/state_array.hpp"
-#include "engine/run/driven_path.hpp"
+#include "engine/path/time_path.hpp"
 
 #include <chrono>
 #include <exception>
@@ -64,12 +62,12 @@ private:
     std::vector<double> values_;
 };
 
-class TimePath : public std::enable_shared_from_this<TimePath> {
+class SteppedPath : public std::enable_shared_from_this<SteppedPath> {
 public:
     /// At its start. Throws io::SceneError for a scene without time, or that a run would refuse.
-    TimePath(Case c, SceneText source, const Communicator& ranks);
+    SteppedPath(Case c, SceneText source, const Communicator& ranks);
     /// Of a file of save(): it goes on to the same bits.
-    static std::shared_ptr<TimePath> resume(const std::string& file, const Communicator& ranks);
+    static std::shared_ptr<SteppedPath> resume(const std::string& file, const Communicator& ranks);
 
     /// n steps, or fewer: none are made past the end of the path. Returns how many were. The last
     /// one is observed, as are those of output.series and of observers. Throws io::PhysicsError
@@ -79,21 +77,21 @@ public:
     /// write as the program does between two steps, but do not step.
     void every(long long n, std::function<void()> f);
     /// The path has come to its end. Never while the top is led by hand.
-    bool done() const { return path_.over(); }
+    bool done() const { return path_.done(); }
     std::string segment() const; ///< as the scene has it; "done" after the last
 
     const Case& scene_case() const { return case_; }
-    const Simulation& simulation() const { return simulation_; }
+    const Simulation& simulation() const { return path_.simulation(); }
     const Surface& surface() const { return surface_; }
-    const PathResults& results() const { return results_; }
+    const PathResults& results() const { return path_.results(); }
     /// The last step; zero before the first one.
-    const StepRecord& now() const { return now_; }
+    const StepRecord& now() const { return path_.now(); }
     /// Of all sites.
     double fraction(long long sites) const;
 
     // The top plane: displacement since the start, Å, and velocity in the next step, m/s.
 
-    double top_position() const { return simulation_.block().top(); }
+    double top_position() const { return simulation().block().top(); }
     void set_top_position(double z);
     double top_velocity() const;
     /// None: back to the scene's drive, where that was.
@@ -109,7 +107,7 @@ public:
     /// Forces of the last step, to be read. Not on a device.
     View f();
     std::shared_ptr<const void> lease();
-    Tile tile() const { return grid_.tile(0); }
+    Tile tile() const { return path_.grid().tile(0); }
     InterfaceMaps maps(); ///< of the sites as they are now
 
     /// Forces on the sites beside the substrate's, eV/Å, from the next step on; they are copied.
@@ -135,11 +133,11 @@ private:
     void require_processor(const char* what) const;
     void one_step(bool last);
     View view_to_write(VectorField<double> Block::Level::*field);
-    const Block::Level& lowest_level() const { return simulation_.block().levels().front(); }
+    const Block::Level& lowest_level() const { return simulation().block().levels().front(); }
     void take_copies();
     void bring_up_views();
     void take_in_writes();
-    std::vector<StateArray> arrays();
+    std::vector<StateArray> own_arrays();
     std::string description() const;
     void restore(const std::string& file);
 
@@ -147,12 +145,7 @@ private:
     const SceneText source_;
     const Communicator ranks_;
     const Surface surface_;
-    const ProcessGrid grid_;
-    Simulation simulation_;
-    PathResults results_;
-    DrivenPath path_;
-    const double lowest_height_; ///< below it the block has passed through the substrate, Å
-    StepRecord now_;
+    TimePath path_;
     std::vector<Observer> observers_;
     bool stepping_ = false;
     std::string failure_; ///< why no step can follow; empty: one can

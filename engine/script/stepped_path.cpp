@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/time_path.hpp"
+#include "engine/script/stepped_path.hpp"
 
-#include "engine/equilibrium/zero_load.hpp"
-#include "engine/run/checkpoint.hpp"
-#include "engine/run/guard.hpp"
+#include "engine/path/checkpoint.hpp"
+#include "engine/path/guard.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
@@ -111,24 +110,21 @@ void LayerCopy::take(const VectorPlane<const double>& layer) {
             values_.insert(values_.end(), plane.line(y), plane.line(y) + plane.nx);
 }
 
-TimePath::TimePath(Case c, SceneText source, const Communicator& ranks)
+SteppedPath::SteppedPath(Case c, SceneText source, const Communicator& ranks)
     : case_(std::move(c)), source_(std::move(source)), ranks_(ranks),
-      surface_(checked_surface(case_, ranks)), grid_(case_.grid(ranks.rank())),
-      simulation_(case_.simulation, surface_, ranks, grid_), path_(case_, simulation_, results_),
-      lowest_height_(surface_.statistics.lowest - reach_of(case_.simulation.interface)) {
-    path_.start();
-}
+      surface_(checked_surface(case_, ranks)), path_(case_, surface_, ranks) {}
 
-std::shared_ptr<TimePath> TimePath::resume(const std::string& file, const Communicator& ranks) {
+std::shared_ptr<SteppedPath> SteppedPath::resume(const std::string& file,
+                                                 const Communicator& ranks) {
     SceneText source = saved_scene(file);
     Case c = source.read(ranks.size());
     // It starts as a new one: of the height that it starts at a file has only the path's numbers.
-    auto path = std::make_shared<TimePath>(std::move(c), std::move(source), ranks);
+    auto path = std::make_shared<SteppedPath>(std::move(c), std::move(source), ranks);
     path->restore(file);
     return path;
 }
 
-long long TimePath::step(long long n, const Look& look) {
+long long SteppedPath::step(long long n, const Look& look) {
     if (n < 0)
         refuse("step", fmt::format("of {} steps", n), "time goes forwards", "a number from 0 on");
     require_whole();
@@ -145,7 +141,7 @@ long long TimePath::step(long long n, const Look& look) {
     LookNowAndThen now_and_then(look);
     long long taken = 0;
     try {
-        while (taken < n && !path_.over()) {
+        while (taken < n && !path_.done()) {
             const bool last = taken + 1 == n;
             one_step(last);
             ++taken;
@@ -159,19 +155,16 @@ long long TimePath::step(long long n, const Look& look) {
     return taken;
 }
 
-void TimePath::one_step(bool last) {
-    const long long number = simulation_.steps();
+void SteppedPath::one_step(bool last) {
+    const long long number = path_.steps();
     const bool observed = std::any_of(observers_.begin(), observers_.end(),
                                       [&](const Observer& o) { return number % o.period == 0; });
     const bool due = number % case_.scene.output.series == 0;
     try {
         moved_ = true;
-        now_ = simulation_.step(due || observed || last || path_.must_observe());
-        if (const auto wrong = violation(now_, lowest_height_, fmt::format("step {}", number)))
-            throw step_failed(*wrong, fastest_site(simulation_), case_,
-                              "or resume the last state that was saved");
-        path_.follow(now_);
-        if (const auto segment = path_.to_conclude()) path_.conclude(*segment);
+        path_.advance({.energies = due || observed || last});
+        guard(path_, [] { return "or resume the last state that was saved"; });
+        if (path_.ended()) path_.conclude();
     } catch (const std::exception& error) {
         failure_ = error.what();
         throw;
@@ -187,63 +180,66 @@ void TimePath::one_step(bool last) {
     take_in_writes();
 }
 
-void TimePath::every(long long n, std::function<void()> f) {
+void SteppedPath::every(long long n, std::function<void()> f) {
     if (n < 1)
         refuse("every", fmt::format("{} steps", n), "an observer is called each so many steps",
                "a number from 1 on");
     observers_.push_back({n, std::move(f)});
 }
 
-std::string TimePath::segment() const { return done() ? "done" : simulation_.drive().now().text; }
+std::string SteppedPath::segment() const {
+    return done() ? "done" : simulation().drive().now().text;
+}
 
-double TimePath::fraction(long long sites) const {
+double SteppedPath::fraction(long long sites) const {
     const double across = case_.scene.surface.sites;
     return static_cast<double>(sites) / (across * across);
 }
 
-void TimePath::set_top_position(double z) {
+void SteppedPath::set_top_position(double z) {
     require_number("top.position", z);
-    simulation_.block_to_write().set_top(z);
+    path_.simulation().block_to_write().set_top(z);
 }
 
-double TimePath::top_velocity() const {
-    const double middle = simulation_.time() + 0.5 * simulation_.options().dt;
-    return simulation_.drive().velocity(middle) / units::metre_per_second;
+double SteppedPath::top_velocity() const {
+    const double middle = simulation().time() + 0.5 * simulation().options().dt;
+    return simulation().drive().velocity(middle) / units::metre_per_second;
 }
 
-void TimePath::set_top_velocity(std::optional<double> v) {
+void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
-    simulation_.drive().take_over(v ? std::optional(*v * units::metre_per_second) : std::nullopt);
+    path_.simulation().drive().take_over(v ? std::optional(*v * units::metre_per_second)
+                                           : std::nullopt);
 }
 
-TimePath::View TimePath::view_to_write(VectorField<double> Block::Level::*field) {
+SteppedPath::View SteppedPath::view_to_write(VectorField<double> Block::Level::*field) {
     if (!viewed_) take_copies(); // of what the device has, if it is newer
     viewed_ = true;
     return const_cast<VectorField<double>&>(lowest_level().*field).plane(0);
 }
 
-TimePath::View TimePath::f() {
+SteppedPath::View SteppedPath::f() {
     require_processor("f");
     return const_cast<VectorField<double>&>(lowest_level().transferred).plane(0);
 }
 
-std::shared_ptr<const void> TimePath::lease() {
+std::shared_ptr<const void> SteppedPath::lease() {
     auto held = lease_.lock();
     if (!held)
-        lease_ = held = std::make_shared<std::shared_ptr<const TimePath>>(shared_from_this());
+        lease_ = held = std::make_shared<std::shared_ptr<const SteppedPath>>(shared_from_this());
     return held;
 }
 
 /// Positions are of the next step: so is the place of the block over the substrate.
-InterfaceMaps TimePath::maps() {
-    simulation_.interface().slide_to(simulation_.place()[0], simulation_.place()[1]);
-    return simulation_.interface().maps(simulation_.block().lowest_layer(),
-                                        simulation_.reference_height());
+InterfaceMaps SteppedPath::maps() {
+    const std::array<double, 2>& place = simulation().place();
+    path_.interface().slide_to(place[0], place[1]);
+    return path_.interface().maps(simulation().block().lowest_layer(), path_.reference_height());
 }
 
-void TimePath::set_external(const VectorPlane<const double>& field) {
+void SteppedPath::set_external(const VectorPlane<const double>& field) {
     require_processor("external");
-    const Tile tile = grid_.tile(0);
+    const Tile tile = this->tile();
     for (const auto& plane : {field.x, field.y, field.z})
         if (plane.nx != tile.nx || plane.ny != tile.ny)
             refuse("external", fmt::format("has the shape [{}, {}]", plane.ny, plane.nx),
@@ -256,20 +252,20 @@ void TimePath::set_external(const VectorPlane<const double>& field) {
          {std::pair{&field.x, &to.x}, {&field.y, &to.y}, {&field.z, &to.z}})
         for (int y = 0; y < tile.ny; ++y)
             std::copy_n(from->line(y), tile.nx, here->line(y));
-    simulation_.push(external_.get());
+    path_.simulation().push(external_.get());
 }
 
-void TimePath::clear_external() {
-    simulation_.push(nullptr);
+void SteppedPath::clear_external() {
+    path_.simulation().push(nullptr);
     if (external_) dropped_.push_back(std::move(external_));
 }
 
-std::optional<TimePath::View> TimePath::external() {
+std::optional<SteppedPath::View> SteppedPath::external() {
     if (!external_) return std::nullopt;
     return external_->plane(0);
 }
 
-RestState TimePath::relax(const Look& look) {
+RestState SteppedPath::relax(const Look& look) {
     require_whole();
     if (external_)
         refuse("relax", "with an external field",
@@ -277,42 +273,38 @@ RestState TimePath::relax(const Look& look) {
                "take the field away before (external = None)");
     take_in_writes();
     LookNowAndThen now_and_then(look);
-    const double height = simulation_.reference_height();
-    const std::array<double, 2> place = simulation_.place(); // of the sites as they are now
-    simulation_.interface().slide_to(place[0], place[1]);
-    const LayerAtRest found = bring_to_rest(
-        simulation_.block(), surface_, height, case_,
-        [&](long long, double) { // what it throws ends the search
-            now_and_then();
-            return false;
-        },
-        place);
-    return {*found.numbers, simulation_.interface().maps(found.layer.view()[0], height)};
+    path_.watch([&](long long, double) { // what it throws ends the search
+        now_and_then();
+        return false;
+    });
+    const LayerAtRest found = path_.state_from_here();
+    return {*found.numbers,
+            path_.interface().maps(found.layer.view()[0], path_.reference_height())};
 }
 
-void TimePath::require_whole() const {
+void SteppedPath::require_whole() const {
     if (!failure_.empty())
-        refuse("Simulation", fmt::format("has ended at step {}", simulation_.steps()), failure_,
+        refuse("Simulation", fmt::format("has ended at step {}", path_.steps()), failure_,
                "begin a new one, or resume the last that was saved");
 }
 
-void TimePath::require_processor(const char* what) const {
+void SteppedPath::require_processor(const char* what) const {
     if (case_.simulation.device.kind != DeviceChoice::Kind::none)
         refuse(what, "on a device", "forces stay in its memory", "take numerics.device = \"none\"");
 }
 
-void TimePath::take_copies() {
+void SteppedPath::take_copies() {
     u_.take(lowest_level().u.view()[0]);
     v_.take(lowest_level().v.view()[0]);
 }
 
 /// After steps: views show the fields as they are now.
-void TimePath::bring_up_views() {
+void SteppedPath::bring_up_views() {
     if (std::exchange(moved_, false) && viewed_) take_copies();
 }
 
 /// Before steps: what was written through views becomes the state. Collective.
-void TimePath::take_in_writes() {
+void SteppedPath::take_in_writes() {
     enum { as_it_was, written, wrong };
     int found = as_it_was;
     std::exception_ptr error;
@@ -337,8 +329,8 @@ void TimePath::take_in_writes() {
         refuse("Simulation", "was given values that are no numbers on another rank",
                "that rank says which", "write numbers there");
     if (found == written) {
-        simulation_.block_to_write().exchange();
-        simulation_.restart_balance();
+        path_.simulation().block_to_write().exchange();
+        path_.simulation().restart_balance();
         if (viewed_) take_copies();
     }
     if (lease_.expired()) viewed_ = false;
@@ -346,9 +338,9 @@ void TimePath::take_in_writes() {
 
 // ---- Files.
 
-/// All that a file has beside the numbers of the simulation.
-struct TimePath::Saved {
-    TimePath& all;
+/// All that a file has beside the numbers of the path.
+struct SteppedPath::Saved {
+    SteppedPath& all;
     struct ExternalWork {
         Simulation& simulation;
         template <class Visitor>
@@ -358,42 +350,26 @@ struct TimePath::Saved {
     };
     template <class Visitor>
     void visit(Visitor& v) {
-        v("path", all.path_);
-        v("results", all.results_);
-        Drive& drive = all.simulation_.drive();
+        Simulation& simulation = all.path_.simulation();
+        Drive& drive = simulation.drive();
         bool by_hand = drive.by_hand().has_value();
         double velocity = drive.by_hand().value_or(0.0);
         v("top.by_hand", by_hand);
         v("top.velocity", velocity);
         if constexpr (Visitor::restores)
             drive.take_over(by_hand ? std::optional(velocity) : std::nullopt);
-        ExternalWork work{all.simulation_};
+        ExternalWork work{simulation};
         v("external", work);
         bool pushed = all.external_ != nullptr;
         v("external.acts", pushed);
         if (pushed && !all.external_) {
-            all.external_ = std::make_unique<VectorField<double>>(all.grid_.tile(0), 1);
-            all.simulation_.push(all.external_.get());
+            all.external_ = std::make_unique<VectorField<double>>(all.tile(), 1);
+            simulation.push(all.external_.get());
         }
-        StepRecord& r = all.now_;
-        v("now.step", r.step);
-        v("now.time", r.time);
-        v("now.top", r.top);
-        v("now.mean_height", r.mean_height);
-        v("now.force", r.force);
-        v("now.top_force", r.top_force);
-        v("now.interface_energy", r.interface_energy);
-        v("now.elastic_energy", r.elastic_energy);
-        v("now.kinetic_energy", r.kinetic_energy);
-        v("now.in_contact", r.in_contact);
-        v("now.repulsive", r.repulsive);
-        v("now.work", r.work);
-        v("now.damped", r.damped);
-        v("now.residual", r.residual);
     }
 };
 
-std::vector<StateArray> TimePath::arrays() {
+std::vector<StateArray> SteppedPath::own_arrays() {
     std::vector<StateArray> list;
     add_arrays(0, "force", const_cast<VectorField<double>&>(lowest_level().transferred), 1, list);
     if (external_) add_arrays(0, "external", *external_, 1, list);
@@ -401,7 +377,7 @@ std::vector<StateArray> TimePath::arrays() {
 }
 
 /// What the numbers of a file belong to: the scene as it was given, and what was in its files.
-std::string TimePath::description() const {
+std::string SteppedPath::description() const {
     io::Json scene = {{"text", source_.text},
                       {"file", fs::absolute(source_.file).string()},
                       {"overrides", source_.overrides}};
@@ -410,23 +386,28 @@ std::string TimePath::description() const {
     return io::json_text(io::Json{{"simulation", scene}});
 }
 
-void TimePath::save(const std::string& file) {
+void SteppedPath::save(const std::string& file) {
     require_whole();
     take_in_writes();
     ranks_.on_root([&] { require_own_place(file); });
     CollectNumbers numbers;
+    path_.collect(numbers);
     Saved saved{*this};
     numbers("program", saved);
-    write_checkpoint(io::FilePlace(file), simulation_, numbers, description(), arrays());
+    write_checkpoint(io::FilePlace(file), ranks_, path_.grid(),
+                     joined(path_.arrays(), own_arrays()), numbers.numbers, description());
 }
 
-void TimePath::restore(const std::string& file) {
-    const io::FilePlace place(file);
-    const StateNumbers all = read_checkpoint_numbers(place);
-    RestoreNumbers numbers(all);
-    Saved saved{*this};
-    numbers("program", saved); // whether there is a field to be read
-    read_checkpoint(place, simulation_, description(), arrays());
+void SteppedPath::restore(const std::string& file) {
+    const auto arrays = [this](const StateNumbers& all) {
+        RestoreNumbers numbers(all);
+        path_.restore(numbers);
+        Saved saved{*this};
+        numbers("program", saved); // whether there is a field to be read
+        return joined(path_.arrays(), own_arrays());
+    };
+    read_checkpoint(io::FilePlace(file), ranks_, path_.grid(), arrays, description());
+    path_.restored();
     take_copies();
 }
 

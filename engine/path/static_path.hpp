@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A path of states of force balance, without time: the points of a quasi-static path
+// (quasistatic.hpp), segment by segment. A segment "relax" is one relaxation with the top plane
+// free: find_state() of it, after which the block stands there.
+//
+// By hand: the block is led to a place or a load that the caller names, in place of the scene's
+// segments.
+#pragma once
+
+#include "engine/equilibrium/quasistatic.hpp"
+#include "engine/path/path.hpp"
+
+#include <optional>
+
+namespace asperity {
+
+class StaticPath : public Path {
+public:
+    /// Beyond the interaction range.
+    StaticPath(const Case& c, const Surface& surface, const Communicator& ranks);
+
+    bool done() const override { return segment_ == case_.path.size(); }
+    /// The first one of a path, and the first one from a state, is where the block is.
+    Made advance(const Wish& wish) override;
+    std::optional<std::size_t> ended() const override;
+    std::optional<LayerAtRest> find_state() override;
+    void conclude() override;
+    bool relaxes_freely() const override { return !done() && kind() == Segment::relax; }
+
+    const StepRecord& now() const override { return points_ ? points_->now() : nowhere_; }
+    long long steps() const override { return now().step; }
+    std::size_t segment() const override { return segment_; }
+    VectorPlane<const double> layer() const override { return block_.lowest_layer(); }
+    Interface& interface() override { return interface_; }
+    const Interface& interface() const override { return interface_; }
+    double reference_height() const override { return interface_.start_height(); }
+    const ProcessGrid& grid() const override { return grid_; }
+    const Communicator& communicator() const override { return block_.communicator(); }
+    std::string position() const override;
+    std::optional<long long> iterations() const override;
+    std::size_t bytes() const override { return block_.bytes() + interface_.bytes(); }
+    Remedy remedy() const override;
+    SpectralBlock& block() { return block_; }
+    const SpectralBlock& block() const { return block_; }
+
+    void collect(CollectNumbers& numbers) override { visit(numbers); }
+    void restore(RestoreNumbers& numbers) override { visit(numbers); }
+    std::vector<StateArray> arrays() override;
+    void restored() override;
+
+    // By hand.
+
+    /// The points, if a path of them has begun.
+    const QuasistaticPath* points() const { return points_ ? &*points_ : nullptr; }
+    /// Begins a path by hand, of what is held: where the block is (its works count from there), or
+    /// beyond the interaction range.
+    void begin_by_hand(Constraint::Of held, bool here);
+    /// Leads it to a displacement of what is held, Å, or to a load, eV/Å, point by point. False:
+    /// the watch asked for an end; the same call goes on. After each point `look` is called.
+    bool lead_to(double at, const std::function<void()>& look);
+    bool lead_to_load(double load, const std::function<void()>& look);
+    /// The path of points has ended: the block is where the caller puts it.
+    void end_points() { points_.reset(); }
+    /// The state that the sites come to from where they are (from_afar: from the height of the
+    /// strongest attraction) under a load, eV/Å. The block stands there afterwards.
+    std::optional<ZeroLoad> state_from_here(double load, bool from_afar);
+
+private:
+    template <class Visitor>
+    void visit(Visitor& v) {
+        double top = block_.top();
+        bool on_points = points_.has_value();
+        v("top", top);
+        v("segment", segment_);
+        v("begun", begun_);
+        v("at_end", at_end_);
+        v("on_points", on_points);
+        v("ledger", ledger_);
+        v("results", results_);
+        if constexpr (Visitor::restores) {
+            top_restored_ = top;
+            if (on_points) make_points(held_of(case_));
+        }
+        if (on_points) v("points", *points_);
+    }
+    static Constraint::Of held_of(const Case& c);
+    Segment::Kind kind() const { return case_.path[segment_].kind; }
+    void make_points(Constraint::Of held);
+    bool lead(const std::function<void()>& look);
+
+    const ProcessGrid grid_;
+    Interface interface_;
+    SpectralBlock block_;
+    std::optional<QuasistaticPath> points_;
+    StepRecord nowhere_;      ///< before there is a point
+    std::size_t segment_ = 0; ///< number of the one under way
+    bool begun_ = false;      ///< it has
+    bool at_end_ = false;     ///< it has come to its end and is to be concluded
+    bool resumed_ = false;    ///< the block is where a relaxation was interrupted
+    double top_restored_ = 0.0;
+};
+
+} // namespace asperity

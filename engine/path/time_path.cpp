@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/path/time_path.hpp"
+
+#include "engine/path/checkpoint.hpp"
+#include "engine/path/guard.hpp"
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace asperity {
+
+TimePath::TimePath(const Case& c, const Surface& surface, const Communicator& ranks)
+    : Path(c, surface), simulation_(c.simulation, surface, ranks, c.grid(ranks.rank())) {
+    start_.height = simulation_.interface().start_height();
+    if (c.scene.drive.temperature == 0.0)
+        start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
+    simulation_.start(start_.height);
+}
+
+Path::Made TimePath::advance(const Wish& wish) {
+    keep(wish);
+    segment_ = simulation_.drive().segment();
+    const StepRecord& now = simulation_.step(wish.energies || about_to_conclude());
+    if (wish.velocities) {
+        const VectorPlane<const double> after =
+            std::as_const(simulation_).block().levels().front().v.view()[0];
+        const VectorPlane<double> v = velocities_.plane(0);
+        for (const auto& [to, from] :
+             {std::pair{&v.x, &after.x}, {&v.y, &after.y}, {&v.z, &after.z}})
+            for (int y = 0; y < to->ny; ++y)
+                for (int x = 0; x < to->nx; ++x)
+                    (*to)(x, y) = 0.5 * ((*to)(x, y) + (*from)(x, y));
+    }
+    if (now.step == 0) {
+        const BlockOptions& block = case_.simulation.block;
+        const double v = case_.simulation.drive.velocity, sites = block.sites;
+        // What the block has that starts at full speed; of one that starts at rest, by its mass.
+        kinetic_at_full_speed_ =
+            simulation_.drive().velocity(0.0) != 0.0
+                ? now.kinetic_energy
+                : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
+        // The drive sets it in motion and brings it within reach before the first step.
+        segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
+    }
+    if (ended_)
+        concluding_ = std::exchange(ended_, std::nullopt);
+    else
+        ended_ = tell_drive(now);
+    return Made::step;
+}
+
+/// Before a step: after it the block is at the next one, while the interface and what was summed up
+/// are at this one.
+void TimePath::keep(const Wish& wish) {
+    const Tile tile = grid().tile(0);
+    if (wish.layer) {
+        if (layer_.empty()) layer_ = VectorField<double>(tile, 1);
+        copy_layer(std::as_const(simulation_).block().lowest_layer(), layer_.plane(0));
+    }
+    if (wish.velocities) {
+        if (velocities_.empty()) velocities_ = VectorField<double>(tile, 1);
+        copy_layer(std::as_const(simulation_).block().levels().front().v.view()[0],
+                   velocities_.plane(0));
+    }
+}
+
+/// The segment that ended with this step, if one did.
+std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
+    Drive& drive = simulation_.drive();
+    if (drive.done()) return std::nullopt;
+    const std::size_t number = drive.segment();
+    const Segment& segment = case_.path[number];
+    results_.feel(segment, now);
+    if (drive.by_hand()) return std::nullopt;
+    const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
+    if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
+    interface_work_ = simulation_.balance().interface;
+    if (segment.kind == Segment::approach) {
+        require_load_reached(simulation_.options().drive.load_force, results_.attraction_in, 0.0,
+                             case_.area());
+        results_.contact_made = now.time;
+    }
+    return number;
+}
+
+std::optional<LayerAtRest> TimePath::find_state() {
+    LayerAtRest found = bring_to_rest(
+        std::as_const(simulation_).block(), surface_, reference_height(), case_,
+        [this](long long iteration, double residual) { return told(iteration, residual); },
+        now().slide);
+    if (!found.numbers) return std::nullopt;
+    results_.zero_load = found.numbers;
+    return found;
+}
+
+LayerAtRest TimePath::state_from_here() {
+    const std::array<double, 2> place = simulation_.place(); // of the sites as they are now
+    simulation_.interface().slide_to(place[0], place[1]);
+    return bring_to_rest(
+        std::as_const(simulation_).block(), surface_, reference_height(), case_,
+        [this](long long iteration, double residual) { return told(iteration, residual); }, place);
+}
+
+void TimePath::conclude() {
+    const std::size_t number = *std::exchange(concluding_, std::nullopt);
+    const Segment& segment = case_.path[number];
+    const StepRecord& now = simulation_.now();
+    const double energy = now.energy();
+    Works end = so_far();
+    std::optional<double> kinetic;
+    if (segment.kind == Segment::pull_off) {
+        // It ends apart: the drive stops the block after the last step.
+        const double bound = now.interface_energy, moving = kinetic_as_top(now.time);
+        end.interface = simulation_.balance().interface; // to where it is bound so much
+        end = at_rest_apart(end, bound, moving);
+        kinetic = energy - bound - moving;
+    } else if (segment.kind == Segment::approach && results_.zero_load &&
+               case_.scene.drive.load == 0.0) {
+        kinetic =
+            energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
+    }
+    ledger_.conclude(number, now, end - segment_start_, kinetic);
+    segment_start_ = end;
+}
+
+/// What the simulation has summed up since the start of the path.
+Works TimePath::so_far() const {
+    const EnergyBalance& balance = simulation_.balance();
+    return {.on_solids = balance.drive(),
+            .lateral = balance.lateral,
+            .lost = balance.net_damped(),
+            .interface = interface_work_,
+            .uncertainty = {}};
+}
+
+/// The same, if the block were brought to rest and out of reach from there as a rigid body: bound,
+/// moving: its energies, eV.
+Works TimePath::at_rest_apart(Works works, double bound, double moving) {
+    works.on_solids -= bound + moving;
+    *works.interface += bound;
+    return works;
+}
+
+/// Of the block moving as the top plane does at that time, eV.
+double TimePath::kinetic_as_top(double time) const {
+    const double part = simulation_.drive().velocity(time) / case_.simulation.drive.velocity;
+    return kinetic_at_full_speed_ * part * part;
+}
+
+std::string TimePath::position() const { return fmt::format("step {}", steps()); }
+
+/// A list is for both ways: what is written to it counts after restored().
+std::vector<StateArray> TimePath::arrays() {
+    return state_of(const_cast<Block&>(std::as_const(simulation_).block()));
+}
+
+Path::Remedy TimePath::remedy() const {
+    const double set = case_.scene.drive.timestep, limit = case_.longest_timestep;
+    return {fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
+                        "contact, and less where atoms are pressed into the wall or hit it fast",
+                        fastest_site(simulation_), set, limit),
+            fmt::format("start again with a smaller drive.timestep (for example {:.2g} fs) or "
+                        "drive.velocity",
+                        std::min(0.5 * set, 0.2 * limit))};
+}
+
+} // namespace asperity

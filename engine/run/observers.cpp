@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/observers.hpp"
+
+#include "engine/path/expected_path.hpp"
+#include "engine/path/guard.hpp"
+#include "engine/run/run_session.hpp"
+#include "engine/units.hpp"
+#include "io/terminal.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+/// Observed steps between two states kept in memory for the guard.
+constexpr std::uint64_t rows_between_snapshots = 10;
+
+} // namespace
+
+void LastGood::look(Path& path) {
+    const bool kept = path.scene_case().in_time && path.now().observed;
+    if (!kept || session_.recorder().rows() % rows_between_snapshots != 1) return;
+    const auto t = session_.phases().time(Phase::output);
+    snapshot_.take(path);
+    of_session_ = {};
+    session_.collect(of_session_);
+}
+
+std::string LastGood::write(Path& path) {
+    if (snapshot_.empty()) return "no earlier state was kept";
+    snapshot_.restore(path);
+    const char* file = "last-good.h5";
+    try {
+        session_.write_state(session_.file(file), path, of_session_);
+        return fmt::format("the last good state, {}, is in {}", path.position(), file);
+    } catch (const std::exception&) { // a full disk must not hide what happened
+        return "the last good state could not be written";
+    }
+}
+
+void Guard::look(Path& path) {
+    failed_ = path.now();
+    Path::Kept kept;
+    if (path.scene_case().in_time) kept = [&] { return last_good_.write(path); };
+    guard(path, kept);
+    failed_.reset();
+}
+
+Path::Wish Rows::wish(const Path& path) const { return {.energies = session_.row_is_due(path)}; }
+
+void Rows::look(Path& path) {
+    if (!path.now().observed) return;
+    const auto t = session_.phases().time(Phase::output);
+    session_.recorder().row(path.now(), path.segment(), path.scene_case().scene.surface.sites);
+}
+
+bool Trajectory::is_due(long long step) const {
+    const std::optional<long long>& every = session_.scene_case().scene.output.trajectory;
+    return every && step % *every == 0;
+}
+
+Path::Wish Trajectory::wish(const Path& path) const {
+    const bool due = is_due(path.steps());
+    return {.layer = due, .velocities = due && session_.scene_case().scene.output.velocities};
+}
+
+void Trajectory::look(Path& path) {
+    if (!is_due(path.now().step)) return;
+    const auto t = session_.phases().time(Phase::output);
+    session_.recorder().frame(path, session_.scene_case().scene.output.velocities);
+}
+
+void ProgressLine::look(Path& path) {
+    io::Progress& progress = session_.progress();
+    if (progress.due()) look_within(path, 0, 0.0);
+}
+
+void ProgressLine::look_within(const Path& path, long long iteration, double residual) {
+    const Case& c = path.scene_case();
+    const StepRecord& now = path.now();
+    io::Progress& progress = session_.progress();
+    if (path.ended()) {
+        progress.update(
+            {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
+        return;
+    }
+    const std::string where =
+        fmt::format("{}, {} MPa at {} Å{}", c.path[path.segment()].text,
+                    io::number(now.force / (c.area() * units::megapascal), 1),
+                    io::number(now.mean_height, 2), iteration > 0 ? ", relaxing" : "");
+    progress.update({where, path.iterations().value_or(path.steps()) + iteration,
+                     c.in_time ? now.time : 0.0,
+                     way_done(c, path.reference_height(), path.segment(), now.top)});
+}
+
+} // namespace asperity

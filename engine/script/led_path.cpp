@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/script/led_path.hpp"
+
+#include "engine/path/guard.hpp"
+#include "engine/run/plan.hpp"
+#include "engine/units.hpp"
+#include "io/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix) {
+    throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
+}
+
+void require_number(double value) {
+    if (!std::isfinite(value))
+        refuse("Statics", fmt::format("is led to {}", value), "that is no number", "give one");
+}
+
+const char* name(Constraint::Of held) {
+    return held == Constraint::Of::top ? "the top plane" : "the mean height";
+}
+
+/// The same solids without time.
+Case without_time(const Case& c) {
+    if (c.ranks != 1)
+        refuse("Statics", fmt::format("on {} ranks", c.ranks),
+               "it is one process, on all its threads",
+               "start it without mpirun; runs take ranks (asperity.run)");
+    if (!c.in_time) return c;
+    Scene scene = c.scene;
+    scene.drive.mode = DriveMode::quasistatic;
+    return resolve(scene);
+}
+
+Surface checked_surface(const Case& c) {
+    c.require_runnable();
+    require_memory(c, Communicator());
+    return surface_of(c);
+}
+
+} // namespace
+
+LedPath::LedPath(const Case& c)
+    : case_(without_time(c)), surface_(checked_surface(case_)),
+      path_(case_, surface_, Communicator()) {
+    before_.mean_height = path_.reference_height();
+}
+
+void LedPath::set_mean_height(double z) { go_to(Held::mean_height, z); }
+void LedPath::set_top(double z) { go_to(Held::top, z); }
+
+void LedPath::go_to(Held held, double at) {
+    require_number(at);
+    hold(held);
+    target_ = {.at = held == Held::top ? at : at - path_.reference_height()};
+}
+
+void LedPath::set_load(double pressure) {
+    require_number(pressure);
+    target_ = {.load = pressure * units::megapascal * case_.area()};
+}
+
+void LedPath::set_load(const std::string& pressure) {
+    const io::ParsedQuantity parsed = io::parse_quantity(pressure, "MPa");
+    if (!parsed.why.empty())
+        refuse("load", fmt::format("= \"{}\"", pressure), parsed.why, parsed.fix);
+    set_load(parsed.value);
+}
+
+/// Work that is given up where look throws, and then rethrows it: the path is at its last point.
+template <class Work>
+auto LedPath::while_looking(const Look& look, const Work& work) {
+    LookNowAndThen now_and_then(look);
+    std::exception_ptr thrown;
+    path_.watch([&](long long, double) {
+        try {
+            now_and_then();
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+        return thrown != nullptr;
+    });
+    auto done = work();
+    if (!done) std::rethrow_exception(thrown);
+    return done;
+}
+
+LedPath::Point LedPath::relax(const Look& look) {
+    begin();
+    if (!target_.at && !target_.load) return now();
+    const auto at_point = [this] { guard(path_); };
+    try { // a target is kept where look throws
+        while_looking(look, [&] {
+            return target_.at ? path_.lead_to(*target_.at, at_point)
+                              : path_.lead_to_load(*target_.load, at_point);
+        });
+    } catch (const io::PhysicsError&) { // it cannot be reached
+        target_ = {};
+        throw;
+    }
+    target_ = {};
+    return now();
+}
+
+LedPath::Point LedPath::now() const {
+    const QuasistaticPath* points = path_.points();
+    if (!points) return before_;
+    Point p{points->now()};
+    if (*held_ != Held::top) p.top = 0.0;
+    const double sites = static_cast<double>(surface_.sites) * surface_.sites;
+    p.instabilities = points->dissipation().events;
+    p.contact_fraction = static_cast<double>(p.in_contact) / sites;
+    p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
+    return p;
+}
+
+InterfaceMaps LedPath::maps() const {
+    return path_.interface().maps(path_.layer(), path_.reference_height());
+}
+
+RestState LedPath::release(const Look& look) {
+    const State from = copy();
+    try {
+        const std::optional<ZeroLoad> found = while_looking(look, [&] {
+            return path_.state_from_here(case_.simulation.drive.load_force,
+                                         !path_.points() && !placed_);
+        });
+        place(copy());
+        return {*found, maps()};
+    } catch (...) {
+        place(from);
+        throw;
+    }
+}
+
+LedPath::State LedPath::copy() const {
+    State state{surface_.sites, {}, path_.block().top()};
+    const VectorPlane<const double> layer = path_.layer();
+    for (const auto& plane : {layer.x, layer.y, layer.z})
+        for (int y = 0; y < plane.ny; ++y)
+            state.u.insert(state.u.end(), plane.line(y), plane.line(y) + plane.nx);
+    return state;
+}
+
+void LedPath::restore(const State& state) {
+    if (state.sites != surface_.sites)
+        refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
+               fmt::format("the scene has {0} x {0}", surface_.sites),
+               "give a state of this scene");
+    if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
+        !std::isfinite(state.top))
+        refuse("restore", "of displacements that are no numbers", "no state follows from them",
+               "write numbers there");
+    place(state);
+}
+
+/// The block there; a new path is to begin.
+void LedPath::place(const State& state) {
+    before_ = now();
+    path_.end_points();
+    target_ = {};
+    placed_ = true;
+    const VectorPlane<double> layer = path_.block().layer().plane(0);
+    auto from = state.u.begin();
+    for (const auto& plane : {layer.x, layer.y, layer.z})
+        for (int y = 0; y < plane.ny; ++y, from += plane.nx)
+            std::copy_n(from, plane.nx, plane.line(y));
+    path_.block().apply_constraint(Constraint::top(state.top));
+}
+
+void LedPath::hold(Held held) {
+    if (held_ && *held_ != held)
+        refuse("Statics", fmt::format("holds {}", name(*held_)),
+               fmt::format("{} cannot be held on the same path", name(held)),
+               "begin another Statics for it");
+    held_ = held;
+}
+
+/// The path, if it has not begun.
+void LedPath::begin() {
+    if (path_.points()) return;
+    hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));
+    path_.begin_by_hand(*held_, placed_);
+}
+
+} // namespace asperity
