@@ -9,8 +9,21 @@
 
 namespace asperity {
 
+/// What is counted of the sites that the substrate acts on (count_contacts(), interface.hpp).
+struct ContactCount {
+    long long in_contact = 0, repulsive = 0; ///< sites
+    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("in_contact", in_contact);
+        v("repulsive", repulsive);
+        v("closest", closest);
+    }
+};
+
 /// Global values, the same bits on every rank. Energies in eV.
-struct StepRecord {
+struct StepRecord : ContactCount {
     long long step = 0;       ///< its number; of a quasi-static path, of the point
     double time = 0.0;        ///< fs
     double top = 0.0;         ///< displacement of the top plane, Å
@@ -20,11 +33,9 @@ struct StepRecord {
     // Along x and y, of a path that slides; else 0.
     std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
     std::array<double, 2> lateral_force{}; ///< of the substrate on the lowest layer, eV/Å
-    // Only where the step was observed:
+    // Only where the step was observed, like the contacts:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    long long in_contact = 0, repulsive = 0; ///< sites
-    double closest = 0.0;                    ///< smallest pair distance, Å
     /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
     /// what the block had at the start, and what was written to its fields.
     double work = 0.0;
@@ -52,9 +63,7 @@ struct StepRecord {
         v("interface_energy", interface_energy);
         v("elastic_energy", elastic_energy);
         v("kinetic_energy", kinetic_energy);
-        v("in_contact", in_contact);
-        v("repulsive", repulsive);
-        v("closest", closest);
+        ContactCount::visit(v);
         v("work", work);
         v("damped", damped);
         v("interface_work", interface_work);

@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include <span>
-
 namespace asperity::io {
 
 namespace {
@@ -23,11 +21,15 @@ bool matches(std::string_view name, std::string_view path) {
     return between.find_first_of("/@") == std::string_view::npos;
 }
 
-std::string table(std::span<const Quantity> quantities) {
-    std::string text = "| name | unit | per, or of | meaning |\n|---|---|---|---|\n";
+std::string rows(std::span<const Quantity> quantities) {
+    std::string text;
     for (const Quantity& q : quantities)
         text += fmt::format("| `{}` | {} | {} | {} |\n", q.name, q.unit, q.per, q.meaning);
     return text;
+}
+
+std::string table(std::span<const Quantity> quantities) {
+    return "| name | unit | per, or of | meaning |\n|---|---|---|---|\n" + rows(quantities);
 }
 
 } // namespace
@@ -39,7 +41,7 @@ const Quantity* run_quantity(std::string_view path) {
     return nullptr;
 }
 
-std::string result_markdown() {
+std::string result_markdown(std::span<const Quantity> series) {
     return "# Results\n\n"
            "Written by `asperity defaults --results`; do not edit. A run writes two files to its "
            "directory:\n`result.json`, its numbers, and `run.h5` (HDF5), the series along its "
@@ -55,7 +57,7 @@ std::string result_markdown() {
            "Each data set has its `unit` and a `description` as attributes. `/` has the scene as "
            "TOML (`scene`),\nand `version` and `git` of the program that wrote it. A trajectory "
            "is in `/particles`, as H5MD wants it.\n`@` leads to an attribute.\n\n" +
-           table(run_quantities);
+           table(series) + rows(run_quantities);
 }
 
 } // namespace asperity::io

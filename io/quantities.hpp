@@ -12,6 +12,7 @@
 // Units: as io/units.hpp reads them; "1" for a pure number, "" for what is no number.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -253,40 +254,8 @@ inline constexpr Quantity result_quantities[] = {
      "front of it"},
 };
 
-/// In run.h5; "@" leads to an attribute.
+/// In run.h5, but the series (engine/run/series.hpp); "@" leads to an attribute.
 inline constexpr Quantity run_quantities[] = {
-    {"series/step", "1", "", "time step; of a quasi-static path: point"},
-    {"series/time", "ps", "", "simulated time"},
-    {"series/segment", "1", "", "number of the segment of drive.path, from 0"},
-    {"series/top_displacement", "Å", "", "displacement of the top plane"},
-    {"series/mean_height", "Å", "",
-     "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
-     "curved)"},
-    {"series/force", "eV/Å", per::block,
-     "normal force of the substrate on the lowest layer; repulsion is positive"},
-    {"series/top_force", "eV/Å", per::block, "elastic force on the top plane along z"},
-    {"series/slide_x", "Å", "", "place of the block over the substrate, of a path that slides"},
-    {"series/slide_y", "Å", "", "the same along y"},
-    {"series/lateral_force_x", "eV/Å", per::block,
-     "force of the substrate on the lowest layer along x, of a path that slides"},
-    {"series/lateral_force_y", "eV/Å", per::block, "the same along y"},
-    {"series/interface_energy", "eV", per::block, "energy of the interface"},
-    {"series/elastic_energy", "eV", per::block, "elastic energy"},
-    {"series/kinetic_energy", "eV", per::block, "kinetic energy"},
-    {"series/work", "eV", per::block,
-     "work of the drive on the solids since they were at rest apart, as energy.work"},
-    {"series/work_of_interface", "eV", per::block,
-     "work of the interface's force on the mean height since the start, ∫ F dz"},
-    {"series/damped", "eV", per::block,
-     "energy damped since the start, less the heat of the thermostat's noise"},
-    {"series/dissipated", "eV", per::block, "energy dissipated at instabilities since the start"},
-    {"series/balance_error", "1", "largest term",
-     "energy balance: work - energies - loss, over the largest energy or work so far"},
-    {"series/contact_fraction", "1", per::sites,
-     "sites closer to an atom than the inflection of the pair potential; over a wall as at zero "
-     "load"},
-    {"series/repulsive_fraction", "1", per::sites, "sites whose net normal force is repulsive"},
-    {"series/closest", "Å", "", "smallest distance of a site and an atom; infinite out of reach"},
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
     {"fields/*/distance", "Å", "",
@@ -341,7 +310,7 @@ inline std::string_view unit_of(Key key) { return key.quantity->unit; }
 /// The quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 
-/// docs/reference/result.md.
-std::string result_markdown();
+/// docs/reference/result.md. series: the columns of the series.
+std::string result_markdown(std::span<const Quantity> series);
 
 } // namespace asperity::io

@@ -3,7 +3,6 @@
 #include "io/run_h5.hpp"
 
 #include "io/machine.hpp"
-#include "io/quantities.hpp"
 
 #include <span>
 #include <stdexcept>
@@ -23,7 +22,10 @@ std::string member(const std::string& name) { return "/particles/trajectory/" + 
 } // namespace
 
 void describe(Hdf5File& file, const std::string& dataset) {
-    const Quantity& quantity = described(dataset);
+    describe(file, dataset, described(dataset));
+}
+
+void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity) {
     file.write_attribute(dataset, "unit", std::string(quantity.unit));
     std::string text(quantity.meaning);
     if (!quantity.per.empty()) text += " (" + std::string(quantity.per) + ")";

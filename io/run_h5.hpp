@@ -14,6 +14,7 @@
 #pragma once
 
 #include "io/hdf5_file.hpp"
+#include "io/quantities.hpp"
 
 #include <array>
 #include <cstdint>
@@ -23,8 +24,9 @@
 namespace asperity::io {
 
 /// Gives a data set its `unit` and `description` from io/quantities.hpp; a path that is not
-/// described there throws std::logic_error.
+/// described there throws std::logic_error. Or from a quantity of another table.
 void describe(Hdf5File& file, const std::string& dataset);
+void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
 /// A new data set with these attributes.
 template <class T>

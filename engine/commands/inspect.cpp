@@ -5,6 +5,7 @@
 #include "decomposition/communicator.hpp"
 #include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
+#include "engine/run/series.hpp"
 #include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
 #include "io/error.hpp"
@@ -257,7 +258,7 @@ int surface_command(const Case& c, const std::string& out, const Communicator& w
 
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
-    fmt::print("{}", results    ? io::result_markdown()
+    fmt::print("{}", results    ? io::result_markdown(series_quantities())
                      : markdown ? scene_markdown()
                                 : scene_toml(Scene{}, !plain));
     return io::exit_code::done;

@@ -244,14 +244,11 @@ void Simulation::update_energy_balance() {
     record_.top_force = top_force;
     if (!record_.observed) return;
 
-    const ContactCount contacts = count_contacts(interface_sums_, communicator());
+    static_cast<ContactCount&>(record_) = count_contacts(interface_sums_, communicator());
     record_.interface_energy = lj;
     record_.elastic_energy = elastic;
     record_.kinetic_energy = kinetic;
-    record_.in_contact = contacts.in_contact;
-    record_.repulsive = contacts.repulsive;
-    record_.closest = contacts.closest;
-    const double energy = lj + elastic + kinetic;
+    const double energy = record_.energy();
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
     record_.work = balance_.work() + *energy_brought_;
     record_.interface_work = balance_.interface;

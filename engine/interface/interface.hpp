@@ -24,6 +24,7 @@
 #include "engine/interface/over_rows.hpp"
 #include "engine/interface/over_wall.hpp"
 #include "engine/scene/surface.hpp"
+#include "engine/step_record.hpp"
 
 #include <array>
 #include <cstdint>
@@ -34,12 +35,7 @@
 
 namespace asperity {
 
-/// Contacts over all tiles.
-struct ContactCount {
-    long long in_contact = 0, repulsive = 0; ///< sites
-    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
-};
-/// From the sums of this rank's tile. Collective.
+/// Over all tiles, from the sums of this rank's. Collective.
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
 
 /// Maps over the tile's sites, [y * nx + x].

@@ -54,7 +54,7 @@ void PathMaps::look_at_end(Path& path) {
 }
 
 void PathMaps::look_at_state(Path& path, const LayerAtRest& state) {
-    if (times_.relaxed) write(path, "relax", state.layer.view()[0]);
+    if (times_.relaxed) write(path, "relaxed", state.layer.view()[0]);
 }
 
 void PathMaps::finish(Path& path) {

@@ -15,54 +15,6 @@ namespace asperity {
 
 namespace {
 
-/// What a row is made of.
-struct Row {
-    const StepRecord& r;
-    double segment; ///< its number
-    double sites;   ///< N^2
-};
-
-/// sliding: where the path slides.
-enum class In { both, dynamic, sliding, quasistatic };
-
-struct RecordColumn {
-    const char* name;
-    In in;
-    double (*value)(const Row&);
-};
-
-const RecordColumn record_columns[] = {
-    {"step", In::both, [](const Row& w) { return static_cast<double>(w.r.step); }},
-    {"time", In::dynamic, [](const Row& w) { return w.r.time * 1e-3; }},
-    {"segment", In::both, [](const Row& w) { return w.segment; }},
-    {"top_displacement", In::both, [](const Row& w) { return w.r.top; }},
-    {"mean_height", In::both, [](const Row& w) { return w.r.mean_height; }},
-    {"force", In::both, [](const Row& w) { return w.r.force; }},
-    {"top_force", In::both, [](const Row& w) { return w.r.top_force; }},
-    {"slide_x", In::sliding, [](const Row& w) { return w.r.slide[0]; }},
-    {"slide_y", In::sliding, [](const Row& w) { return w.r.slide[1]; }},
-    {"lateral_force_x", In::sliding, [](const Row& w) { return w.r.lateral_force[0]; }},
-    {"lateral_force_y", In::sliding, [](const Row& w) { return w.r.lateral_force[1]; }},
-    {"interface_energy", In::both, [](const Row& w) { return w.r.interface_energy; }},
-    {"elastic_energy", In::both, [](const Row& w) { return w.r.elastic_energy; }},
-    {"kinetic_energy", In::dynamic, [](const Row& w) { return w.r.kinetic_energy; }},
-    {"work", In::both, [](const Row& w) { return w.r.work; }},
-    {"work_of_interface", In::dynamic, [](const Row& w) { return w.r.interface_work; }},
-    {"damped", In::dynamic, [](const Row& w) { return w.r.damped; }},
-    {"dissipated", In::quasistatic, [](const Row& w) { return w.r.damped; }},
-    {"balance_error", In::both, [](const Row& w) { return w.r.residual; }},
-    {"contact_fraction", In::both,
-     [](const Row& w) { return static_cast<double>(w.r.in_contact) / w.sites; }},
-    {"repulsive_fraction", In::both,
-     [](const Row& w) { return static_cast<double>(w.r.repulsive) / w.sites; }},
-    {"closest", In::both, [](const Row& w) { return w.r.closest; }},
-};
-
-bool is_in(const RecordColumn& c, DriveMode mode, const Effects& effects) {
-    if (c.in == In::sliding) return effects.sliding;
-    return c.in == In::both || (c.in == In::dynamic) == (mode == DriveMode::dynamic);
-}
-
 /// A tile's map as the whole box's, on the root.
 std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
                           const std::vector<double>& tile_map) {
@@ -172,10 +124,10 @@ io::H5mdFrame frame_of(io::PayloadReader record) {
 } // namespace
 
 Recorder::Recorder(const io::Directory& directory, const Surface& surface,
-                   const Communicator& communicator, DriveMode mode, const Effects& effects,
+                   const Communicator& communicator, std::vector<const SeriesColumn*> columns,
                    const std::optional<Position>& resume, AddToFile add)
     : communicator_(communicator), directory_(directory), surface_(surface), add_(std::move(add)),
-      mode_(mode), effects_(effects) {
+      columns_(std::move(columns)) {
     if (resume) rows_ = resume->rows;
     communicator_.on_root([&] {
         journal_.emplace(directory_, io::run_file::journal, resume ? resume->mark.bytes : 0);
@@ -184,11 +136,11 @@ Recorder::Recorder(const io::Directory& directory, const Surface& surface,
 }
 
 void Recorder::row(const StepRecord& record, std::size_t segment, int sites) {
-    const Row row{record, static_cast<double>(segment), static_cast<double>(sites) * sites};
+    const SeriesRow row{record, static_cast<double>(segment), static_cast<double>(sites) * sites};
     ++rows_;
     communicator_.on_root([&] {
-        for (const RecordColumn& c : record_columns)
-            if (is_in(c, mode_, effects_)) waiting_.push_back(c.value(row));
+        for (const SeriesColumn* c : columns_)
+            waiting_.push_back(c->value(row));
         if (rows_ % rows_in_memory == 0) append_rows();
     });
 }
@@ -332,8 +284,13 @@ void Recorder::build() {
         else if (kind == frame_record)
             io::append_h5md(file, frame_of(record));
     });
-    for (const auto& [name, values] : series())
-        io::write_described(file, "/series/" + name, {values.size()}, values);
+    const auto all = series();
+    for (const SeriesColumn* c : columns_) {
+        const std::vector<double>& values = all.at(c->name());
+        const std::string place = "/" + std::string(c->quantity.name);
+        file.write<double>(place, {values.size()}, values);
+        io::describe(file, place, c->quantity);
+    }
     add_(file);
     file.close();
     built_ = Clock::now();
@@ -343,8 +300,8 @@ void Recorder::build() {
 std::map<std::string, std::vector<double>> Recorder::series() const {
     std::map<std::string, std::vector<double>> all;
     std::vector<std::vector<double>*> columns;
-    for (const RecordColumn& c : record_columns)
-        if (is_in(c, mode_, effects_)) columns.push_back(&all[c.name]);
+    for (const SeriesColumn* c : columns_)
+        columns.push_back(&all[c->name()]);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
         io::PayloadReader record(payload);
         while (kind == rows_record && !record.at_end())

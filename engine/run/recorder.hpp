@@ -10,8 +10,7 @@
 #pragma once
 
 #include "engine/path/path.hpp"
-#include "engine/scene/scene.hpp"
-#include "engine/setup/effects.hpp"
+#include "engine/run/series.hpp"
 #include "io/files.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/journal.hpp"
@@ -44,9 +43,9 @@ public:
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
     /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
-    /// surface and the effects must outlive the recorder.
+    /// surface must outlive the recorder. columns: of the series.
     Recorder(const io::Directory& directory, const Surface& surface,
-             const Communicator& communicator, DriveMode mode, const Effects& effects,
+             const Communicator& communicator, std::vector<const SeriesColumn*> columns,
              const std::optional<Position>& resume, AddToFile add);
 
     /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
@@ -91,8 +90,7 @@ private:
     const io::Directory directory_;
     const Surface& surface_;
     AddToFile add_;
-    DriveMode mode_;
-    const Effects& effects_;
+    std::vector<const SeriesColumn*> columns_;
     std::optional<io::Journal> journal_; ///< root only
     std::vector<double> waiting_;        ///< rows that are not in the journal yet; root only
     std::uint64_t rows_ = 0;

@@ -221,9 +221,11 @@ void RunSession::open_recorder() {
     const auto add = [this](io::Hdf5File& file) {
         io::describe_origin(file, scene_toml(case_.scene, false));
     };
+    std::vector<const SeriesColumn*> columns;
+    for (const SeriesColumn& c : series_columns())
+        if (c.is_in(case_.in_time, case_.effects)) columns.push_back(&c);
     recorder_.emplace(ranks_.root() ? storage_.directory() : io::Directory("."), surface_, ranks_,
-                      case_.in_time ? DriveMode::dynamic : DriveMode::quasistatic, case_.effects,
-                      resumed_at_, add);
+                      std::move(columns), resumed_at_, add);
 }
 
 void RunSession::collect(CollectNumbers& numbers) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The scene against its contract: names, defaults, contradictions.
+#include "engine/run/series.hpp"
 #include "engine/setup/case.hpp"
 #include "io/json.hpp"
 #include "io/quantities.hpp"
@@ -381,7 +382,7 @@ TEST(Scene, WithoutQMaxTheSpectrumEndsAtNyquist) {
 
 TEST(Scene, ReferencePagesAreUpToDate) {
     const std::string pages = std::string(ASPERITY_SOURCE_DIR) + "/docs/reference/";
-    EXPECT_EQ(io::contents(pages + "result.md"), io::result_markdown())
+    EXPECT_EQ(io::contents(pages + "result.md"), io::result_markdown(series_quantities()))
         << "./asperity defaults --results > docs/reference/result.md";
     EXPECT_EQ(io::contents(pages + "scene.md"), scene_markdown())
         << "./asperity defaults --markdown > docs/reference/scene.md";

@@ -78,7 +78,6 @@ TEST(Quantities, HaveUnitsThatCanBeReadAndNoNameTwice) {
 }
 
 TEST(Quantities, OfRunFilesAreFoundByTheirPaths) {
-    EXPECT_EQ(run_quantity("/series/force")->unit, "eV/Å");
     EXPECT_EQ(run_quantity("/fields/relaxed/gap")->unit, "Å");
     EXPECT_EQ(run_quantity("/fields/every:5/gap_density")->unit, "1/Å");
     EXPECT_EQ(run_quantity("/fields/pull-off@reference_height")->unit, "Å");

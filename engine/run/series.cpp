@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/run/series.hpp"
+
+namespace asperity {
+
+namespace {
+
+constexpr SeriesColumn columns[] = {
+    {SeriesColumn::both,
+     {"series/step", "1", "", "time step; of a quasi-static path: point"},
+     [](const SeriesRow& w) { return static_cast<double>(w.at.step); }},
+    {SeriesColumn::dynamic,
+     {"series/time", "ps", "", "simulated time"},
+     [](const SeriesRow& w) { return w.at.time * 1e-3; }},
+    {SeriesColumn::both,
+     {"series/segment", "1", "", "number of the segment of drive.path, from 0"},
+     [](const SeriesRow& w) { return w.segment; }},
+    {SeriesColumn::both,
+     {"series/top_displacement", "Å", "", "displacement of the top plane"},
+     [](const SeriesRow& w) { return w.at.top; }},
+    {SeriesColumn::both,
+     {"series/mean_height", "Å", "",
+      "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
+      "curved)"},
+     [](const SeriesRow& w) { return w.at.mean_height; }},
+    {SeriesColumn::both,
+     {"series/force", "eV/Å", io::per::block,
+      "normal force of the substrate on the lowest layer; repulsion is positive"},
+     [](const SeriesRow& w) { return w.at.force; }},
+    {SeriesColumn::both,
+     {"series/top_force", "eV/Å", io::per::block, "elastic force on the top plane along z"},
+     [](const SeriesRow& w) { return w.at.top_force; }},
+    {SeriesColumn::sliding,
+     {"series/slide_x", "Å", "", "place of the block over the substrate, of a path that slides"},
+     [](const SeriesRow& w) { return w.at.slide[0]; }},
+    {SeriesColumn::sliding,
+     {"series/slide_y", "Å", "", "the same along y"},
+     [](const SeriesRow& w) { return w.at.slide[1]; }},
+    {SeriesColumn::sliding,
+     {"series/lateral_force_x", "eV/Å", io::per::block,
+      "force of the substrate on the lowest layer along x, of a path that slides"},
+     [](const SeriesRow& w) { return w.at.lateral_force[0]; }},
+    {SeriesColumn::sliding,
+     {"series/lateral_force_y", "eV/Å", io::per::block, "the same along y"},
+     [](const SeriesRow& w) { return w.at.lateral_force[1]; }},
+    {SeriesColumn::both,
+     {"series/interface_energy", "eV", io::per::block, "energy of the interface"},
+     [](const SeriesRow& w) { return w.at.interface_energy; }},
+    {SeriesColumn::both,
+     {"series/elastic_energy", "eV", io::per::block, "elastic energy"},
+     [](const SeriesRow& w) { return w.at.elastic_energy; }},
+    {SeriesColumn::dynamic,
+     {"series/kinetic_energy", "eV", io::per::block, "kinetic energy"},
+     [](const SeriesRow& w) { return w.at.kinetic_energy; }},
+    {SeriesColumn::both,
+     {"series/work", "eV", io::per::block,
+      "work of the drive on the solids since they were at rest apart, as energy.work"},
+     [](const SeriesRow& w) { return w.at.work; }},
+    {SeriesColumn::dynamic,
+     {"series/work_of_interface", "eV", io::per::block,
+      "work of the interface's force on the mean height since the start, ∫ F dz"},
+     [](const SeriesRow& w) { return w.at.interface_work; }},
+    {SeriesColumn::dynamic,
+     {"series/damped", "eV", io::per::block,
+      "energy damped since the start, less the heat of the thermostat's noise"},
+     [](const SeriesRow& w) { return w.at.damped; }},
+    {SeriesColumn::quasistatic,
+     {"series/dissipated", "eV", io::per::block,
+      "energy dissipated at instabilities since the start"},
+     [](const SeriesRow& w) { return w.at.damped; }},
+    {SeriesColumn::both,
+     {"series/balance_error", "1", "largest term",
+      "energy balance: work - energies - loss, over the largest energy or work so far"},
+     [](const SeriesRow& w) { return w.at.residual; }},
+    {SeriesColumn::both,
+     {"series/contact_fraction", "1", io::per::sites,
+      "sites closer to an atom than the inflection of the pair potential; over a wall as at zero "
+      "load"},
+     [](const SeriesRow& w) { return static_cast<double>(w.at.in_contact) / w.sites; }},
+    {SeriesColumn::both,
+     {"series/repulsive_fraction", "1", io::per::sites,
+      "sites whose net normal force is repulsive"},
+     [](const SeriesRow& w) { return static_cast<double>(w.at.repulsive) / w.sites; }},
+    {SeriesColumn::both,
+     {"series/closest", "Å", "", "smallest distance of a site and an atom; infinite out of reach"},
+     [](const SeriesRow& w) { return w.at.closest; }},
+};
+
+} // namespace
+
+std::span<const SeriesColumn> series_columns() { return columns; }
+
+std::vector<io::Quantity> series_quantities() {
+    std::vector<io::Quantity> list;
+    for (const SeriesColumn& c : columns)
+        list.push_back(c.quantity);
+    return list;
+}
+
+bool SeriesColumn::is_in(bool in_time, const Effects& effects) const {
+    if (in == sliding) return effects.sliding;
+    return in == both || (in == dynamic) == in_time;
+}
+
+} // namespace asperity

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The observables of a run: what of each observed step or point is recorded, a column each, with
+// name, unit and meaning. /series of run.h5, docs/reference/result.md and Python's result.series
+// follow from this table.
+#pragma once
+
+#include "engine/setup/effects.hpp"
+#include "engine/step_record.hpp"
+#include "io/quantities.hpp"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// What a row is made of.
+struct SeriesRow {
+    const StepRecord& at;
+    double segment; ///< its number
+    double sites;   ///< N^2
+};
+
+struct SeriesColumn {
+    /// sliding: where the path slides.
+    enum In { both, dynamic, quasistatic, sliding };
+    In in;
+    io::Quantity quantity; ///< its name is that of the data set, "series/force"
+    double (*value)(const SeriesRow&);
+
+    bool is_in(bool in_time, const Effects& effects) const;
+    /// "force"
+    std::string name() const {
+        return std::string(quantity.name.substr(quantity.name.find('/') + 1));
+    }
+};
+
+std::span<const SeriesColumn> series_columns();
+std::vector<io::Quantity> series_quantities();
+
+} // namespace asperity
