@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/dynamics/drive.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <numbers>
 
@@ -43,6 +41,7 @@ Drive::Drive(const DriveOptions& options) : options_(options) {
     const bool down = first.kind == Segment::approach || first.kind == Segment::load;
     if (down) normal_ = {-options_.velocity, -options_.velocity, HUGE_VAL};
     if (first.kind == Segment::pull_off) normal_ = {0.0, options_.velocity, HUGE_VAL};
+    begin_rule(0.0);
 }
 
 void Drive::begin_at(double reference_height) {
@@ -76,7 +75,6 @@ void Drive::begin(const Felt& felt) {
     const Segment& next = options_.path[at_];
     const double from = normal_.at(felt.time - begun_, options_.ramp), v = options_.velocity;
     begun_ = felt.time;
-    attracted_ = false;
     slide_ = {VelocityProfile{}, VelocityProfile{}};
     switch (next.kind) {
     case Segment::approach:
@@ -87,7 +85,6 @@ void Drive::begin(const Felt& felt) {
         break;
     case Segment::load:
         normal_ = {from, felt.gone || felt.force < next.amount ? -v : v, HUGE_VAL};
-        attracted_ = felt.force < std::min(next.amount, 0.0); // beyond that pull already
         break;
     case Segment::height:
         normal_ = VelocityProfile::over(next.amount - reference_height_ - felt.top, from, v,
@@ -103,25 +100,19 @@ void Drive::begin(const Felt& felt) {
         normal_ = {from, 0.0, HUGE_VAL};
         break;
     }
+    begin_rule(felt.force);
+}
+
+void Drive::begin_rule(double force) {
+    const Segment& segment = options_.path[at_];
+    const double load = segment.kind == Segment::load ? segment.amount : options_.load_force;
+    rule_.begin(segment.kind, load, normal_.to < 0.0, options_.area, force);
 }
 
 bool Drive::ended(const Felt& felt) {
     const Segment& now = options_.path[at_];
     const double since = felt.time - begun_;
     switch (now.kind) {
-    case Segment::approach:
-        return came_down(felt.force, options_.load_force);
-    case Segment::pull_off:
-        return felt.gone;
-    case Segment::load: {
-        const bool up = normal_.to > 0.0;
-        const bool there = up ? felt.force <= now.amount : came_down(felt.force, now.amount);
-        if (now.amount < 0.0 && (up ? felt.gone && !there : there && !attracted_))
-            throw io::PhysicsError(
-                fmt::format("no attraction was as large as the pull of \"{}\"", now.text),
-                "it is nowhere that large on this way", "take a smaller pull");
-        return there;
-    }
     case Segment::height:
         return since >= normal_.end(options_.ramp);
     case Segment::hold:
@@ -129,23 +120,10 @@ bool Drive::ended(const Felt& felt) {
     case Segment::slide:
         return since >= slide_[static_cast<std::size_t>(now.axis)].end(options_.ramp);
     case Segment::relax:
-        break;
+        return true;
+    default:
+        return rule_.look(felt.force, felt.gone) != SegmentRule::End::no;
     }
-    return true;
-}
-
-/// Through attraction (beyond the load, if that pulls) and back to the load; or, where nothing
-/// attracts that much, pressed.
-bool Drive::came_down(double force, double load) {
-    // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
-    if (force == 0.0) {
-        attracted_ = false;
-        return false;
-    }
-    if (force < std::min(load, 0.0)) attracted_ = true;
-    const bool back = attracted_ && force >= load;
-    const bool pressed = force > std::max(load, 0.0);
-    return back || pressed;
 }
 
 } // namespace asperity

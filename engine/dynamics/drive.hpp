@@ -16,6 +16,7 @@
 #pragma once
 
 #include "engine/scene/segment.hpp"
+#include "engine/scene/segment_rule.hpp"
 
 #include <array>
 #include <cmath>
@@ -29,6 +30,7 @@ struct DriveOptions {
     double velocity = 5e-5;  ///< Å/fs
     double ramp = 0.0;       ///< time over which a velocity changes, fs
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
+    double area = 1.0;       ///< of the interface, Å^2
     /// Amounts in the units of the engine: a load in eV/Å, a hold in fs.
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
@@ -96,7 +98,7 @@ public:
     void visit(Visitor& v) {
         v("segment", at_);
         v("begun", begun_);
-        v("attracted", attracted_);
+        v("rule", rule_);
         v("normal", normal_);
         v("slide_x", slide_[0]);
         v("slide_y", slide_[1]);
@@ -105,14 +107,14 @@ public:
 
 private:
     void begin(const Felt& felt);
+    void begin_rule(double force);
     bool ended(const Felt& felt);
-    bool came_down(double force, double load);
 
     DriveOptions options_;
     double reference_height_ = 0.0;
     std::size_t at_ = 0;
     double begun_ = 0.0; ///< when the segment began, fs
-    bool attracted_ = false;
+    SegmentRule rule_;   ///< of one that a force ends
     VelocityProfile normal_;
     std::array<VelocityProfile, 2> slide_;
     std::optional<double> by_hand_;

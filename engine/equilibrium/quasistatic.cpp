@@ -177,17 +177,17 @@ void QuasistaticPath::begin(Along along, double direction) {
     if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
     if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);
-    course_.attracted = course_.bracketed = false;
+    const double a = block_.options().spacing;
+    course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
+                       slack(record_.in_contact));
+    course_.bracketed = false;
     course_.work = course_.gap = course_.squares = 0.0;
     dissipation_.begin_segment();
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
-    // It may be beyond that load already.
-    if (course_.load && record_.force < load() - slack(record_.in_contact))
-        course_.attracted = true;
-    const double aim = course_.direction < 0.0 ? approach_load() : load();
+    const double aim = course_.rule.aim();
     for (;;) {
         const std::optional<Bracket> bracket = bracket_;
         const bool all_the_way = bisect();
@@ -238,24 +238,18 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
 /// Of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
     if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
-    const double load = this->load(), slack = this->slack(record_.in_contact);
-    if (course_.direction < 0.0) {
-        const double aim = approach_load();
-        if (record_.force < std::min(load, 0.0) - slack) course_.attracted = true;
-        const bool back = course_.attracted && record_.force >= load;
-        const bool there =
-            back || (std::exchange(course_.bracketed, false) && record_.force >= aim - slack);
-        if (there && course_.load && load < -slack && !course_.attracted) refuse_pull(load);
-        return there ? Outcome::at_load : Outcome::point;
-    }
-    if (course_.load && std::exchange(course_.bracketed, false) && record_.force <= load + slack)
-        return Outcome::at_load;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
-    if (!apart) return Outcome::point;
-    if (!course_.load) return Outcome::apart;
-    if (load < -slack) refuse_pull(load);
-    return Outcome::at_load; // an attraction too weak to be told from none
+    switch (course_.rule.look(record_.force, apart, slack(record_.in_contact),
+                              std::exchange(course_.bracketed, false))) {
+    case SegmentRule::End::at_load:
+        return Outcome::at_load;
+    case SegmentRule::End::apart:
+        return Outcome::apart;
+    case SegmentRule::End::no:
+        break;
+    }
+    return Outcome::point;
 }
 
 void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
@@ -268,13 +262,6 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                            fmt::format("after {} iterations {}", state.iterations,
                                        why_not_converged(state, 0.25 * options_.tolerance)),
                            "a larger drive.tolerance, or a height further from the substrate");
-}
-
-void QuasistaticPath::refuse_pull(double load) const {
-    const double a = block_.options().spacing;
-    throw io::PhysicsError(fmt::format("no attraction was as large as the pull of {:.4g} MPa",
-                                       -load / (sites_ * a * a * units::megapascal)),
-                           "it is nowhere that large on this way", "take a smaller pull");
 }
 
 /// Of the substrate on the lowest layer, by the forces of the last relaxation. Collective.

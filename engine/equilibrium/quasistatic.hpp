@@ -123,7 +123,7 @@ private:
         double direction = -1.0;    ///< of that; 0: the segment ends where it began
         std::optional<double> end;  ///< where it ends, Å; none: at a load, or apart
         std::optional<double> load; ///< eV/Å; none: an approach's, or apart
-        bool attracted = false;     ///< the force has been beyond the load
+        SegmentRule rule;           ///< of one that a force ends
         bool bracketed = false;     ///< the load at which the segment ends
         double work = 0.0;          ///< of the top plane, eV
         double gap = 0.0;           ///< the sum of those of its steps, eV
@@ -136,7 +136,7 @@ private:
             v("direction", direction);
             v("end", end);
             v("load", load);
-            v("attracted", attracted);
+            v("rule", rule);
             v("bracketed", bracketed);
             v("work", work);
             v("gap", gap);
@@ -165,12 +165,9 @@ private:
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
-    [[noreturn]] void refuse_pull(double load) const;
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }
-    /// At which an approach ends: on the way to a pull, no sooner than the force has been there.
-    double approach_load() const { return course_.attracted ? load() : std::max(load(), 0.0); }
     /// The segment under way ends at a load.
     bool to_load() const { return !course_.end && course_.kind != Segment::pull_off; }
     bool passes_load(const RelaxedState& state, double aim) const;
@@ -207,21 +204,7 @@ private:
 
 template <class Visitor>
 void QuasistaticPath::visit(Visitor& v) {
-    v("point", record_.step);
-    v("top", record_.top);
-    v("mean_height", record_.mean_height);
-    v("force", record_.force);
-    v("top_force", record_.top_force);
-    v("interface_energy", record_.interface_energy);
-    v("elastic_energy", record_.elastic_energy);
-    v("in_contact", record_.in_contact);
-    v("repulsive", record_.repulsive);
-    v("closest", record_.closest);
-    v("work", record_.work);
-    v("dissipated", record_.damped);
-    v("residual", record_.residual);
-    v("slide", record_.slide);
-    v("lateral_force", record_.lateral_force);
+    v("record", record_);
     v("last", last_);
     v("trail", trail_);
     v("course", course_);

@@ -54,16 +54,4 @@ void guard(const Path& path, const std::function<std::string()>& kept) {
     throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
 }
 
-void require_load_reached(double load, double attraction, double slack, double area) {
-    if (load >= 0.0 || attraction >= -load - slack) return;
-    const double to_megapascal = 1.0 / (area * units::megapascal);
-    throw io::PhysicsError(
-        fmt::format("the approach was to end under a pull of {:.6g} MPa (drive.load), and no "
-                    "attraction was that large",
-                    -load * to_megapascal),
-        fmt::format("the largest attraction on the way in was {:.4g} MPa",
-                    attraction * to_megapascal),
-        "take a smaller pull: a drive.load between that and 0");
-}
-
 } // namespace asperity

@@ -30,9 +30,4 @@ void guard(const Path& path, const std::function<std::string()>& kept = {});
 /// "site (3, 7) moves at 1e+05 m/s": that of the lowest layer with the largest velocity, which may
 /// be infinite or no number. Collective.
 std::string fastest_site(const Simulation& simulation);
-/// At the end of an approach. Throws io::PhysicsError where it was to end under a pull (load, eV/Å,
-/// negative) larger than the largest attraction that it met. slack: what a force may be wrong by,
-/// eV/Å; area: Å^2.
-void require_load_reached(double load, double attraction, double slack, double area);
-
 } // namespace asperity

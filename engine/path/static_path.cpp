@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/static_path.hpp"
 
-#include "engine/path/guard.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -60,8 +59,6 @@ std::optional<std::size_t> StaticPath::ended() const {
 std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = kind() != Segment::relax;
     if (held) {
-        require_load_reached(case_.simulation.drive.load_force, results_.attraction_in,
-                             points_->slack(), case_.area());
         points_->put_back(); // as after a resume, to the same bits
     }
     const std::optional<ZeroLoad> found = state_from_here(

@@ -79,11 +79,7 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
     interface_work_ = simulation_.balance().interface;
-    if (segment.kind == Segment::approach) {
-        require_load_reached(simulation_.options().drive.load_force, results_.attraction_in, 0.0,
-                             case_.area());
-        results_.contact_made = now.time;
-    }
+    if (segment.kind == Segment::approach) results_.contact_made = now.time;
     return number;
 }
 

@@ -262,7 +262,8 @@ void fill_motion(Case& c, io::Problems& refused) {
     const double crossing = block.thickness * block.spacing / block.sound_speed();
     drive.velocity = scene.drive.velocity * units::metre_per_second;
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
-    drive.load_force = scene.drive.load * units::megapascal * c.area();
+    drive.area = c.area();
+    drive.load_force = scene.drive.load * units::megapascal * drive.area;
     drive.path = c.path;
     for (Segment& segment : drive.path) {
         if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();

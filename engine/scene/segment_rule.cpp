@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/scene/segment_rule.hpp"
+
+#include "engine/units.hpp"
+#include "io/error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace asperity {
+
+void SegmentRule::begin(Segment::Kind kind, double load, bool down, double area, double force,
+                        double slack) {
+    kind_ = kind;
+    load_ = load;
+    down_ = down;
+    area_ = area;
+    attracted_ = kind == Segment::load && force < load - slack;
+    strongest_ = std::max(-force, 0.0);
+}
+
+SegmentRule::End SegmentRule::look(double force, bool apart, double slack, bool beside) {
+    strongest_ = std::max(strongest_, -force);
+    if (!down_) {
+        if (kind_ == Segment::load && beside && force <= load_ + slack) return End::at_load;
+        if (!apart) return End::no;
+        if (kind_ != Segment::load) return End::apart;
+        if (load_ < -slack) refuse();
+        return End::at_load; // an attraction too weak to be told from none
+    }
+    // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
+    if (force == 0.0) {
+        attracted_ = false;
+        return End::no;
+    }
+    const bool pressed = beside && force >= aim() - slack;
+    if (force < std::min(load_, 0.0) - slack) attracted_ = true;
+    if (!pressed && !(attracted_ && force >= load_)) return End::no;
+    if (load_ < -slack && !attracted_) refuse();
+    return End::at_load;
+}
+
+double SegmentRule::aim() const { return !down_ || attracted_ ? load_ : std::max(load_, 0.0); }
+
+void SegmentRule::refuse() const {
+    const double to_megapascal = 1.0 / (area_ * units::megapascal);
+    throw io::PhysicsError(
+        fmt::format("no attraction was as large as the pull of {:.6g} MPa that \"{}\" is to end at",
+                    -load_ * to_megapascal, word(kind_)),
+        fmt::format("the largest on this way was {:.4g} MPa", strongest_ * to_megapascal),
+        "take a smaller pull (drive.load, or the load of the segment)");
+}
+
+} // namespace asperity
