@@ -117,6 +117,8 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].lost", "meV/Å^2", per::area,
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
      "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
+    {"segments[].kinetic", "meV/Å^2", per::area,
+     "what still moves at the end of an approach or a pull-off in time at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "of work and lost, without time, for the sequence of instabilities taken"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
@@ -126,7 +128,7 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].pressure", "MPa", "", "at its end: of the substrate on the lowest layer"},
     {"segments[].mean_height", "Å", "", "at its end"},
     {"segments[].top_displacement", "Å", "", "at its end"},
-    {"segments[].contact_fraction", "1", per::sites, "at its end"},
+    {"segments[].contact_fraction", "1", per::sites, "at its end; in time one step later"},
     {"segments[].slide", "Å", "", "at its end: place over the substrate along x and y"},
     {"dissipated.energy", "eV", per::block,
      "energy dissipated at instabilities since the start of a path without time"},

@@ -4,18 +4,6 @@
 
 namespace asperity {
 
-Works& Works::operator+=(const Works& more) {
-    const auto add = [](std::optional<double>& to, const std::optional<double>& number) {
-        to = to && number ? std::optional(*to + *number) : std::nullopt;
-    };
-    on_solids += more.on_solids;
-    lateral += more.lateral;
-    lost += more.lost;
-    add(interface, more.interface);
-    add(uncertainty, more.uncertainty);
-    return *this;
-}
-
 Works Works::operator-(const Works& earlier) const {
     Works between = *this;
     between.on_solids -= earlier.on_solids;
@@ -37,34 +25,18 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.lost = per_area(works.lost);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
+    if (case_.scene.drive.temperature == 0.0) ended.kinetic = per_area(kinetic);
     results_.segments.push_back(ended);
     results_.begin_segment();
 
-    if (since_apart_)
-        *since_apart_ += works;
-    else
-        since_apart_ = works;
-    if (segment.kind == Segment::approach) results_.approach = way(*since_apart_, -1.0, kinetic);
+    lost_since_apart_ += works.lost;
     if (segment.kind != Segment::pull_off) return;
-    results_.pull_off = way(works, 1.0, kinetic);
     const double moving = kinetic.value_or(0.0);
-    if (results_.approach.lost) // of what moved before the cycle its losses have taken a part
-        results_.lost_in_cycle = per_area(since_apart_->lost + moving - moved_apart_);
-    since_apart_.reset();
+    // Of what moved before the cycle its losses have taken a part. Heat goes both ways.
+    if (results_.last(Segment::approach) && case_.scene.drive.temperature == 0.0)
+        results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
+    lost_since_apart_ = 0.0;
     moved_apart_ = moving;
-}
-
-/// sign: of the works, which are counted positive where the solids attract.
-WayEnergies Ledger::way(const Works& works, double sign,
-                        const std::optional<double>& kinetic) const {
-    WayEnergies way;
-    way.drive_work = sign * per_area(works.on_solids);
-    if (works.interface) way.interface_work = -sign * per_area(*works.interface);
-    way.uncertainty = per_area(works.uncertainty);
-    if (case_.scene.drive.temperature > 0.0) return way; // heat goes both ways
-    way.lost = per_area(works.lost);
-    way.kinetic = per_area(kinetic);
-    return way;
 }
 
 } // namespace asperity

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Works and losses of a path, in time or without: those of each segment, and of approach and
-// pull-off from rest out of reach to rest out of reach.
+// Works and losses of the segments of a path, in time or without. Of an approach from rest beyond
+// the interaction range, and a pull-off to rest there:
 //
-//     -(work on the solids, approach) + lost + kinetic = binding energy
-//       = work on the solids, pull-off - lost - kinetic there + kinetic after the approach
+//     -(work of the drive, approach) = binding energy - lost - kinetic
+//      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
+//      approach
 //
-// where kinetic is what still moves at the end: kinetic energy, and that of vibrations about the
-// state.
+// Works are done on the solids; kinetic is what still moves at the end: kinetic energy, and that of
+// vibrations about the state.
 #pragma once
 
 #include "engine/path/path_results.hpp"
@@ -29,7 +30,6 @@ struct Works {
     std::optional<double> interface;
     std::optional<double> uncertainty; ///< of on_solids and lost; without time only
 
-    Works& operator+=(const Works& more);
     /// From an earlier place on the path to this one.
     Works operator-(const Works& earlier) const;
 
@@ -56,19 +56,18 @@ public:
     /// For checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("since_apart", since_apart_);
+        v("lost_since_apart", lost_since_apart_);
         v("moved_apart", moved_apart_);
     }
 
 private:
     double per_area(double energy) const { return units::milli_per_unit * energy / case_.area(); }
     std::optional<double> per_area(const std::optional<double>& energy) const;
-    WayEnergies way(const Works& works, double sign, const std::optional<double>& kinetic) const;
 
     const Case& case_;
     PathResults& results_;
-    std::optional<Works> since_apart_; ///< from the last end of a pull-off, or the start
-    double moved_apart_ = 0.0;         ///< what still moved then, eV
+    double lost_since_apart_ = 0.0; ///< from the last end of a pull-off, or the start, eV
+    double moved_apart_ = 0.0;      ///< what still moved then, eV
 };
 
 } // namespace asperity

@@ -17,43 +17,27 @@
 
 namespace asperity {
 
-/// Energies of an approach or a pull-off that has ended, meV/Å^2, from or to rest out of reach.
-/// Works are positive where the solids attract: taken up on the way in, given on the way out.
-struct WayEnergies {
-    /// Of the interface's force on the mean height of the lowest layer, int F dz / A0. Empty at a
-    /// held top without time, where the mean height jumps at instabilities.
-    std::optional<double> interface_work;
-    /// Of what drives or holds the block: the top plane (in time with the medium that damps, which
-    /// moves along), or the holder of the mean height.
-    std::optional<double> drive_work;
-    std::optional<double> lost; ///< damped or dissipated; empty with a thermostat
-    /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
-    /// at zero load (empty where that is not known), or about the solids at rest apart.
-    std::optional<double> kinetic;
-    std::optional<double> uncertainty; ///< of each of these; without time only
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("work_of_interface", interface_work);
-        v("drive_work", drive_work);
-        v("lost", lost);
-        v("kinetic", kinetic);
-        v("uncertainty", uncertainty);
-    }
-};
-
 /// A segment of the path that has ended: what was done on the way, and where it ended.
 struct SegmentResults {
     std::size_t number = 0; ///< in the path
-    /// Done on the block by what drives or holds it, meV/Å^2. That of an approach from rest apart,
-    /// and of a pull-off, is minus and plus WayEnergies::drive_work.
+    Segment::Kind kind = Segment::approach;
+    // Works are done on the solids, meV/Å^2; from rest beyond the interaction range where the path
+    // starts there, and to rest there at a pull-off.
+    /// By what drives or holds the block: the top plane (in time with the medium that damps, which
+    /// moves along), or the holder of the mean height.
     double work = 0.0;
-    std::optional<double> interface_work; ///< int F dz / A0, meV/Å^2; empty as above
-    double lost = 0.0;                    ///< damped or dissipated, meV/Å^2
-    std::optional<double> uncertainty;    ///< of work and lost; without time only, meV/Å^2
-    double attraction = 0.0;              ///< the largest, eV/Å
-    std::optional<double> lateral_mean;   ///< force against a slide, work over distance, eV/Å
-    std::optional<double> lateral_most;   ///< the largest of it, eV/Å
+    /// Of the interface's force on the mean height of the lowest layer, int F dz. Empty at a held
+    /// top without time, where the mean height jumps at instabilities.
+    std::optional<double> interface_work;
+    double lost = 0.0; ///< damped (less the heat of a thermostat) or dissipated
+    /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
+    /// at zero load behind an approach (empty where that is not known), or about the solids at rest
+    /// apart behind a pull-off.
+    std::optional<double> kinetic;
+    std::optional<double> uncertainty;  ///< of works and lost; without time only
+    double attraction = 0.0;            ///< the largest, eV/Å
+    std::optional<double> lateral_mean; ///< force against a slide, work over distance, eV/Å
+    std::optional<double> lateral_most; ///< the largest of it, eV/Å
     // At its end:
     double force = 0.0, mean_height = 0.0, top = 0.0; ///< eV/Å, Å, Å
     std::array<double, 2> slide{};                    ///< Å
@@ -62,9 +46,11 @@ struct SegmentResults {
     template <class Visitor>
     void visit(Visitor& v) {
         v("number", number);
+        v("kind", kind);
         v("work", work);
         v("work_of_interface", interface_work);
         v("lost", lost);
+        v("kinetic", kinetic);
         v("uncertainty", uncertainty);
         v("attraction", attraction);
         v("lateral_mean", lateral_mean);
@@ -79,24 +65,25 @@ struct SegmentResults {
 
 struct PathResults {
     std::optional<ZeroLoad> zero_load;     ///< of the last approach, or of the path's start
-    WayEnergies approach, pull_off;        ///< the last of each
-    std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
-    double attraction_in = 0.0;            ///< largest attraction of the last approach, eV/Å
-    double attraction_out = 0.0;           ///< of the last pull-off
-    double strongest = 0.0;                ///< of the path so far
+    std::optional<double> lost_in_cycle;   ///< from rest apart to rest apart, meV/Å^2
+    double strongest = 0.0;                ///< attraction of the path so far, eV/Å
     std::optional<double> contact_made;    ///< when the last approach ended, fs
     std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
     std::vector<SegmentResults> segments;  ///< those that have ended
     // Of the segment under way, eV/Å:
     double attraction = 0.0, lateral_most = 0.0;
 
+    /// The last segment of a kind that has ended, or null.
+    const SegmentResults* last(Segment::Kind kind) const {
+        const auto is = [&](const SegmentResults& s) { return s.kind == kind; };
+        const auto found = std::find_if(segments.rbegin(), segments.rend(), is);
+        return found == segments.rend() ? nullptr : &*found;
+    }
     void begin_segment() { attraction = lateral_most = 0.0; }
     /// What a step or point of the segment under way has felt.
     void feel(const Segment& segment, const StepRecord& now) {
         attraction = std::max(attraction, -now.force);
         strongest = std::max(strongest, attraction);
-        if (segment.kind == Segment::approach) attraction_in = attraction;
-        if (segment.kind == Segment::pull_off) attraction_out = attraction;
         if (segment.kind == Segment::slide)
             lateral_most = std::max(lateral_most, against(segment, now));
     }
@@ -111,6 +98,7 @@ struct PathResults {
                          double lateral_work) const {
         SegmentResults r;
         r.number = number;
+        r.kind = segment.kind;
         r.attraction = attraction;
         if (segment.kind == Segment::slide) {
             r.lateral_mean = lateral_work / std::abs(segment.amount);
@@ -127,11 +115,7 @@ struct PathResults {
     /// For checkpoints; but what was dissipated, which the path keeps.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("approach", approach);
-        v("pull_off", pull_off);
         v("lost_in_cycle", lost_in_cycle);
-        v("attraction_in", attraction_in);
-        v("attraction_out", attraction_out);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);

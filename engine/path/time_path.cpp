@@ -78,6 +78,7 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     if (drive.by_hand()) return std::nullopt;
     const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
+    end_ = now;
     interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) results_.contact_made = now.time;
     return number;
@@ -119,7 +120,8 @@ void TimePath::conclude() {
         kinetic =
             energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
     }
-    ledger_.conclude(number, now, end - segment_start_, kinetic);
+    end_.in_contact = now.in_contact; // counted a step later, where it is observed
+    ledger_.conclude(number, end_, end - segment_start_, kinetic);
     segment_start_ = end;
 }
 

@@ -58,6 +58,7 @@ private:
     void visit(Visitor& v) {
         v("simulation", simulation_);
         v("segment", segment_);
+        v("end", end_);
         v("ended", ended_);
         v("concluding", concluding_);
         v("start", start_);
@@ -79,6 +80,7 @@ private:
     double kinetic_at_full_speed_ = 0.0;     ///< of the whole block at the drive's velocity, eV
     Works segment_start_;                    ///< since the start, where the segment began
     double interface_work_ = 0.0;            ///< int F dz to where the last segment ended, eV
+    StepRecord end_;                         ///< the step that ended the last segment
     std::optional<std::size_t> ended_;       ///< the segment that the last step ended
     std::optional<std::size_t> concluding_;  ///< the segment that ended the step before
     VectorField<double> layer_, velocities_; ///< at now(), once they were wanted

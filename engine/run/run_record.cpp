@@ -49,31 +49,36 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
 
 void add_path(const PathResults& results, const Case& c, io::Result& result) {
     const std::optional<double> radius = c.scene.surface.radius;
-    const WayEnergies &in = results.approach, &out = results.pull_off;
-    result.set("work_of_interface.approach", in.interface_work);
-    result.set("work_of_interface.pull_off", out.interface_work);
-    result.set("work_of_drive.approach", in.drive_work);
-    result.set("work_of_drive.pull_off", out.drive_work);
-    result.set("lost.approach", in.lost);
-    result.set("lost.pull_off", out.lost);
+    const SegmentResults *in = results.last(Segment::approach),
+                         *out = results.last(Segment::pull_off);
+    const bool warm = c.scene.drive.temperature > 0.0; // heat goes both ways
+    const auto set = [&](const SegmentResults* s, io::Key drive, io::Key interface, io::Key lost,
+                         io::Key kinetic, io::Key force, io::Key of_drive, io::Key of_interface,
+                         io::Key of_lost) {
+        if (!s) return;
+        result.set(drive, s->work);
+        result.set(interface, s->interface_work);
+        if (!warm) result.set(lost, s->lost);
+        result.set(kinetic, s->kinetic);
+        result.set(force, s->attraction);
+        result.set(of_drive, s->uncertainty);
+        if (s->interface_work) result.set(of_interface, s->uncertainty);
+        result.set(of_lost, s->uncertainty);
+    };
+    set(in, "work_of_drive.approach", "work_of_interface.approach", "lost.approach",
+        "kinetic.approach", "approach_force", "work_of_drive.uncertainty.approach",
+        "work_of_interface.uncertainty.approach", "lost.uncertainty.approach");
+    set(out, "work_of_drive.pull_off", "work_of_interface.pull_off", "lost.pull_off",
+        "kinetic.pull_off", "pull_off_force", "work_of_drive.uncertainty.pull_off",
+        "work_of_interface.uncertainty.pull_off", "lost.uncertainty.pull_off");
     result.set("lost.cycle", results.lost_in_cycle);
-    result.set("kinetic.approach", in.kinetic);
-    result.set("kinetic.pull_off", out.kinetic);
-    if (in.interface_work) result.set("work_of_interface.uncertainty.approach", in.uncertainty);
-    if (out.interface_work) result.set("work_of_interface.uncertainty.pull_off", out.uncertainty);
-    result.set("work_of_drive.uncertainty.approach", in.uncertainty);
-    result.set("work_of_drive.uncertainty.pull_off", out.uncertainty);
-    result.set("lost.uncertainty.approach", in.uncertainty);
-    result.set("lost.uncertainty.pull_off", out.uncertainty);
-    if (in.drive_work) result.set("approach_force", results.attraction_in);
-    if (out.drive_work) result.set("pull_off_force", results.attraction_out);
     if (!radius) return;
-    if (c.edge_pinning > 1.05 && out.drive_work) result.set("jkr.edge_pinning", c.edge_pinning);
+    if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };
-    if (in.drive_work) result.set("jkr.approach", as_work(results.attraction_in));
-    if (out.drive_work) result.set("jkr.pull_off", as_work(results.attraction_out));
+    if (in) result.set("jkr.approach", as_work(in->attraction));
+    if (out) result.set("jkr.pull_off", as_work(out->attraction));
 }
 
 /// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
@@ -106,6 +111,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].work", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
+        given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
         given("segments[].friction", s.lateral_mean);

@@ -134,6 +134,14 @@ void translate(std::exception_ptr thrown) {
 struct BothWays {
     std::optional<double> approach, pull_off;
 };
+template <class Number>
+BothWays both_ways(const PathResults& results, const Number& number) {
+    const auto of = [&](Segment::Kind kind) {
+        const SegmentResults* segment = results.last(kind);
+        return segment ? number(*segment) : std::nullopt;
+    };
+    return {of(Segment::approach), of(Segment::pull_off)};
+}
 
 /// "Point(contact=0.98, energy=-492.5, ...)", every number of it by its name.
 std::string shown(const py::object& of) {
@@ -282,17 +290,18 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "work_of_interface",
             [](const Sim& sim) {
-                const PathResults& found = sim.results();
-                return BothWays{found.approach.interface_work, found.pull_off.interface_work};
+                return both_ways(sim.results(),
+                                 [](const SegmentResults& s) { return s.interface_work; });
             },
-            "work of the interface's force on the mean height, meV/Å²: .approach, .pull_off")
+            "work of the interface's force on the mean height, ∫ F dz, meV/Å²: .approach, "
+            ".pull_off")
         .def_property_readonly(
             "work_of_drive",
             [](const Sim& sim) {
-                const PathResults& found = sim.results();
-                return BothWays{found.approach.drive_work, found.pull_off.drive_work};
+                return both_ways(sim.results(),
+                                 [](const SegmentResults& s) { return std::optional(s.work); });
             },
-            "work that the drive takes up and gives, meV/Å²: .approach, .pull_off")
+            "work of the drive on the solids, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
             "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
             "energy lost over approach and pull-off, and still moving then, meV/Å²; None before")
@@ -398,16 +407,14 @@ PYBIND11_MODULE(_engine, m) {
             return working([&] { return std::make_unique<LedPath>(scene.resolved); });
         }))
         .def(
-            "relax",
-            [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
+            "relax", [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
             "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
             "Without a new target: the point where it is. Ctrl-C ends it at a point; the next "
             "relax() goes on.\n"
             "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
             "is reached.")
         .def(
-            "free",
-            [](LedPath& s) { return working([&] { return s.release(look_for_signals); }); },
+            "free", [](LedPath& s) { return working([&] { return s.release(look_for_signals); }); },
             "The state that the sites come to from where they are with nothing held but "
             "drive.load: "
             "a RestState.\n\n"
