@@ -7,6 +7,11 @@
 #   #include "<name>/x.hpp" works, and an include that points upwards does not compile.
 #   Sources named under VARIANTS are compiled once for each x86-64 level and picked at start
 #   (kernels/variant.hpp).
+#
+# asperity_folder(<layer> <folder> [SOURCES ...] [HEADERS ...] DEPENDS ...)
+#   A folder of a layer's in the same way, called in the layer's CMakeLists.txt: the library
+#   <layer>_<folder>, with #include "<layer>/<folder>/x.hpp". Of an empty folder's name: headers of the
+#   layer's own folder, <layer>_base.
 
 # asperity_text_sources(<name> <regex>)
 #   Sources of the layer <name> that make and read text: -O1 compiles them in about half the time, and
@@ -76,6 +81,32 @@ function(asperity_layer name)
                 PRIVATE ${macro}=$<IN_LIST:${variant},${ASPERITY_VARIANTS}>)
         endforeach()
     endif()
+endfunction()
+
+function(asperity_folder layer folder)
+    cmake_parse_arguments(ARG "" "" "SOURCES;HEADERS;DEPENDS" ${ARGN})
+    set(name ${layer}_${folder})
+    if(NOT folder)
+        set(name ${layer}_base)
+    endif()
+    set(include_dir ${PROJECT_BINARY_DIR}/layers/${name})
+    file(MAKE_DIRECTORY ${include_dir}/${layer})
+    foreach(link IN LISTS folder ARG_HEADERS)
+        file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${link} ${include_dir}/${layer}/${link} SYMBOLIC)
+    endforeach()
+    if(NOT ARG_SOURCES)
+        add_library(asperity_${name} INTERFACE)
+        target_include_directories(asperity_${name} INTERFACE ${include_dir})
+        target_link_libraries(asperity_${name} INTERFACE asperity_flags ${ARG_DEPENDS})
+    else()
+        list(TRANSFORM ARG_SOURCES PREPEND ${folder}/)
+        add_library(asperity_${name} STATIC ${ARG_SOURCES})
+        set_target_properties(asperity_${name} PROPERTIES ${ASPERITY_IN_A_LIBRARY})
+        target_include_directories(asperity_${name} PUBLIC ${include_dir})
+        target_link_libraries(asperity_${name} PUBLIC asperity_flags ${ARG_DEPENDS}
+                                               PRIVATE asperity_warnings)
+    endif()
+    add_library(asperity::${name} ALIAS asperity_${name})
 endfunction()
 
 function(asperity_text_sources name regex)

@@ -45,10 +45,11 @@ inline constexpr Quantity result_quantities[] = {
      "convergence of its solver, not its error (asperity estimate): what forces of the size of "
      "drive.tolerance can stand for"},
     {"work_of_interface.approach", "meV/Å^2", per::area,
-     "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, during "
-     "the approach; of dynamic paths, and of quasi-static ones that control the mean height"},
+     "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, positive "
+     "where the solids attract each other on the way in; of dynamic paths, and of quasi-static ones "
+     "that control the mean height"},
     {"work_of_interface.pull_off", "meV/Å^2", per::area,
-     "work against that force during the pull-off"},
+     "the same of the pull-off: negative where the solids attract each other"},
     {"pair_binding_energy", "meV/Å^2", per::area,
      "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
     {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
@@ -56,25 +57,25 @@ inline constexpr Quantity result_quantities[] = {
      "that the path takes"},
     {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
-     "work that the drive takes up during the approach from rest out of reach: minus its work on "
-     "the solids. The drive is the top plane (in time with the damping medium, which moves along) "
-     "or the holder of the mean height"},
+     "work of the drive on the solids during the approach, from rest beyond the interaction range: "
+     "negative where they attract each other. The drive is the top plane (in time with the damping "
+     "medium, which moves along) or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
-     "work that the drive gives during the pull-off to rest out of reach: its work on the solids"},
+     "the same of the pull-off, to rest beyond the interaction range"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of work_of_drive.approach without time, for the sequence of instabilities that "
      "the path takes"},
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.approach", "meV/Å^2", per::area,
      "energy lost on the approach: dissipated at instabilities (without time), or damped (in "
-     "time, at T = 0). From rest, without a load, work_of_drive.approach + lost.approach + "
-     "kinetic.approach = binding_energy = work_of_drive.pull_off - lost.pull_off + "
+     "time, at T = 0). From rest, without a load, binding_energy = -work_of_drive.approach + "
+     "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + "
      "kinetic.approach - kinetic.pull_off; without time nothing is kinetic. Of several cycles: of "
      "the last"},
     {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.cycle", "meV/Å^2", per::area,
      "lost from out of reach to out of reach, and kinetic.pull_off, which nothing gives back: of "
-     "an approach and a pull-off alone, work_of_drive.pull_off - work_of_drive.approach"},
+     "an approach and a pull-off alone, work_of_drive.approach + work_of_drive.pull_off"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "what still moves at the end of the approach (in time, at T = 0, without a load): kinetic "
      "energy, and that of vibrations, above the state at zero load"},
@@ -108,10 +109,9 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
     {"segments[].name", "", "", "as the scene has it"},
-    {"segments[].work", "meV/Å^2", per::area,
-     "work that the drive has done on the solids, also sideways; from rest where the path starts, "
-     "and to rest out of reach at a pull-off: minus work_of_drive.approach of an approach, "
-     "work_of_drive.pull_off of a pull-off"},
+    {"segments[].work_of_drive", "meV/Å^2", per::area,
+     "work of the drive on the solids, also sideways; from rest where the path starts, and to rest "
+     "beyond the interaction range at a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "∫ F dz of the mean height; left out at a held top without time"},
     {"segments[].lost", "meV/Å^2", per::area,

@@ -18,7 +18,8 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
 }
 
 Constraint::Of StaticPath::held_of(const Case& c) {
-    return c.scene.drive.control == Control::top ? Constraint::Of::top : Constraint::Of::mean_height;
+    return c.scene.drive.control == Control::top ? Constraint::Of::top
+                                                 : Constraint::Of::mean_height;
 }
 
 void StaticPath::make_points(Constraint::Of held) {
@@ -66,8 +67,7 @@ std::optional<LayerAtRest> StaticPath::find_state() {
     LayerAtRest state;
     if (found) {
         // A path that starts in a state comes back to another; its numbers are of the first.
-        if (!results_.zero_load || !case_.starts_with(Segment::relax))
-            results_.zero_load = found;
+        if (!results_.zero_load || !case_.starts_with(Segment::relax)) results_.zero_load = found;
         state.numbers = found;
         state.layer = VectorField<double>(grid_.tile(0), 1);
         copy_layer(layer(), state.layer.plane(0));

@@ -108,7 +108,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         };
         result.set("segments[].segment", i, static_cast<long long>(s.number));
         result.set("segments[].name", i, c.path[s.number].text);
-        result.set("segments[].work", i, s.work);
+        result.set("segments[].work_of_drive", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
         given("segments[].kinetic", s.kinetic);

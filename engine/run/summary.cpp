@@ -63,8 +63,7 @@ std::string named(const std::string& name, io::Key key) {
 void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     const Scene& scene = c.scene;
     if (scene.drive.temperature > 0.0) {
-        fmt::print(to, "  What the drive gives on the way out and takes up on the way in contains "
-                       "heat of the thermostat.\n");
+        fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
     if (c.guided()) {
@@ -74,27 +73,27 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
         return;
     }
     const double lost =
-        of("lost.cycle").value_or(*of("work_of_drive.pull_off") - *of("work_of_drive.approach"));
+        of("lost.cycle").value_or(*of("work_of_drive.approach") + *of("work_of_drive.pull_off"));
     const double scale = flat > 0.0 ? flat
                                     : std::max(std::abs(*of("work_of_drive.pull_off")),
                                                std::abs(*of("work_of_drive.approach")));
     const bool hardly = std::abs(lost) <= 0.01 * scale;
     if (hardly)
         fmt::print(to,
-                   "  The drive gives on the way out what it took up on the way in, to {} "
-                   "meV/Å²: hardly anything is lost.\n",
+                   "  The works of the drive on the solids, in and out, add up to {} meV/Å²: hardly "
+                   "anything is lost.\n",
                    io::number(std::abs(lost), 2));
     else
         fmt::print(
             to,
-            "  The drive gives {} meV/Å² more on the way out than it takes up on the way in: "
-            "energy that is {}.\n",
+            "  The works of the drive on the solids, in and out, add up to {} meV/Å²: energy that "
+            "is\n  {}.\n",
             io::number(lost, 2),
-            c.in_time ? "damped, or still\n  moves at the end" : "lost at\n  instabilities");
+            c.in_time ? "damped, or still moves at the end" : "lost at instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
-        fmt::print(to, "  Work of the drive on the approach + {} = binding energy{}.\n",
+        fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
                    c.in_time ? "energy lost + energy that still moves" : "energy lost there",
-                   c.in_time ? "" : " =\n  work of the drive on the pull-off - energy lost there");
+                   c.in_time ? "" : "\n  = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.in_time)
         fmt::print(to,
                    "  The work of the interface is that of its force on the mean height of the "
@@ -109,7 +108,7 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const bool slides = c.effects.sliding;
     std::vector<std::string> head = {"segment",
-                                     named("work on the solids", "segments[].work"),
+                                     named("work of the drive", "segments[].work_of_drive"),
                                      named("lost", "segments[].lost"),
                                      named("ends at", "segments[].pressure"),
                                      named("mean height", "segments[].mean_height"),

@@ -55,7 +55,7 @@ DISTRIBUTIONS = (
     ("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that feel "
      "any: the left wing is attractive, the right one repulsive. Per site of the box."),
     ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
-SEGMENT_COLUMNS = {"name": "segment", "work": "work on the solids, meV/Å²", "lost": "lost, meV/Å²",
+SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive, meV/Å²", "lost": "lost, meV/Å²",
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
 

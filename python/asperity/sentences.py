@@ -85,8 +85,10 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         found.append(KeyNumber(minus(value), unit, name, note))
 
     def gamma(key: str, name: str, symbol: str = "γ_{eff}/Δγ") -> None:
+        sign, key = (-1.0, key[1:]) if key.startswith("-") else (1.0, key)  # of works on the solids
         value, flat = run.number(key), reference(run, key)
         if value is not None and flat > 0:
+            value *= sign
             parent, _, leaf = key.rpartition(".")
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
             add(number(value / flat, 3), symbol, name, energy(value) + (f"; solver converged to {error:.2g}" if error else ""))
@@ -115,9 +117,10 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
             "lost in a cycle (hysteresis)", _loss(run))
     if not run.curved:
-        for key, name in (("work_of_interface", "work of the interface"), ("work_of_drive", "work of the drive")):
-            gamma(key + ".approach", name + ", approach")
-            gamma(key + ".pull_off", name + ", pull-off")
+        gamma("work_of_interface.approach", "work of the interface, approach")
+        gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
+        gamma("-work_of_drive.approach", "work that the drive takes up, approach")
+        gamma("work_of_drive.pull_off", "work that the drive gives, pull-off")
     gamma("theory.persson.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
     gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
     theory = run.number("theory.persson.contact_fraction")
@@ -158,13 +161,13 @@ def _loss(run: Result) -> str:
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
     if lost is None:
-        lost = out - into
+        lost = into + out
     if run.curved:
         loop, *parts = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
         return f"A cycle of approach and pull-off loses {loop} eV" + (
             f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
             "detaches." if all(parts) else ".")
-    text = f"On the way in the drive takes up {energy(into)}; on the way out it gives {energy(out)}."
+    text = f"On the way in the drive takes up {energy(-into)}; on the way out it gives {energy(out)}."
     if abs(lost) < 0.01 * flat:
         text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
     else:

@@ -139,7 +139,9 @@ class Table(Columns):
         return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
 
     def values(self, name: str) -> np.ndarray:
-        """The same, NaN where it means nothing or there is none."""
+        """The same, NaN where it means nothing or there is none; "-name": with the other sign."""
+        if name.startswith("-"):
+            return -self.values(name[1:])
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
         sphere = self.get("contact_radius.relaxed")
         if sphere is None or not of_area(name):
@@ -177,8 +179,8 @@ class Table(Columns):
 
 # The table as text: head, column and digits; columns without numbers are left out.
 OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_interface.approach_ratio", 4),
-                 ("interface, out", "work_of_interface.pull_off_ratio", 4),
-                 ("drive, in", "work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
+                 ("interface, out", "-work_of_interface.pull_off_ratio", 4),
+                 ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
                  ("radius, Å", "contact_radius.relaxed", 1), ("lost, meV/Å²", "lost.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("its contact", "theory.persson.contact_fraction", 4),
@@ -209,7 +211,7 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
             row.append((number(float(mean[group]), digits) if count[group] else "-") +
                        (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
-    meaning = "binding energies and works over Δγ" if table.simulated else ""
+    meaning = "binding energies over Δγ, and works: of the interface on the way in, of the drive on the way out; the others with the other sign" if table.simulated else ""
     if meaning and len(axes) < len(table.axes):
         meaning += ", mean ± standard deviation over the seeds"
     return [*axes, *(c[0] for c in cells), ""], rows, meaning

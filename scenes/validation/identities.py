@@ -67,7 +67,7 @@ def main():
             row = f"{n:2d} {'wall ' if n % 2 else 'atoms'} {hold:11s} {r.binding_energy / unit:8.3f}"
             for way, sign in (("approach", 1), ("pull_off", -1)):
                 work, lost = r.number(f"work_of_drive.{way}"), r.number(f"lost.{way}")
-                error = work + sign * lost - r.binding_energy
+                error = sign * (lost - work) - r.binding_energy
                 stated = r.number(f"work_of_drive.uncertainty.{way}") + r.binding_energy_uncertainty
                 over.append(error / stated)
                 row += f" {work / unit:9.3f} {lost / unit:8.3f} {error / unit:8.4f} {over[-1]:6.2f}"

@@ -57,7 +57,7 @@ def main() -> None:
         theories.complete(r)
         n = r.number
         print(f"{name:20s} {n('delta_gamma'):8.4f} {n('theory.renormalised.tension'):8.3f}   | "
-              f"{n('binding_energy'):9.5f} {n('contact_fraction'):6.4f} | {n('work_of_drive.approach'):9.4f} "
+              f"{n('binding_energy'):9.5f} {n('contact_fraction'):6.4f} | {-n('work_of_drive.approach'):9.4f} "
               f"{n('lost.approach'):7.4f} {n('work_of_drive.pull_off'):9.4f} {n('lost.pull_off'):7.4f} | "
               f"{n('theory.renormalised.gamma_eff'):8.3f} {n('theory.renormalised.contact_fraction'):6.4f}", flush=True)
 

@@ -70,8 +70,8 @@ TEST(PotentialOfAScene, EnergiesOfAPathBalanceForEveryPotential) {
         const double state = number(r, "binding_energy");
         EXPECT_GT(state, 10.0);
         for (const auto& [part, sign] : {std::pair{"approach", 1.0}, {"pull_off", -1.0}})
-            EXPECT_NEAR(number(r, fmt::format("work_of_drive.{}", part)) +
-                            sign * number(r, fmt::format("lost.{}", part)),
+            EXPECT_NEAR(sign * (number(r, fmt::format("lost.{}", part)) -
+                                number(r, fmt::format("work_of_drive.{}", part))),
                         state, 1e-3 * state)
                 << keys[0] << part;
         EXPECT_LT(std::abs(number(r, "energy.balance_error")), 1e-3);

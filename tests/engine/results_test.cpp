@@ -146,7 +146,7 @@ TEST(Results, OfAQuasiStaticPathAgreeWithEachOther) {
     EXPECT_EQ(run.number("pull_off_force", "eV/Å"), strongest[1]);
     EXPECT_GT(strongest[1], strongest[0]);
     // Points where the step was halved do not see the same trapezia: to a percent.
-    EXPECT_NEAR(energy("work_of_drive.approach"), work[0], 0.01 * std::abs(work[0]));
+    EXPECT_NEAR(-energy("work_of_drive.approach"), work[0], 0.01 * std::abs(work[0]));
     EXPECT_NEAR(-energy("work_of_drive.pull_off"), work[1], 0.01 * std::abs(work[1]));
     EXPECT_EQ(run.number("energy.work", "eV"), run.data("/series/work", "eV").back());
     EXPECT_EQ(run.number("energy.damped", "eV"), run.data("/series/dissipated", "eV").back());

@@ -96,7 +96,7 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const double approach = test::number(result, "work_of_interface.approach"),
                  pull_off = test::number(result, "work_of_interface.pull_off");
     EXPECT_NEAR(approach, per_area * turn, 1e-5 * approach);
-    EXPECT_NEAR(pull_off, -per_area * (s.balance().interface - turn), 1e-4 * pull_off);
+    EXPECT_NEAR(pull_off, per_area * (s.balance().interface - turn), -1e-4 * pull_off);
     EXPECT_LT(test::number(result, "run.steps"), 0.9 * static_cast<double>(s.steps()));
 }
 

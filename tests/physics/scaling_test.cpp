@@ -200,7 +200,7 @@ TEST(Scaling, LoadsAreMetToTheirOwnSize) {
     // Also after far larger ones.
     for (const char* hold : {"top", "mean-height"}) {
         const test::Written run(fmt::format(
-            "[surface]\nsites = 32\nrms = 1.5\n[drive]\nmode = \"quasistatic\"\nhold = \"{}\"\n"
+            "[surface]\nsites = 32\nrms = 1.5\n[drive]\nmode = \"quasistatic\"\ncontrol = \"{}\"\n"
             "path = [\"approach\", \"load 300 MPa\", \"load 1 MPa\", \"load 0.1 MPa\"]\n"
             "[output]\nfields = []\n",
             hold));

@@ -50,7 +50,7 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
     # The balance: approach + lost = state = pull-off - lost, to the tolerance on the way.
     work, lost = whole.work_of_drive, whole.lost
     assert lost.approach > 1 and lost.pull_off > 1
-    assert work.approach + lost.approach == pytest.approx(whole.binding_energy, abs=0.1)
+    assert -work.approach + lost.approach == pytest.approx(whole.binding_energy, abs=0.1)
     assert work.pull_off - lost.pull_off == pytest.approx(whole.binding_energy, abs=0.1)
     assert {"relaxed", "pull-off", "step-40"} <= set(whole.fields)
     assert "dissipated" in whole.series and "time" not in whole.series
@@ -62,7 +62,7 @@ def test_a_path_and_the_same_at_a_held_mean_height(place):
     run("held", HELD)
     held = asperity.load("held")
     assert held.binding_energy == pytest.approx(whole.binding_energy, abs=0.1)
-    for work in held.work_of_interface.approach, held.work_of_interface.pull_off:
+    for work in held.work_of_interface.approach, -held.work_of_interface.pull_off:
         assert work == pytest.approx(whole.binding_energy, abs=0.5)
     stop("held-parts", "0.05s", HELD)
     before = Path("held-parts/result.json").read_bytes()

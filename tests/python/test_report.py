@@ -64,7 +64,7 @@ def test_the_page_of_a_path(path_run):
         assert text in found.text, text
     # Numbers are those of the result, to the digits that are shown.
     assert f"{path_run.binding_energy / path_run.delta_gamma:.3f}" in found.text
-    assert f"{path_run.work_of_interface.pull_off:.2f} meV/Å²" in found.text
+    assert f"{-path_run.work_of_interface.pull_off:.2f} meV/Å²" in found.text
     # Nothing is fetched from anywhere.
     assert [v for v in found.links if not v.startswith(("#", "data:"))] == []
     assert found.tags.count("figure") == found.tags.count("svg") == len(found.data) == 13
@@ -105,8 +105,8 @@ def stored(tmp_path, path, load):
     tmp_path.joinpath("result.json").write_text(json.dumps({
         "scene": {"surface": {"sites": 32, "spacing": 2.6}, "drive": {"path": path, "load": load}},
         "delta_gamma": 80.0, "binding_energy": 40.0, "contact_fraction": 0.5,
-        "work_of_interface": {"approach": 36.0, "pull_off": 44.0},
-        "work_of_drive": {"approach": 30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
+        "work_of_interface": {"approach": 36.0, "pull_off": -44.0},
+        "work_of_drive": {"approach": -30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
         "lost": {"cycle": 20.0},
         "theory": {"persson": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25,
                                "gamma_full_contact": 20.0},

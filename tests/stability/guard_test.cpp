@@ -61,7 +61,7 @@ TEST(Guard, NoStepJumpsOverThePotential) {
         const io::Json as_ever = result_of(scene),
                        huge = result_of(scene + "drive.displacement_step = 1e6\n");
         for (const char* name : {"work_of_drive.approach", "work_of_drive.pull_off"}) {
-            EXPECT_GT(number(as_ever, name), 60.0);
+            EXPECT_GT(std::abs(number(as_ever, name)), 60.0);
             EXPECT_NEAR(number(huge, name), number(as_ever, name), 0.05) << hold << " " << name;
         }
     }
@@ -81,8 +81,8 @@ TEST(Guard, APullThatNothingReachesIsNoZeroLoad) {
     for (const std::string& scene : {rough + quick, still}) {
         EXPECT_TRUE(has(refusal<io::SceneError>(scene + "drive.load = -20000\n"), "drive.load"));
         EXPECT_TRUE(has(refusal<io::PhysicsError>(scene + "drive.load = -8500\n"), "drive.load"));
-        EXPECT_LT(number(result_of(scene + "drive.load = -500\n"), "work_of_drive.approach"),
-                  200.0);
+        EXPECT_GT(number(result_of(scene + "drive.load = -500\n"), "work_of_drive.approach"),
+                  -200.0);
     }
     EXPECT_TRUE(has(refusal<io::PhysicsError>(rough + "drive.path = [\"relax\"]\n"
                                                       "drive.load = -8500\n"),

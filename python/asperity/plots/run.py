@@ -159,12 +159,13 @@ def roughness(run: Result, ax: Axes) -> bool:
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.approach_averaged", "approach, by JKR", BLUE, "o"), ("jkr.pull_off", "pull-off, by JKR", RED, "s")) \
         if run.curved else (("work_of_interface.approach", "interface, approach", BLUE, "o"),
-                            ("work_of_interface.pull_off", "interface, pull-off", RED, "s"),
-                            ("work_of_drive.approach", "drive, approach", SKY, "<"),
+                            ("-work_of_interface.pull_off", "interface, pull-off", RED, "s"),
+                            ("-work_of_drive.approach", "drive, approach", SKY, "<"),
                             ("work_of_drive.pull_off", "drive, pull-off", YELLOW, ">"),
                             ("binding_energy", f"state {at}", GREEN, "^"))
     for key, label, colour, marker in names:
-        if (value := run.number(key)) is not None:
+        if (value := run.number(key.lstrip("-"))) is not None:
+            value *= -1 if key.startswith("-") else 1  # of works on the solids, the energy of separating them
             curve(ax, [rms], [value / flat], label, colour=colour, line="", marker=marker, filled=marker not in "s>")
     ax.set_xlim(left=0)
     lowest = min([0.0] + [np.nanmin(c.get_ydata()) for c in ax.lines if np.isfinite(c.get_ydata()).any()])

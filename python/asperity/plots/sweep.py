@@ -32,8 +32,8 @@ MOST_CURVES = len(COLOURS)
 
 @dataclass
 class Trace:
-    """A quantity of the points: a column of the table over `unit`. In its label, {at} and {under} are those of
-    load_words."""
+    """A quantity of the points: a column of the table over `unit`, "-column" with the other sign. In its label, {at} and
+    {under} are those of load_words."""
 
     label: str
     column: str
@@ -72,9 +72,9 @@ SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, SPHERE], [
         Trace("interface, approach", "work_of_interface.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_interface.uncertainty.approach"),
-        Trace("interface, pull-off", "work_of_interface.pull_off_ratio", RED, "", "s", False,
+        Trace("interface, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_interface.uncertainty.pull_off"),
-        Trace("drive, approach", "work_of_drive.approach_ratio", SKY, "", "<",
+        Trace("drive, approach", "-work_of_drive.approach_ratio", SKY, "", "<",
               uncertainty="work_of_drive.uncertainty.approach"),
         Trace("drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
               uncertainty="work_of_drive.uncertainty.pull_off"),
@@ -85,7 +85,7 @@ SIMULATED: dict[str, Spec] = {
         Trace("curved, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
     "readings": (GAMMA, [THEORY, RENORMALISED], [
         Trace("∫F dz, approach", "work_of_interface.approach_ratio", BLUE, "", "o"),
-        Trace("∫F dz, pull-off", "work_of_interface.pull_off_ratio", RED, "", "s", False),
+        Trace("∫F dz, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False),
         Trace("atom by atom, both ways", "pair_binding_energy_ratio", YELLOW, "", "D", False),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^")]),
     "area": (CONTACT, AREA, [Trace("state {at}", "contact_fraction", GREEN, "", "^")]),
