@@ -74,6 +74,8 @@ public:
     virtual Made advance(const Wish& wish) = 0;
     /// The segment that has ended and is to be concluded before the next advance().
     virtual std::optional<std::size_t> ended() const = 0;
+    /// The last step or point has ended segment().
+    virtual bool at_end() const = 0;
     /// The next step concludes a segment: it is observed, and a run does not end before it.
     virtual bool about_to_conclude() const { return false; }
     /// Of a segment that has ended, the state of force balance under its load with the top plane

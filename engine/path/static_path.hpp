@@ -25,6 +25,7 @@ public:
     /// The first one of a path, and the first one from a state, is where the block is.
     Made advance(const Wish& wish) override;
     std::optional<std::size_t> ended() const override;
+    bool at_end() const override { return at_end_; }
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
     bool relaxes_freely() const override { return !done() && kind() == Segment::relax; }

@@ -22,7 +22,8 @@ public:
     bool done() const override { return !ended_ && !concluding_ && simulation_.drive().done(); }
     Made advance(const Wish& wish) override;
     std::optional<std::size_t> ended() const override { return concluding_; }
-    bool about_to_conclude() const override { return ended_.has_value(); }
+    bool at_end() const override { return ended_.has_value(); }
+    bool about_to_conclude() const override { return at_end(); }
     /// A copy of the lowest layer is relaxed under no load; the block is not touched.
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;

@@ -16,7 +16,7 @@ public:
     virtual Path::Wish wish(const Path&) const { return {}; }
     /// After each step or point.
     virtual void look(Path& path) = 0;
-    /// Where a segment has ended, after look(): path.ended().
+    /// Where the step or point has ended a segment, after look(): path.at_end().
     virtual void look_at_end(Path&) {}
     /// Of a state of force balance that find_state() has found.
     virtual void look_at_state(Path&, const LayerAtRest&) {}

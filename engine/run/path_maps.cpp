@@ -27,8 +27,8 @@ bool PathMaps::delayed_is_due(const Path& path, double time) const { // fs
 
 Path::Wish PathMaps::wish(const Path& path) const {
     const double next = static_cast<double>(path.steps()) * session_.scene_case().simulation.dt;
-    const bool at_end = times_.segments && path.about_to_conclude();
-    return {.layer = at_end || (times_.pull_off && session_.row_is_due(path)) ||
+    // Of a segment's end it is known only after the step.
+    return {.layer = times_.segments || (times_.pull_off && session_.row_is_due(path)) ||
                      is_due(path.steps()) || delayed_is_due(path, next)};
 }
 
@@ -50,7 +50,7 @@ void PathMaps::look(Path& path) {
 }
 
 void PathMaps::look_at_end(Path& path) {
-    if (times_.segments) write(path, fmt::format("segment-{}", *path.ended()), path.layer());
+    if (times_.segments) write(path, fmt::format("segment-{}", path.segment()), path.layer());
 }
 
 void PathMaps::look_at_state(Path& path, const LayerAtRest& state) {

@@ -57,7 +57,7 @@ void follow(Path& path, RunSession& session, const Observers& observers) {
         if (made == Path::Made::step)
             for (Observer* o : observers)
                 o->look(path);
-        if (path.ended())
+        if (path.at_end())
             for (Observer* o : observers)
                 o->look_at_end(path);
     }

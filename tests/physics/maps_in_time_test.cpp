@@ -102,7 +102,7 @@ TEST(MapsInTime, AreOfOneStep) {
         slid += slide[row] > 0.1 && slide[row] < 2.9;
     }
     EXPECT_GT(slid, 1);
-    // A segment's maps are of the step after it, as its numbers are; those of the pull-off of its
+    // A segment's maps are of its last step, as its numbers are; those of the pull-off of its
     // largest attraction; those after the contact was made of the first step so long after it.
     std::array<std::size_t, 3> after{};
     std::size_t strongest = 0;
@@ -113,9 +113,9 @@ TEST(MapsInTime, AreOfOneStep) {
     }
     after[2] = segment.size() - 1;
     for (std::size_t k = 0; k < 3; ++k) {
-        run.expect_of_row("segment-" + std::to_string(k), after[k]);
+        run.expect_of_row("segment-" + std::to_string(k), after[k] - 1);
         EXPECT_NEAR(run.json["segments"][k]["mean_height"].get<double>(),
-                    run.series("mean_height")[after[k]], 1e-12);
+                    run.series("mean_height")[after[k] - 1], 1e-12);
     }
     run.expect_of_row("pull-off", strongest);
     std::size_t later = after[0] - 1;
