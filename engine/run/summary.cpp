@@ -79,10 +79,11 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                                                std::abs(*of("work_of_drive.approach")));
     const bool hardly = std::abs(lost) <= 0.01 * scale;
     if (hardly)
-        fmt::print(to,
-                   "  The works of the drive on the solids, in and out, add up to {} meV/Å²: hardly "
-                   "anything is lost.\n",
-                   io::number(std::abs(lost), 2));
+        fmt::print(
+            to,
+            "  The works of the drive on the solids, in and out, add up to {} meV/Å²: hardly "
+            "anything is lost.\n",
+            io::number(std::abs(lost), 2));
     else
         fmt::print(
             to,
