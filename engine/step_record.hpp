@@ -39,6 +39,8 @@ struct StepRecord : ContactCount {
     /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
     /// what the block had at the start, and what was written to its fields.
     double work = 0.0;
+    double branch_energy = 0.0; ///< of elastic_energy, that of a block's branches
+    double relaxed = 0.0;       ///< what these have dissipated since the start
     /// Since the start: damped, less the heat that a thermostat's noise gave; of a quasi-static
     /// path what was dissipated at instabilities.
     double damped = 0.0;
@@ -65,6 +67,8 @@ struct StepRecord : ContactCount {
         v("kinetic_energy", kinetic_energy);
         ContactCount::visit(v);
         v("work", work);
+        v("branch_energy", branch_energy);
+        v("relaxed", relaxed);
         v("damped", damped);
         v("interface_work", interface_work);
         v("residual", residual);

@@ -46,7 +46,8 @@ inline constexpr Quantity result_quantities[] = {
      "drive.tolerance can stand for"},
     {"work_of_interface.approach", "meV/Å^2", per::area,
      "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, positive "
-     "where the solids attract each other on the way in; of dynamic paths, and of quasi-static ones "
+     "where the solids attract each other on the way in; of dynamic paths, and of quasi-static "
+     "ones "
      "that control the mean height"},
     {"work_of_interface.pull_off", "meV/Å^2", per::area,
      "the same of the pull-off: negative where the solids attract each other"},
@@ -81,6 +82,13 @@ inline constexpr Quantity result_quantities[] = {
      "energy, and that of vibrations, above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest out of reach"},
+    {"dissipated_in_block.approach", "meV/Å^2", per::area,
+     "what a block that relaxes (block.prony) has dissipated in time on the approach, beside "
+     "lost.approach: -work_of_drive.approach = change of the energies of interface and block, "
+     "branches included, + lost.approach + dissipated_in_block.approach"},
+    {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"dissipated_in_block.cycle", "meV/Å^2", per::area,
+     "the same from out of reach to out of reach"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
@@ -117,6 +125,8 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].lost", "meV/Å^2", per::area,
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
      "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
+    {"segments[].dissipated_in_block", "meV/Å^2", per::area,
+     "what a block that relaxes has dissipated in time, beside lost"},
     {"segments[].kinetic", "meV/Å^2", per::area,
      "what still moves at the end of an approach or a pull-off in time at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
@@ -132,6 +142,9 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].slide", "Å", "", "at its end: place over the substrate along x and y"},
     {"dissipated.energy", "eV", per::block,
      "energy dissipated at instabilities since the start of a path without time"},
+    {"dissipated.not_followed", "eV", per::block,
+     "of this, in steps longer than a fiftieth of the shortest time of block.prony: the block may "
+     "have dissipated a part of it"},
     {"dissipated.events", "1", "", "number of instabilities"},
     {"dissipated.jumps[]", "", "",
      "the 20 largest instabilities in the order of the path; an empty list if there were none"},
@@ -214,6 +227,10 @@ inline constexpr Quantity result_quantities[] = {
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped in time (less the heat of the thermostat's noise), "
      "dissipated at instabilities without time"},
+    {"energy.branches", "eV", per::block,
+     "of energy.elastic, what the branches of a block that relaxes store"},
+    {"energy.dissipated_in_block", "eV", per::block,
+     "what they have dissipated since the start, beside energy.damped"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "lowest height of the substrate"},

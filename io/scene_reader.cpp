@@ -230,6 +230,35 @@ struct Store {
         *field = *list;
         return {};
     }
+
+    Problem operator()(Schema::Pairs* field) const {
+        const auto* list = as<Schema::RawPairs>();
+        const auto* none = as<Words>(); // an empty list may be of anything
+        if (!list && !(none && none->empty()))
+            return wrong_type("a list of pairs [number, quantity]",
+                              fmt::format("[[0.5, {}]]", example_of(key.unit)));
+        Schema::Pairs pairs;
+        for (std::size_t i = 0; list && i < list->size(); ++i) {
+            const auto& [first, second] = (*list)[i];
+            double quantity = 0.0;
+            const Schema::Value raw = std::holds_alternative<double>(second)
+                                            ? Schema::Value(std::get<double>(second))
+                                            : Schema::Value(std::get<std::string>(second));
+            Problem problem = Store{key, raw}(&quantity);
+            double number = 0.0;
+            if (problem.what.empty()) {
+                const Key bare{.name = key.name, .field = &number, .doc = {}, .range = key.range};
+                problem = Store{bare, Schema::Value(first)}(&number);
+            }
+            if (!problem.what.empty()) {
+                problem.what = fmt::format("in pair {} {}", i + 1, problem.what);
+                return problem;
+            }
+            pairs.emplace_back(number, quantity);
+        }
+        *field = std::move(pairs);
+        return {};
+    }
 };
 
 struct Load {
@@ -269,6 +298,7 @@ std::string allowed(const Key& key, const std::string& quote) {
     const bool limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
     text = kind == "boolean"   ? "true | false"
            : kind == "number"  ? key.range.text(key.unit)
+           : kind == "pairs"   ? "list of [number, quantity], each " + key.range.text(key.unit)
            : kind != "integer" ? "text"
            : limited           ? "whole number, " + key.range.text("")
                                : "whole number";
@@ -326,7 +356,7 @@ const Key* Schema::find(std::string_view path) const {
 
 std::string Key::kind() const {
     static constexpr const char* kinds[] = {"boolean", "integer", "integer", "integer", "number",
-                                            "number",  "text",    "choice",  "list"};
+                                            "number",  "text",    "choice",  "list",    "pairs"};
     static_assert(std::size(kinds) == std::variant_size_v<Schema::Field>);
     return kinds[field.index()];
 }

@@ -90,9 +90,14 @@ struct Variation {
 class Schema {
 public:
     using Words = std::vector<std::string>;
+    /// A number and a quantity each, the latter in the key's unit.
+    using Pairs = std::vector<std::pair<double, double>>;
+    /// Such a list as it stands in a scene.
+    using RawPairs = std::vector<std::pair<double, std::variant<double, std::string>>>;
 
     /// A value as it stands in a scene, before it is bound. Empty: of a type no key has.
-    using Value = std::variant<std::monostate, bool, long long, double, std::string, Words>;
+    using Value =
+        std::variant<std::monostate, bool, long long, double, std::string, Words, RawPairs>;
 
     /// A field of some enumeration, by the number of its word.
     struct Choice {
@@ -100,7 +105,7 @@ public:
         std::function<std::size_t()> get;
     };
     using Field = std::variant<bool*, int*, long long*, std::optional<long long>*, double*,
-                               std::optional<double>*, std::string*, Choice, Words*>;
+                               std::optional<double>*, std::string*, Choice, Words*, Pairs*>;
 
     struct Key {
         std::string name;
@@ -122,7 +127,7 @@ public:
                                          ///< meaning
 
         std::string path() const { return section + "." + name; }
-        std::string kind() const; ///< boolean, integer, number, text, choice or list
+        std::string kind() const; ///< boolean, integer, number, text, choice, list or pairs
         bool written() const { return !omitted || !omitted(); }
         /// What is empty: stored; else what is wrong.
         Problem store(const Value& value) const;
@@ -169,6 +174,10 @@ public:
     /// ends in ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .choices = choices});
+    }
+    /// A list of pairs [number, quantity]; the range is that of both.
+    Key& pairs(std::string name, Pairs& field, std::string unit, Range range, std::string doc) {
+        return add({name, &field, doc, unit, range});
     }
     /// An enumeration, by its names.
     template <class E>

@@ -80,12 +80,22 @@ Schema::Value value_of(const toml::node& node) {
     const auto* array = node.as_array();
     if (!array) return {};
     Schema::Words list;
+    Schema::RawPairs pairs;
     for (const toml::node& member : *array) {
-        const auto* text = member.as_string();
-        if (!text) return {};
-        list.push_back(text->get());
+        const auto* pair = member.as_array();
+        if (const auto* text = member.as_string()) {
+            list.push_back(text->get());
+        } else if (pair && pair->size() == 2 && (*pair)[0].is_number()) {
+            const double number = *(*pair)[0].value<double>();
+            if ((*pair)[1].is_number())
+                pairs.emplace_back(number, *(*pair)[1].value<double>());
+            else if (const auto* quantity = (*pair)[1].as_string())
+                pairs.emplace_back(number, quantity->get());
+        }
     }
-    return list;
+    if (list.size() == array->size()) return list;
+    if (pairs.size() == array->size()) return pairs;
+    return {};
 }
 
 std::string cut(std::string text) {

@@ -34,6 +34,12 @@
 
 namespace asperity {
 
+/// A spring in series with a dashpot, beside the block's own springs.
+struct Branch {
+    double ratio = 0.0; ///< modulus over the block's
+    double time = 0.0;  ///< that its stress falls to 1/e in, fs
+};
+
 struct BlockOptions {
     int sites = 512;      ///< atoms across the box, N
     double spacing = 2.6; ///< a, Å
@@ -44,6 +50,7 @@ struct BlockOptions {
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
+    std::vector<Branch> branches{}; ///< of a block that relaxes, without inertia
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }

@@ -82,6 +82,11 @@ SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& co
       table_(stiffness_table(options, frictionless)), layer_(tile(), 1, 0), force_(tile(), 1, 0),
       waves_(slab_, components_), transform_(slab_), single_(slab_) {
     uniform_ = stiffness(0, 0).zz;
+    if (!options.branches.empty()) {
+        memory_.emplace(options.branches, slab_, components_);
+        relaxed_ = table_;
+        known_.emplace(slab_, components_);
+    }
     constrain({});
 }
 
@@ -120,8 +125,9 @@ double SpectralBlock::mean_height() const {
 }
 
 double SpectralBlock::top_force() const {
-    return constraint_.is_top() ? spring() * (mean_height() - constraint_.value)
-                                : constraint_.load();
+    if (!constraint_.is_top()) return constraint_.load();
+    const double known = options_.sites * options_.sites * uniform_known();
+    return spring() * (mean_height() - constraint_.value) + known;
 }
 
 void SpectralBlock::gradient(Waves<double>& g) const {
@@ -131,6 +137,7 @@ void SpectralBlock::gradient(Waves<double>& g) const {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         stiffen_row(y, waves_, -norm, g);
+    if (known_) combine(1.0, *known_, 1.0, g);
     if (!slab_.holds_uniform()) return;
     double& mean = g.row(components_ - 1, 0)[0];
     mean += norm * constraint_.load();
@@ -156,8 +163,71 @@ double SpectralBlock::elastic_energy() const {
         stiffen_row(y, su, 0.0, su);
     double twice = dot(waves_, su);
     if (from != 0.0) twice -= from * spring() * (mean_height() - from);
+    if (memory_) twice /= 1.0 + memory_->stiffening();
     const double load = constraint_.load();
     return 0.5 * (twice + load * load / spring());
+}
+
+SiteField<double> SpectralBlock::from_top() const {
+    SiteField<double> w = new_field<double>();
+    const double top = constraint_.is_top() ? constraint_.value : 0.0;
+    for (int c = 0; c < components_; ++c) {
+        const PlaneView<const double> u = moving(layer_.plane(0), c);
+        const PlaneView<double> to = w[static_cast<std::size_t>(c)].plane(0);
+        const double from = c == components_ - 1 ? top : 0.0;
+        for (int y = 0; y < u.ny; ++y)
+            for (int x = 0; x < u.nx; ++x)
+                to(x, y) = u(x, y) - from;
+    }
+    return w;
+}
+
+double SpectralBlock::square(const SiteField<double>& u) const {
+    const double sites = options_.sites;
+    Waves<double> waves = new_waves<double>(), su = new_waves<double>();
+    to_waves(u, waves);
+    combine(1.0 / (sites * sites), waves, 0.0, su);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, su, 0.0, su);
+    return dot(waves, su) / (sites * sites);
+}
+
+double SpectralBlock::uniform_known() const {
+    double known = 0.0;
+    if (!known_) return known;
+    if (slab_.holds_uniform()) known = known_->row(components_ - 1, 0)[0];
+    slab_.ranks.broadcast(std::span(&known, 1));
+    return known;
+}
+
+void SpectralBlock::begin_step(double dt) {
+    if (!memory_) return;
+    memory_->begin(from_top(), dt);
+    table_ = relaxed_;
+    uniform_ = stiffness(0, 0).zz;
+    constrain(constraint_);
+    const double sites = options_.sites;
+    to_waves(memory_->known(), *known_);
+    combine(0.0, *known_, 1.0 / (sites * sites), *known_);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        stiffen_row(y, *known_, 0.0, *known_);
+    const double factor = 1.0 + memory_->stiffening();
+    for (double& entry : table_)
+        entry *= factor;
+    uniform_ *= factor;
+}
+
+void SpectralBlock::end_step() {
+    if (memory_) memory_->end(from_top());
+}
+
+BranchEnergies SpectralBlock::branch_energies() const {
+    if (!memory_) return {};
+    const double factor = 1.0 + memory_->stiffening();
+    return memory_->energies(from_top(),
+                             [&](const SiteField<double>& u) { return square(u) / factor; });
 }
 
 template <class T>
@@ -201,6 +271,7 @@ void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& 
         if (constraint_.is_top()) mean += uniform_ * constraint_.value;
         waves.row(normal, 0)[0] += static_cast<float>(mean);
     }
+    if (known_) combine(-1.0, *known_, 1.0, waves);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
         preconditioner.apply_row(y, waves, waves);
@@ -239,7 +310,10 @@ SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
 }
 
 std::size_t SpectralBlock::bytes() const {
-    return table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes();
+    std::size_t sum =
+        table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes();
+    if (memory_) sum += table_bytes() + memory_->bytes() + known_->bytes();
+    return sum;
 }
 
 Preconditioner::Preconditioner(const SpectralBlock& block, double k)

@@ -22,6 +22,9 @@
 // wave costs nothing. Or that mean height is prescribed: then there is no force along the uniform
 // wave, which stays as it is, and the other waves are all that moves.
 //
+// With branches (block_memory.hpp) the block relaxes in time. During a step it is as stiff as these
+// make it, and their known force is a part of the block's; without them nothing of this is called.
+//
 // The displacement of the layer is kept both at the sites (for the interface) and as waves (for
 // everything else), in slabs of rows over the ranks; displace() changes both. What says so is
 // collective.
@@ -30,10 +33,11 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
-#include "engine/block/block.hpp"
+#include "engine/block/block_memory.hpp"
 #include "engine/block/constraint.hpp"
 #include "kernels/surface_stiffness.hpp"
 
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -89,8 +93,24 @@ public:
     /// f <- S u + norm f for row y of the slab: u and f are its components.
     template <class T>
     void stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const;
-    /// U_el, eV. Collective.
+    /// U_el, eV; that of branches apart. Collective.
     double elastic_energy() const;
+
+    /// From the state as it is, constraint included, a step of dt (fs) begins; infinite: the block
+    /// is the relaxed one, and remembers nothing. Does nothing without branches. Collective.
+    void begin_step(double dt);
+    /// It ends with the state as it is.
+    void end_step();
+    /// Of branches, in the state as it is. Collective.
+    BranchEnergies branch_energies() const;
+    /// S times what they remember, as waves, eV/Å: their known force is minus that, in the step
+    /// under way; null without branches.
+    const Waves<double>* known() const { return known_ ? &*known_ : nullptr; }
+    /// Of its uniform wave, for each site. Collective.
+    double uniform_known() const;
+    /// What branches remember, to be kept and restored; null without.
+    std::vector<SiteField<double>>* memory() { return memory_ ? &memory_->extensions() : nullptr; }
+
     /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
     /// to where it is: target <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
     /// the displacement are not looked at. Collective.
@@ -129,6 +149,10 @@ public:
 private:
     /// Of the whole block under uniform stretch, eV/Å.
     double spring() const { return uniform_ * options_.sites * options_.sites; }
+    /// The displacement from the top plane at the sites.
+    SiteField<double> from_top() const;
+    /// u.(S u) with the stiffness of the step.
+    double square(const SiteField<double>& u) const;
     double* table(int entry, int ny);
     const double* table(int entry, int ny) const;
     /// The components that move of a field of three.
@@ -154,6 +178,9 @@ private:
     Constraint constraint_;
     VectorField<double> layer_, force_;
     Waves<double> waves_;
+    std::optional<BlockMemory> memory_;  ///< with branches
+    std::vector<double> relaxed_;        ///< with branches: the table at rest
+    std::optional<Waves<double>> known_; ///< with branches: S times what they remember, eV/Å
     SurfaceTransform<double> transform_;
     SurfaceTransform<float> single_;
 };

@@ -52,6 +52,7 @@ struct Instability {
 struct Dissipation {
     double in_segment = 0.0;        ///< in the segment under way, eV
     double before = 0.0;            ///< in the segments before it, eV
+    double not_followed = 0.0;      ///< of it, in steps too long to tell what the block took, eV
     long long events = 0;           ///< points of the path at which some was counted
     std::vector<Instability> jumps; ///< the strongest, in the order of the path
 
@@ -73,6 +74,7 @@ struct Dissipation {
     void visit(Visitor& v) {
         v("in_segment", in_segment);
         v("before", before);
+        v("not_followed", not_followed);
         v("events", events);
         v("jumps", jumps);
     }

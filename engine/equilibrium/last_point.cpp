@@ -2,26 +2,32 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/last_point.hpp"
 
+#include <fmt/format.h>
+
 namespace asperity {
 
 double LastPoint::lead(Along along) {
     if (along == along_) return at_;
     along_ = along;
-    at_ = along == Along::z ? normal_ : place_[static_cast<std::size_t>(along)];
+    at_ = along == Along::z      ? normal_
+          : along == Along::time ? clock_
+                                 : place_[static_cast<std::size_t>(along)];
     return at_;
 }
 
 /// Over the substrate, with the coordinate there.
 void LastPoint::place_block(double at) {
     std::array<double, 2> place = place_;
-    if (along_ != Along::z) place[static_cast<std::size_t>(along_)] = at;
+    if (along_ == Along::x || along_ == Along::y) place[static_cast<std::size_t>(along_)] = at;
     interface_.slide_to(place[0], place[1]);
 }
 
 void LastPoint::accept(double at) {
     state_.take(state_of(block_));
+    block_.end_step();
     at_ = at;
     if (along_ == Along::z) normal_ = at;
+    if (along_ == Along::time) clock_ = at;
     place_ = interface_.place();
 }
 
@@ -31,8 +37,11 @@ void LastPoint::put_back() {
     place_block(at_);
 }
 
-RelaxedState LastPoint::relax_at(double at, const Report& report, const ForceWindow& window) {
+RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
+                                 const ForceWindow& window) {
     state_.restore(state_of(block_));
+    block_.constrain(constraint(at_));
+    block_.begin_step(dt);
     place_block(at);
     RelaxOptions options;
     options.start = Start::near;
@@ -60,7 +69,12 @@ std::function<double(int, int)> LastPoint::moves() const {
 std::vector<StateArray> LastPoint::states() {
     const auto arrays = state_of(block_);
     if (state_.empty()) state_.take(arrays);
-    return state_.arrays(arrays);
+    std::vector<StateArray> list = state_.arrays(arrays);
+    if (auto* memory = block_.memory())
+        for (std::size_t k = 0; k < memory->size(); ++k)
+            for (std::size_t c = 0; c < (*memory)[k].size(); ++c)
+                list.push_back({fmt::format("/level0/branch{}_{}", k, c), 0, &(*memory)[k][c], 1});
+    return list;
 }
 
 } // namespace asperity

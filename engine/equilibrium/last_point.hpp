@@ -28,10 +28,12 @@ public:
     LastPoint(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}
 
-    /// What is prescribed along z, or the place along x or y at a fixed one.
-    enum class Along { x, y, z };
+    /// The place along x or y, or what is prescribed along z, the others staying where they are; or
+    /// the way that what is held would go in the time that passes (block_memory.hpp).
+    enum class Along { x, y, z, time };
     /// From now on this coordinate changes. Returns where it stands.
     double lead(Along along);
+    double at() const { return at_; }
     /// What the sum of the residual forces of a point may be from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
 
@@ -39,10 +41,11 @@ public:
     void accept(double at);
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back();
-    /// Relaxes from the last point with the coordinate there; report and window as in RelaxOptions.
-    /// Collective.
+    /// Relaxes from the last point with the coordinate there, dt later (fs; infinite: at rest);
+    /// report and window as in RelaxOptions. Collective.
     using Report = std::function<bool(long long, double)>;
-    RelaxedState relax_at(double at, const Report& report, const ForceWindow& window = {});
+    RelaxedState relax_at(double at, double dt, const Report& report,
+                          const ForceWindow& window = {});
 
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
@@ -53,13 +56,14 @@ public:
         return global_largest(block_.communicator(), interface_.tile(), moves());
     }
 
-    /// For checkpoints: numbers, and the displacements, to be read before put_back().
+    /// For checkpoints: numbers, and what a state is made of, to be read before put_back().
     template <class Visitor>
     void visit(Visitor& v) {
         v("at", at_);
         v("along", along_);
         v("normal", normal_);
         v("place", place_);
+        v("clock", clock_);
         v("iterations", iterations_);
         v("balance", balance_);
     }
@@ -81,6 +85,7 @@ private:
     Along along_ = Along::z;
     double balance_ = HUGE_VAL;     ///< eV/Å
     double normal_ = 0.0;           ///< along z, Å
+    double clock_ = 0.0;            ///< along time, Å
     std::array<double, 2> place_{}; ///< of the block over the substrate, Å
     long long iterations_ = 0;
 };

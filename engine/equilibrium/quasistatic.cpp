@@ -28,6 +28,7 @@ PathOptions path_options(const Case& c, const Interface& interface,
     o.tolerance = c.tolerance;
     o.scales = c.scales;
     o.load = c.simulation.drive.load_force;
+    if (c.effects.branches) o.velocity = c.simulation.drive.velocity;
     o.reference_height = interface.start_height();
     o.report = std::move(report);
     const double flat = c.flat.work_of_adhesion / units::milli_per_unit;
@@ -97,7 +98,7 @@ void QuasistaticPath::start_here(bool apart) {
 
 void QuasistaticPath::first_point(double top, bool apart) {
     last_.accept(top);
-    const RelaxedState state = last_.relax_at(top, {});
+    const RelaxedState state = last_.relax_at(top, HUGE_VAL, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                why_not_converged(state, 0.25 * options_.tolerance),
@@ -121,9 +122,10 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
     course_.kind = segment.kind;
     course_.end.reset();
     course_.load.reset();
-    const Along along = segment.kind != Segment::slide ? Along::z
-                        : segment.axis == 0            ? Along::x
-                                                       : Along::y;
+    const Along along = segment.kind == Segment::hold    ? Along::time
+                        : segment.kind != Segment::slide ? Along::z
+                        : segment.axis == 0              ? Along::x
+                                                         : Along::y;
     const double from = last_.lead(along);
     double direction = 0.0;
     switch (segment.kind) {
@@ -146,6 +148,10 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
     case Segment::slide:
         course_.end = from + segment.amount;
         if (*course_.end != from) direction = *course_.end < from ? -1.0 : 1.0;
+        break;
+    case Segment::hold:
+        course_.end = from + segment.amount * options_.velocity;
+        direction = *course_.end == from ? 0.0 : 1.0;
         break;
     default: // a pull-off
         direction = 1.0;
@@ -171,6 +177,7 @@ void QuasistaticPath::begin(Along along, double direction) {
         trail_.begin(at(), force());
         bracket_.reset();
     }
+    length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
     // on the top plane that is none of the contact's.
     double balance = HUGE_VAL;
@@ -181,8 +188,36 @@ void QuasistaticPath::begin(Along along, double direction) {
     course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
                        slack(record_.in_contact));
     course_.bracketed = false;
-    course_.work = course_.gap = course_.squares = 0.0;
+    course_.work = course_.relaxed = course_.gap = course_.squares = 0.0;
     dissipation_.begin_segment();
+}
+
+/// That leading it takes, eV/Å. A hold takes none.
+double QuasistaticPath::force() const {
+    switch (course_.along) {
+    case Along::z:
+        return record_.top_force;
+    case Along::time:
+        return 0.0;
+    default:
+        return record_.lateral_force[axis()];
+    }
+}
+
+/// fs; a block that does not relax in time is at rest.
+double QuasistaticPath::time_of(double step) const {
+    return options_.velocity > 0.0 ? step / options_.velocity : HUGE_VAL;
+}
+
+/// So short that displacements may be taken to go evenly over it.
+bool QuasistaticPath::is_short_in_time(double step) const {
+    if (!(options_.velocity > 0.0)) return true;
+    return time_of(step) <= 0.02 * block_.options().branches.front().time;
+}
+
+/// A hold has no other bound than its errors.
+double QuasistaticPath::longest_step() const {
+    return course_.along == Along::time ? HUGE_VAL : options_.step;
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
@@ -196,11 +231,13 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         const bool arrives = left <= length_;
         if (arrives) length_ = left;
         const double there = arrives ? *course_.end : at() + course_.direction * length_;
+        const double way = std::abs(there - at());
         const bool last_try = length_ <= smallest_step();
         const bool any_force = all_the_way || last_try || course_.along != Along::z;
         const long long iterations = last_.iterations();
-        const RelaxedState state = last_.relax_at(
-            there, options_.report, any_force ? ForceWindow{} : acceptable_force(there));
+        const RelaxedState state =
+            last_.relax_at(there, time_of(way), options_.report,
+                           any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
             bracket_ = bracket;
             length_ = planned;
@@ -221,7 +258,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             const PathPoint trial = point(state, there);
             const StepDecision step =
                 decide(point(), trial, trail_,
-                       {allowed_missing(std::abs(there - at())), allowed_uncertainty(), last_try});
+                       {allowed_missing(std::min(way, options_.step)), allowed_uncertainty(),
+                        last_try, is_short_in_time(way)});
             if (step.verdict != StepDecision::halve) {
                 accept(state, there, step);
                 if (arrives) length_ = std::max(length_, planned);
@@ -298,7 +336,8 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
 bool QuasistaticPath::bisect() {
     if (!bracket_) return false;
     const double way = std::abs(bracket_->at - at());
-    if (way > smallest_step() && !work_is_known(bracket_->at, bracket_->force)) {
+    const bool known = is_short_in_time(way) && work_is_known(bracket_->at, bracket_->force);
+    if (way > smallest_step() && !known) {
         length_ = std::min(length_, 0.5 * way);
         return false;
     }
@@ -321,8 +360,12 @@ ForceWindow QuasistaticPath::acceptable_force(double to) const {
 }
 
 PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
-    return {at, course_.along == Along::z ? state.top_force : lateral_force()[axis()],
-            state.interface_energy + state.elastic_energy};
+    const double force = course_.along == Along::z      ? state.top_force
+                         : course_.along == Along::time ? 0.0
+                                                        : lateral_force()[axis()];
+    return {at, force,
+            state.interface_energy + state.elastic_energy + record_.relaxed +
+                state.branches.dissipated};
 }
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
@@ -330,8 +373,12 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     course_.gap += std::abs(step.gap);
     course_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
+    const double way = std::abs(at - this->at());
+    if (options_.velocity > 0.0) record_.time += time_of(way);
+    if (course_.along != Along::time) way_ += way;
     if (step.dissipated > 0.0) {
         dissipation_.add(describe(state, step.dissipated));
+        if (!is_short_in_time(way)) dissipation_.not_followed += step.dissipated;
         record_.damped = dissipation_.total();
     }
     const double force = point(state, at).force;
@@ -342,19 +389,20 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     last_.accept(at);
     if (bracket_ && course_.direction * (bracket_->at - at) <= 0.0) bracket_.reset();
     ++record_.step;
-    way_ += std::abs(at - this->at());
+    course_.relaxed += state.branches.dissipated;
+    record_.relaxed += state.branches.dissipated;
     set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;
     // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
     if (!step.smooth) length_ = std::max(length_, options_.step / 4.0);
-    length_ = std::clamp(length_, smallest_step(), options_.step);
+    length_ = std::clamp(length_, smallest_step(), longest_step());
 }
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     if (course_.along == Along::z)
         record_.top = at;
-    else
+    else if (course_.along != Along::time)
         record_.slide[axis()] = at;
     if (interface_.options().slides) record_.lateral_force = lateral_force();
     record_.mean_height = options_.reference_height + state.mean_height;
@@ -363,6 +411,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.observed = true;
     record_.interface_energy = state.interface_energy;
     record_.elastic_energy = state.elastic_energy;
+    record_.branch_energy = state.branches.stored;
     record_.in_contact = state.in_contact;
     record_.repulsive = state.repulsive;
     record_.closest = state.closest;
@@ -375,7 +424,8 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
                                   0.05 * options_.depth);
     const double scale = std::max(scale_, least);
-    record_.residual = scale > 0.0 ? (record_.work - gained - record_.damped) / scale : 0.0;
+    const double spent = record_.damped + record_.relaxed;
+    record_.residual = scale > 0.0 ? (record_.work - gained - spent) / scale : 0.0;
 }
 
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {

@@ -55,6 +55,7 @@ struct PathOptions {
     Scales scales;
     double load = 0.0;             ///< at which the approach ends, eV/Å
     double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    double velocity = 0.0;         ///< of what is led, where the block relaxes in time, Å/fs
     double depth = HUGE_VAL;       ///< energy that flat surfaces of this area bind with, eV
     /// Called during relaxations with their iteration and residual. True: stop.
     std::function<bool(long long, double)> report;
@@ -98,6 +99,9 @@ public:
     /// the work of each step with an instability is not known by. (Three, for these errors are not
     /// independent: measured in docs/explanation/relaxation.md.)
     double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
+    /// What a block that relaxes has dissipated in the segment under way, beside the dissipation at
+    /// instabilities, eV.
+    double relaxed() const { return course_.relaxed; }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -126,6 +130,7 @@ private:
         SegmentRule rule;           ///< of one that a force ends
         bool bracketed = false;     ///< the load at which the segment ends
         double work = 0.0;          ///< of the top plane, eV
+        double relaxed = 0.0;       ///< dissipated by the block, eV
         double gap = 0.0;           ///< the sum of those of its steps, eV
         double squares = 0.0;       ///< of what the works of its steps are not known by, eV^2
         template <class Visitor>
@@ -139,6 +144,7 @@ private:
             v("rule", rule);
             v("bracketed", bracketed);
             v("work", work);
+            v("relaxed", relaxed);
             v("gap", gap);
             v("squares", squares);
         }
@@ -153,13 +159,15 @@ private:
             v("force", force);
         }
     };
-    double at() const { return course_.along == Along::z ? record_.top : record_.slide[axis()]; }
-    double force() const {
-        return course_.along == Along::z ? record_.top_force : record_.lateral_force[axis()];
-    }
+    double at() const { return last_.at(); }
+    double force() const;
+    double time_of(double step) const;
+    bool is_short_in_time(double step) const;
     std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
-    double energy() const { return record_.interface_energy + record_.elastic_energy; }
-    PathPoint point() const { return {at(), force(), energy()}; }
+    /// What the block dissipates in time is a part of the energy that a step takes up.
+    PathPoint point() const {
+        return {at(), force(), record_.interface_energy + record_.elastic_energy + record_.relaxed};
+    }
     /// An equilibrium with what is led there.
     PathPoint point(const RelaxedState& state, double at) const;
     std::array<double, 2> lateral_force() const;
@@ -178,6 +186,7 @@ private:
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, bool apart);
+    double longest_step() const;
     double smallest_step() const { return options_.step * 0x1p-16; }
     /// What energy may be missing in a step of this length, eV.
     double allowed_missing(double step) const { return options_.tolerance * sites_ * step; }

@@ -243,7 +243,8 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
     // Largest values pass over what is not a number; sums do not.
     state.converged = state.converged && std::isfinite(values[0]) && std::isfinite(values[1]);
     state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
-    state.elastic_energy = block.elastic_energy();
+    state.branches = block.branch_energies();
+    state.elastic_energy = block.elastic_energy() + state.branches.stored;
     state.mean_height = block.mean_height();
     const ContactCount contacts = count_contacts(sums, block.communicator());
     state.in_contact = contacts.in_contact;
@@ -256,7 +257,9 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
 
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
     // Of the block, E* q/2 of the shortest wave.
-    const double wave = 0.5 * std::numbers::pi * block.contact_modulus() * block.spacing;
+    double wave = 0.5 * std::numbers::pi * block.contact_modulus() * block.spacing;
+    for (const Branch& branch : block.branches)
+        wave *= 1.0 + branch.ratio;
     const double positions =
         4.0 * std::numeric_limits<double>::epsilon() * (scales.stiffness + wave) * height;
     return positions + 0x1p-51; // that of sums over the sites (kernels/exact_sum.hpp)

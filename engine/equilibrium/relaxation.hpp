@@ -123,7 +123,8 @@ struct RelaxedState {
     double residual = 0.0;         ///< eV/Å
     double rounding = 0.0;         ///< what the rounding of numbers leaves of it, about, eV/Å
     double interface_energy = 0.0; ///< U_LJ, eV
-    double elastic_energy = 0.0;   ///< U_el, eV
+    double elastic_energy = 0.0;   ///< U_el, that of branches included, eV
+    BranchEnergies branches{};     ///< that, and what they dissipate in the step
     double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
     /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
     /// that this takes, which is `force`.

@@ -22,6 +22,9 @@ struct StepLimits {
     double missing = 0.0;   ///< energy that counts as nothing in this step, eV
     double uncertain = 0.0; ///< what the work of a step with an instability may be wrong by, eV
     bool last_try = false;  ///< no shorter step is made
+    /// It is short beside the times in which the block relaxes: what is missing is then no error of
+    /// the step in time.
+    bool short_in_time = true;
 };
 
 struct StepDecision {
@@ -47,7 +50,8 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     StepDecision d;
     d.work = -integral.value;
     const double missing = d.work - gained;
-    const double error = std::min(integral.error, std::abs(missing));
+    const double error =
+        limits.short_in_time ? std::min(integral.error, std::abs(missing)) : std::abs(missing);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
@@ -70,7 +74,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     if (d.work - gained > least) d.dissipated = d.work - gained;
     d.gap = d.work - gained - d.dissipated;
     d.excess = gained - d.work > least;
-    if ((known && !d.excess) || limits.last_try)
+    if ((known && !d.excess && limits.short_in_time) || limits.last_try)
         d.verdict = d.dissipated > 0.0 ? StepDecision::jump : StepDecision::accept;
     return d;
 }

@@ -36,8 +36,10 @@ WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
     mean_ = block.mean_height();
     const Constraint& constraint = block.constraint();
     const double n = block.options().sites;
-    uniform_force_ = constraint.is_top() ? block.stiffness(0, 0).zz * (mean_ - constraint.value)
-                                         : constraint.load() / (n * n);
+    known_ = block.uniform_known();
+    uniform_force_ = constraint.is_top()
+                         ? block.stiffness(0, 0).zz * (mean_ - constraint.value) + known_
+                         : constraint.load() / (n * n);
 }
 
 void WallMinimiser::step() {
@@ -99,6 +101,13 @@ void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < waves.rows(); ++y)
         block_.stiffen_row(y, waves, 0.0, waves);
+    if (const Waves<double>* known = block_.known()) {
+        const bool uniform = block_.slab().holds_uniform(); // which balance() looks after
+        const T mean = uniform ? waves.row(0, 0)[0] : T(0);
+        const double n = block_.options().sites;
+        combine(n * n, *known, 1.0, waves);
+        if (uniform) waves.row(0, 0)[0] = mean;
+    }
     block_.at_sites(waves, field);
 }
 
@@ -139,7 +148,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     const auto excess = [&](double force) {
         relax(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
-        const double top = constraint.is_top() ? spring * (mean - constraint.value) : load;
+        const double top = constraint.is_top() ? spring * (mean - constraint.value) + known_ : load;
         return top - spring_ * (mean - mean_) - force;
     };
     // A mean height to its rounding, a load well enough for load_accuracy.

@@ -65,12 +65,13 @@ private:
     double height_;
     const RelaxOptions& options_;
     Phases& phases_;
-    double spring_ = 0.0;        ///< L, eV/Å^2
-    double sequence_ = 1.0;      ///< Nesterov's t
-    double momentum_ = 0.0;      ///< beta
-    double mean_ = 0.0;          ///< of u, Å
-    double next_mean_ = 0.0;     ///< of next_, Å
-    double widest_ = 0.0;        ///< the largest |z - mean|, Å
+    double spring_ = 0.0;    ///< L, eV/Å^2
+    double sequence_ = 1.0;  ///< Nesterov's t
+    double momentum_ = 0.0;  ///< beta
+    double mean_ = 0.0;      ///< of u, Å
+    double next_mean_ = 0.0; ///< of next_, Å
+    double known_ = 0.0;     ///< force of branches against the uniform wave, on each site, eV/Å
+    double widest_ = 0.0;    ///< the largest |z - mean|, Å
     double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
     double estimate_;
     double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not

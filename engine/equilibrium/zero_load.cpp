@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -46,6 +47,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     options.scales = c.scales;
     options.report = stop;
     Phases own; // its lines are not lines of the step
+    block.begin_step(std::numeric_limits<double>::infinity()); // of what relaxes, at the end
     const RelaxedState s =
         relax(block, interface, reference_height, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;

@@ -8,6 +8,7 @@ Works Works::operator-(const Works& earlier) const {
     Works between = *this;
     between.on_solids -= earlier.on_solids;
     between.lateral -= earlier.lateral;
+    between.relaxed -= earlier.relaxed;
     between.lost -= earlier.lost;
     if (between.interface) *between.interface -= earlier.interface.value_or(0.0);
     return between;
@@ -23,6 +24,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     SegmentResults ended = results_.ended(number, segment, now, works.lateral);
     ended.work = per_area(works.on_solids);
     ended.lost = per_area(works.lost);
+    if (case_.effects.branches) ended.relaxed = per_area(works.relaxed);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
     if (case_.scene.drive.temperature == 0.0) ended.kinetic = per_area(kinetic);
@@ -30,12 +32,15 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     results_.begin_segment();
 
     lost_since_apart_ += works.lost;
+    relaxed_since_apart_ += works.relaxed;
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
     // Of what moved before the cycle its losses have taken a part. Heat goes both ways.
     if (results_.last(Segment::approach) && case_.scene.drive.temperature == 0.0)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
-    lost_since_apart_ = 0.0;
+    if (results_.last(Segment::approach) && case_.effects.branches)
+        results_.relaxed_in_cycle = per_area(relaxed_since_apart_);
+    lost_since_apart_ = relaxed_since_apart_ = 0.0;
     moved_apart_ = moving;
 }
 

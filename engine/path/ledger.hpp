@@ -8,8 +8,9 @@
 //      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
 //      approach
 //
-// Works are done on the solids; kinetic is what still moves at the end: kinetic energy, and that of
-// vibrations about the state.
+// (a block that relaxes has not come to rest, and dissipates in time beside that). Works are done
+// on the solids; kinetic is what still moves at the end: kinetic energy, and that of vibrations
+// about the state.
 #pragma once
 
 #include "engine/path/path_results.hpp"
@@ -25,6 +26,7 @@ namespace asperity {
 struct Works {
     double on_solids = 0.0; ///< done on the block by what drives or holds it
     double lateral = 0.0;   ///< of this, by what moves it sideways
+    double relaxed = 0.0;   ///< dissipated in time by a block that relaxes
     double lost = 0.0;      ///< damped less the heat of a thermostat, or dissipated
     /// int F dz of the mean height; empty at a held top without time, where it jumps.
     std::optional<double> interface;
@@ -37,6 +39,7 @@ struct Works {
     void visit(Visitor& v) {
         v("on_solids", on_solids);
         v("lateral", lateral);
+        v("relaxed", relaxed);
         v("lost", lost);
         v("interface", interface);
         v("uncertainty", uncertainty);
@@ -57,6 +60,7 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("lost_since_apart", lost_since_apart_);
+        v("relaxed_since_apart", relaxed_since_apart_);
         v("moved_apart", moved_apart_);
     }
 
@@ -66,8 +70,9 @@ private:
 
     const Case& case_;
     PathResults& results_;
-    double lost_since_apart_ = 0.0; ///< from the last end of a pull-off, or the start, eV
-    double moved_apart_ = 0.0;      ///< what still moved then, eV
+    double lost_since_apart_ = 0.0;    ///< from the last end of a pull-off, or the start, eV
+    double relaxed_since_apart_ = 0.0; ///< likewise
+    double moved_apart_ = 0.0;         ///< what still moved then, eV
 };
 
 } // namespace asperity

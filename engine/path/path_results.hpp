@@ -29,7 +29,8 @@ struct SegmentResults {
     /// Of the interface's force on the mean height of the lowest layer, int F dz. Empty at a held
     /// top without time, where the mean height jumps at instabilities.
     std::optional<double> interface_work;
-    double lost = 0.0; ///< damped (less the heat of a thermostat) or dissipated
+    std::optional<double> relaxed; ///< dissipated in time by a block that relaxes
+    double lost = 0.0;             ///< damped (less the heat of a thermostat) or dissipated
     /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
     /// at zero load behind an approach (empty where that is not known), or about the solids at rest
     /// apart behind a pull-off.
@@ -49,6 +50,7 @@ struct SegmentResults {
         v("kind", kind);
         v("work", work);
         v("work_of_interface", interface_work);
+        v("relaxed", relaxed);
         v("lost", lost);
         v("kinetic", kinetic);
         v("uncertainty", uncertainty);
@@ -64,12 +66,13 @@ struct SegmentResults {
 };
 
 struct PathResults {
-    std::optional<ZeroLoad> zero_load;     ///< of the last approach, or of the path's start
-    std::optional<double> lost_in_cycle;   ///< from rest apart to rest apart, meV/Å^2
-    double strongest = 0.0;                ///< attraction of the path so far, eV/Å
-    std::optional<double> contact_made;    ///< when the last approach ended, fs
-    std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
-    std::vector<SegmentResults> segments;  ///< those that have ended
+    std::optional<ZeroLoad> zero_load;      ///< of the last approach, or of the path's start
+    std::optional<double> lost_in_cycle;    ///< from rest apart to rest apart, meV/Å^2
+    std::optional<double> relaxed_in_cycle; ///< likewise
+    double strongest = 0.0;                 ///< attraction of the path so far, eV/Å
+    std::optional<double> contact_made;     ///< when the last approach ended, fs
+    std::optional<Dissipation> dissipated;  ///< of a quasi-static path (which lists it itself)
+    std::vector<SegmentResults> segments;   ///< those that have ended
     // Of the segment under way, eV/Å:
     double attraction = 0.0, lateral_most = 0.0;
 
@@ -116,6 +119,7 @@ struct PathResults {
     template <class Visitor>
     void visit(Visitor& v) {
         v("lost_in_cycle", lost_in_cycle);
+        v("relaxed_in_cycle", relaxed_in_cycle);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);

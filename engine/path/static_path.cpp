@@ -93,6 +93,7 @@ void StaticPath::conclude() {
         const bool slide = kind() == Segment::slide;
         Works works{.on_solids = points_->work(),
                     .lateral = slide ? points_->work() : 0.0,
+                    .relaxed = points_->relaxed(),
                     .lost = points_->dissipation().in_segment,
                     .interface = {},
                     .uncertainty = points_->uncertainty()};
@@ -152,8 +153,8 @@ bool StaticPath::lead_to(double at, const std::function<void()>& look) {
     return lead(look);
 }
 
-bool StaticPath::lead_to_load(double load, const std::function<void()>& look) {
-    points_->begin({Segment::load, load});
+bool StaticPath::lead(const Segment& segment, const std::function<void()>& look) {
+    points_->begin(segment);
     return lead(look);
 }
 

@@ -58,10 +58,11 @@ public:
     /// Begins a path by hand, of what is held: where the block is (its works count from there), or
     /// beyond the interaction range.
     void begin_by_hand(Constraint::Of held, bool here);
-    /// Leads it to a displacement of what is held, Å, or to a load, eV/Å, point by point. False:
-    /// the watch asked for an end; the same call goes on. After each point `look` is called.
+    /// Leads it to a displacement of what is held, Å, or along a segment (amounts as in
+    /// QuasistaticPath::begin()), point by point. False: the watch asked for an end; the same call
+    /// goes on. After each point `look` is called.
     bool lead_to(double at, const std::function<void()>& look);
-    bool lead_to_load(double load, const std::function<void()>& look);
+    bool lead(const Segment& segment, const std::function<void()>& look);
     /// The path of points has ended: the block is where the caller puts it.
     void end_points() { points_.reset(); }
     /// The state that the sites come to from where they are (from_afar: from the height of the

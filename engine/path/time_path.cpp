@@ -130,6 +130,7 @@ Works TimePath::so_far() const {
     const EnergyBalance& balance = simulation_.balance();
     return {.on_solids = balance.drive(),
             .lateral = balance.lateral,
+            .relaxed = 0.0,
             .lost = balance.net_damped(),
             .interface = interface_work_,
             .uncertainty = {}};

@@ -72,6 +72,9 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         "kinetic.pull_off", "pull_off_force", "work_of_drive.uncertainty.pull_off",
         "work_of_interface.uncertainty.pull_off", "lost.uncertainty.pull_off");
     result.set("lost.cycle", results.lost_in_cycle);
+    if (in) result.set("dissipated_in_block.approach", in->relaxed);
+    if (out) result.set("dissipated_in_block.pull_off", out->relaxed);
+    result.set("dissipated_in_block.cycle", results.relaxed_in_cycle);
     if (!radius) return;
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
@@ -111,6 +114,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].work_of_drive", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
+        given("segments[].dissipated_in_block", s.relaxed);
         given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
@@ -131,6 +135,7 @@ void add_dissipation(const PathResults& results, const Case& c, io::Result& resu
     const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     result.set("dissipated.energy", lost.total());
     result.set("dissipated.events", lost.events);
+    if (c.effects.branches) result.set("dissipated.not_followed", lost.not_followed);
     result.set_list("dissipated.jumps[]");
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {
         const Instability& jump = lost.jumps[i];
@@ -211,6 +216,10 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
         result.set("energy.elastic", now.elastic_energy);
         result.set("energy.interface", now.interface_energy);
         result.set("energy.damped", now.damped);
+        if (c.effects.branches) {
+            result.set("energy.branches", now.branch_energy);
+            result.set("energy.dissipated_in_block", now.relaxed);
+        }
     } else if (const std::optional<ZeroLoad>& z = path.results().zero_load) {
         const double area = c.area() / units::milli_per_unit;
         result.set("energy.kinetic", 0.0);

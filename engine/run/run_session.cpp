@@ -285,7 +285,8 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
     if (recorder_ && case_.scene.surface.radius) {
         auto series = recorder_->series();
         add_sphere_path({.segment = series["segment"],
-                         .time = series["time"], // none of a quasi-static path
+                         // Of a quasi-static path there are no vibrations to average.
+                         .time = case_.in_time ? series["time"] : std::vector<double>(),
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},
                         case_.path, case_.scene, result);

@@ -10,8 +10,8 @@ constexpr SeriesColumn columns[] = {
     {SeriesColumn::both,
      {"series/step", "1", "", "time step; of a quasi-static path: point"},
      [](const SeriesRow& w) { return static_cast<double>(w.at.step); }},
-    {SeriesColumn::dynamic,
-     {"series/time", "ps", "", "simulated time"},
+    {SeriesColumn::time,
+     {"series/time", "ps", "", "time, simulated or in which a block relaxes"},
      [](const SeriesRow& w) { return w.at.time * 1e-3; }},
     {SeriesColumn::both,
      {"series/segment", "1", "", "number of the segment of drive.path, from 0"},
@@ -47,6 +47,10 @@ constexpr SeriesColumn columns[] = {
     {SeriesColumn::both,
      {"series/interface_energy", "eV", io::per::block, "energy of the interface"},
      [](const SeriesRow& w) { return w.at.interface_energy; }},
+    {SeriesColumn::relaxing,
+     {"series/branch_energy", "eV", io::per::block,
+      "of elastic_energy, what the branches of a block that relaxes store"},
+     [](const SeriesRow& w) { return w.at.branch_energy; }},
     {SeriesColumn::both,
      {"series/elastic_energy", "eV", io::per::block, "elastic energy"},
      [](const SeriesRow& w) { return w.at.elastic_energy; }},
@@ -69,6 +73,10 @@ constexpr SeriesColumn columns[] = {
      {"series/dissipated", "eV", io::per::block,
       "energy dissipated at instabilities since the start"},
      [](const SeriesRow& w) { return w.at.damped; }},
+    {SeriesColumn::relaxing,
+     {"series/dissipated_in_block", "eV", io::per::block,
+      "energy that the branches of a block that relaxes have dissipated since the start"},
+     [](const SeriesRow& w) { return w.at.relaxed; }},
     {SeriesColumn::both,
      {"series/balance_error", "1", "largest term",
       "energy balance: work - energies - loss, over the largest energy or work so far"},
@@ -100,6 +108,8 @@ std::vector<io::Quantity> series_quantities() {
 
 bool SeriesColumn::is_in(bool in_time, const Effects& effects) const {
     if (in == sliding) return effects.sliding;
+    if (in == relaxing) return effects.branches;
+    if (in == time) return in_time || effects.branches;
     return in == both || (in == dynamic) == in_time;
 }
 

@@ -24,8 +24,8 @@ struct SeriesRow {
 };
 
 struct SeriesColumn {
-    /// sliding: where the path slides.
-    enum In { both, dynamic, quasistatic, sliding };
+    /// time: where it passes; sliding: where the path slides; relaxing: where the block does.
+    enum In { both, dynamic, quasistatic, time, sliding, relaxing };
     In in;
     io::Quantity quantity; ///< its name is that of the data set, "series/force"
     double (*value)(const SeriesRow&);

@@ -66,6 +66,19 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
         fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
+    if (const Number relaxed = of("dissipated_in_block.cycle")) {
+        fmt::print(to,
+                   "  From the approach to the end of the pull-off {} meV/Å² are dissipated in the "
+                   "block, which relaxes,\n  and {} lost at instabilities.\n",
+                   io::number(*relaxed, 2), io::number(of("lost.cycle").value_or(0.0), 2));
+        const Number unclear = of("dissipated.not_followed");
+        if (unclear && *unclear > 0.0)
+            fmt::print(to,
+                       "  Of what was lost {} eV went in steps that are long beside the shortest "
+                       "time of block.prony: the block\n  may have dissipated a part of it.\n",
+                       io::number(*unclear, 2));
+        return;
+    }
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
             fmt::print(to, "  From the approach to the end of the pull-off {} meV/Å² are lost.\n",
@@ -217,6 +230,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     }
     const Number lost_in = of("lost.approach"), lost_out = of("lost.pull_off");
     if (lost_in || lost_out) row("energy lost", "lost.approach", 2, lost_in, lost_out, {});
+    if (c.effects.branches)
+        row("dissipated in the block", "dissipated_in_block.approach", 2,
+            of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"), {});
     const Number moves_in = of("kinetic.approach"), moves_out = of("kinetic.pull_off");
     if (moves_in || moves_out)
         row("energy that still moves", "kinetic.approach", 2, moves_in, moves_out, {});

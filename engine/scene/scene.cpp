@@ -172,6 +172,10 @@ io::Schema bind(Scene& scene) {
     schema.choice<Strain>("strain", block.strain,
                           {{"linear", Strain::linear}, {"finite", Strain::finite}},
                           "small strain, or geometrically exact springs");
+    schema.pairs("prony", block.prony, "ps", positive(),
+                 "branches of a block that relaxes, on a quasi-static path: modulus over young, "
+                 "which is then the relaxed one, and relaxation time, as in [[9.0, \"1 ns\"], "
+                 "[1.5, \"20 ns\"]], the times growing; drive.velocity says how fast time passes");
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "
@@ -247,8 +251,9 @@ io::Schema bind(Scene& scene) {
                 "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
                 "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
                 "where that is controlled), \"slide x 5 Å\" (or y, at the same height), \"hold 20 "
-                "ps\" (dynamic)");
-    schema.number("velocity", drive.velocity, "m/s", positive(), "of the top plane (dynamic)");
+                "ps\" (dynamic, or with block.prony)");
+    schema.number("velocity", drive.velocity, "m/s", positive(),
+                  "of the top plane (dynamic), or of what is controlled (with block.prony)");
     schema.choice<Control>(
         "control", drive.control, {{"top", Control::top}, {"mean-height", Control::mean_height}},
         "what is moved from point to point (quasistatic): the top plane, or the lowest layer's "

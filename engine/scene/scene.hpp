@@ -83,6 +83,7 @@ struct Scene {
         int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
         int layers_per_level = 4;
         Strain strain = Strain::linear;
+        io::Schema::Pairs prony; ///< of each branch: modulus over young, relaxation time, ps
     } block;
 
     struct Interface {

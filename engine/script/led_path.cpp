@@ -77,6 +77,22 @@ void LedPath::set_load(const std::string& pressure) {
     set_load(parsed.value);
 }
 
+void LedPath::set_hold(double time) {
+    if (!case_.effects.branches)
+        refuse("hold", "of a block that does not relax",
+               "equilibria do not change while they are held",
+               "give the block branches (block.prony)");
+    if (!(time > 0.0) || !std::isfinite(time))
+        refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");
+    target_ = {.hold = time * units::picosecond};
+}
+
+void LedPath::set_hold(const std::string& time) {
+    const io::ParsedQuantity parsed = io::parse_quantity(time, "ps");
+    if (!parsed.why.empty()) refuse("hold", fmt::format("= \"{}\"", time), parsed.why, parsed.fix);
+    set_hold(parsed.value);
+}
+
 /// Work that is given up where look throws, and then rethrows it: the path is at its last point.
 template <class Work>
 auto LedPath::while_looking(const Look& look, const Work& work) {
@@ -97,12 +113,17 @@ auto LedPath::while_looking(const Look& look, const Work& work) {
 
 LedPath::Point LedPath::relax(const Look& look) {
     begin();
-    if (!target_.at && !target_.load) return now();
-    const auto at_point = [this] { guard(path_); };
+    if (!target_.at && !target_.load && !target_.hold) return now();
+    const double until = path_.now().time + target_.hold.value_or(0.0);
+    const auto at_point = [&] {
+        if (target_.hold) target_.hold = until - path_.now().time;
+        guard(path_);
+    };
     try { // a target is kept where look throws
         while_looking(look, [&] {
-            return target_.at ? path_.lead_to(*target_.at, at_point)
-                              : path_.lead_to_load(*target_.load, at_point);
+            if (target_.at) return path_.lead_to(*target_.at, at_point);
+            if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
+            return path_.lead({Segment::load, *target_.load}, at_point);
         });
     } catch (const io::PhysicsError&) { // it cannot be reached
         target_ = {};

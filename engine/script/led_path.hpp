@@ -32,6 +32,9 @@ public:
     /// above on the way out.
     void set_load(double pressure);
     void set_load(const std::string& pressure); ///< "100 MPa"
+    /// Stays where it is for so many ps, or "20 ns"; of a block that relaxes.
+    void set_hold(double time);
+    void set_hold(const std::string& time);
 
     /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
     /// step (points) count from where the path began: out of reach, or the last restore() or
@@ -82,7 +85,7 @@ private:
     bool placed_ = false; ///< it begins where the block is, not out of reach
     Point before_;        ///< the last of the path before
     struct Goal {
-        std::optional<double> at{}, load{}; ///< Å, eV/Å
+        std::optional<double> at{}, load{}, hold{}; ///< Å, eV/Å, fs
     };
     Goal target_; ///< where the next relaxation leads it
 };

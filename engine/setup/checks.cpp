@@ -72,9 +72,10 @@ void check_path(const Case& c, io::Problems& problems) {
                        "take interface.kind = \"atoms\" with frictionless = false");
             break;
         case Segment::hold:
-            if (!c.in_time)
+            if (!c.in_time && c.scene.block.prony.empty())
                 refuse("on a path without time", "equilibria do not change while they are held",
-                       "take it out, or take drive.mode = \"dynamic\"");
+                       "take it out, or give the block branches that relax (block.prony), or take "
+                       "drive.mode = \"dynamic\"");
             else if (after_all)
                 refuse("out of reach", "nothing happens there", "put an \"approach\" before it");
             break;
@@ -231,6 +232,18 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "without time the block is a sum of waves, and at finite strain waves do not "
                      "add up",
                      "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
+    const auto& prony = scene.block.prony;
+    if (!prony.empty() && c.in_time)
+        problems.add("block.prony", "= [...] on a path in time",
+                     "the waves in the block of a path in time have no memory",
+                     "take drive.mode = \"quasistatic\", or leave prony out");
+    for (std::size_t i = 1; i < prony.size(); ++i)
+        if (prony[i].second <= prony[i - 1].second)
+            problems.add(
+                "block.prony",
+                fmt::format("has {:.6g} ps after {:.6g} ps", prony[i].second, prony[i - 1].second),
+                "the relaxation times are to grow from branch to branch",
+                "write the branches in the order of their times, each time once");
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -357,13 +370,33 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const auto idle = [&](const std::string& key, const std::string& reason) {
         if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
     };
+    if (c.effects.branches) {
+        // A way of some hundred steps, and holds; as slow as the path can look closer.
+        const double a_step =
+            100.0 * scene.drive.displacement_step / scene.drive.velocity; // ps: Å over m/s
+        double path = 200.0 * a_step;
+        for (const Segment& segment : c.path)
+            if (segment.kind == Segment::hold) path += segment.amount;
+        for (const auto& [ratio, time] : scene.block.prony)
+            if (time > 1000.0 * path)
+                list.push_back(fmt::format("block.prony: {:.4g} ps is far beyond the path, which "
+                                           "takes some {:.1g} ps: this branch stays a spring",
+                                           time, path));
+            else if (time < 0x1p-16 * a_step)
+                list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
+                                           "the path, {:.1g} ps: this branch is always relaxed",
+                                           time, 0x1p-16 * a_step));
+    } else if (!c.in_time) {
+        idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
+    }
     if (c.path.size() == 1 && c.starts_with(Segment::relax))
         idle("drive.control", "drive.path relaxes with nothing held");
+    if (!c.in_time && !c.effects.branches) idle("drive.velocity", "no time passes on this path");
     if (!c.in_time)
         for (const char* key :
-             {"drive.temperature", "drive.seed", "drive.velocity", "drive.timestep",
-              "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
-              "block.atom_mass", "block.model", "block.layers_per_level"})
+             {"drive.temperature", "drive.seed", "drive.timestep", "drive.damping",
+              "drive.damping_from", "drive.ramp", "output.series", "block.atom_mass", "block.model",
+              "block.layers_per_level"})
             idle(key, "no time passes on this path");
     else
         idle("drive.displacement_step", "drive.mode is \"dynamic\"");

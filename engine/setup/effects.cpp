@@ -33,7 +33,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
-            {"relaxation", relaxation},
+            {"relaxing block", branches}, {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
     // clang-format on
@@ -85,6 +85,10 @@ Effects effects_of(const Case& c) {
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
+    e.branches = {!s.block.prony.empty() && !in_time && follows_path,
+                  s.block.prony.empty()
+                      ? "block.prony = []"
+                      : fmt::format("block.prony has {} of them", s.block.prony.size())};
     e.relaxation = {!in_time || !finite,
                     !in_time ? rest
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "

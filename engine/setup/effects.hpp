@@ -34,6 +34,7 @@ struct Effects {
         sliding,       ///< of the block over the substrate
         tail,          ///< continuum correction beyond the cutoff
         curvature,     ///< a spherical cap under the roughness
+        branches,      ///< of a block that relaxes: their memory
         relaxation,    ///< states of equilibrium
         observation,   ///< energies, contacts and the energy balance: a row of the series
         maps,          ///< of the states that the scene asks for

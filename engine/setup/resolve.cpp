@@ -102,6 +102,8 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     block.layers_per_level = scene.block.layers_per_level;
     block.multiscale = in_time && scene.block.model == BlockModel::multiscale;
     block.finite_strain = scene.block.strain == Strain::finite;
+    for (const auto& [ratio, time] : scene.block.prony)
+        block.branches.push_back({ratio, time * units::picosecond});
     return block;
 }
 

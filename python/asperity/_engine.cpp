@@ -372,6 +372,14 @@ PYBIND11_MODULE(_engine, m) {
                       "work of what holds the block, since the path began, eV")
         .def_readonly("dissipated", &Point::damped,
                       "energy dissipated at instabilities, since the path began, eV")
+        .def_readonly(
+            "dissipated_in_block", &Point::relaxed,
+            "energy that a block that relaxes has dissipated in time, beside dissipated, eV")
+        .def_readonly("branch_energy", &Point::branch_energy,
+                      "of elastic_energy, what the branches of a block that relaxes store, eV")
+        .def_property_readonly(
+            "time", [](const Point& p) { return p.time / units::picosecond; },
+            "in which a block that relaxes was led there, ps")
         .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
         .def_readonly("contact", &Point::contact_fraction,
                       "fraction of the sites whose nearest atom is in contact")
@@ -456,6 +464,8 @@ PYBIND11_MODULE(_engine, m) {
                     "lateral"_a = !c.scene.interface.frictionless &&
                                   c.scene.interface.kind != InterfaceKind::wall);
             })
+        .def("_hold", py::overload_cast<double>(&LedPath::set_hold))
+        .def("_hold", py::overload_cast<const std::string&>(&LedPath::set_hold))
         .def("_load", py::overload_cast<double>(&LedPath::set_load))
         .def("_load", py::overload_cast<const std::string&>(&LedPath::set_load));
 }

@@ -94,6 +94,9 @@ class Point:
     interface_energy: Final[float]
     work: Final[float]
     dissipated: Final[float]
+    dissipated_in_block: Final[float]
+    branch_energy: Final[float]
+    time: Final[float]
     instabilities: Final[int]
     contact: Final[float]
     repulsive_fraction: Final[float]
@@ -115,4 +118,5 @@ class Statics:
     mean_height: float
     top: float
     _case: dict[str, Any]
+    def _hold(self, time: float | str) -> None: ...
     def _load(self, pressure: float | str) -> None: ...

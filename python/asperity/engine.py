@@ -376,3 +376,11 @@ class Statics(_engine.Statics):
     @load.setter
     def load(self, pressure: float | str) -> None:
         self._load(pressure)
+
+    def hold(self, time: float | str) -> _engine.Point:
+        """Stays where it is for a time (ps, or "20 ns") while the block relaxes (block.prony); the Point then.
+
+        After an interruption relax() goes on with the rest of it.
+        """
+        self._hold(time)
+        return self.relax()

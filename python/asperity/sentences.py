@@ -168,7 +168,9 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
             f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
             "detaches." if all(parts) else ".")
     text = f"On the way in the drive takes up {energy(-into)}; on the way out it gives {energy(out)}."
-    if abs(lost) < 0.01 * flat:
+    if (relaxed := run.number("dissipated_in_block.cycle")) is not None:
+        text += f" The block, which relaxes, dissipates {energy(relaxed)}; {energy(lost)} are lost at instabilities."
+    elif abs(lost) < 0.01 * flat:
         text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."

@@ -22,7 +22,7 @@ Case case_with(const Keys& keys) {
 TEST(Effects, EachIsSwitchedByItsKey) {
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
                         "output.checkpoint=none", "block.thickness=16"};
-    const Keys rest = {"drive.path=relax"};
+    const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"};
     struct Row {
         Effect Effects::*effect;
         const Keys& with;
@@ -39,6 +39,7 @@ TEST(Effects, EachIsSwitchedByItsKey) {
           {&Effects::sliding, plain, "drive.path=[\"approach\", \"slide x 1 Å\"]", ""},
           {&Effects::tail, plain, "interface.tail=true", ""},
           {&Effects::curvature, plain, "surface.radius=200", ""},
+          {&Effects::branches, relaxing, "block.prony=[[2.0, \"1 ns\"]]", ""},
           {&Effects::relaxation, plain, "", "block.strain=finite"},
           {&Effects::observation, plain, "", "drive.path=relax"},
           {&Effects::maps, plain, "output.fields=[\"pull-off\"]", ""},

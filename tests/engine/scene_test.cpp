@@ -202,6 +202,45 @@ TEST(Scene, Ranges) {
     }
 }
 
+TEST(Scene, ABlockThatRelaxes) {
+    const std::string still = "drive.mode = \"quasistatic\"\n";
+    const Case c =
+        read_case_text(still + "block.prony = [[9.0, \"1 ns\"], [2, 20e3]]\n"
+                               "drive.path = [\"approach\", \"hold 2 ns\", \"pull-off\"]",
+                       "s.toml");
+    const auto& branches = c.simulation.block.branches;
+    ASSERT_EQ(branches.size(), 2u);
+    EXPECT_EQ(branches[0].ratio, 9.0);
+    EXPECT_EQ(branches[0].time, 1e6) << "fs";
+    EXPECT_EQ(branches[1].time, 2e7);
+    EXPECT_NE(scene_toml(c.scene).find("prony = [[9.0, 1000.0], [2.0, 20000.0]]"),
+              std::string::npos);
+    EXPECT_EQ(read_case_text(still + "block.prony = []", "s.toml").simulation.block.branches.size(),
+              0u);
+
+    EXPECT_EQ(only(still + "block.prony = [[-9.0, \"1 ns\"]]").what,
+              "block.prony = [ [ -9.0, \"1 ns\" ] ] in pair 1 is out of range");
+    EXPECT_EQ(only(still + "block.prony = [[9.0, \"1 ns\"], [1.0, 0]]").what,
+              "block.prony = [ [ 9.0, \"1 ns\" ], [ 1.0, 0 ] ] in pair 2 is out of range");
+    EXPECT_EQ(only(still + "block.prony = [[9.0, \"20 ns\"], [1.0, \"1 ns\"]]").what,
+              "block.prony has 1000 ps after 20000 ps");
+    only(still + "block.prony = [[9.0, \"1 nm\"]]");
+    only(still + "block.prony = [9.0, \"1 ns\"]");
+    only(still + "block.prony = [[9.0]]");
+    only(still + "block.prony = 9.0");
+    EXPECT_EQ(only("block.prony = [[9.0, \"1 ns\"]]").what,
+              "block.prony = [...] on a path in time");
+    const auto note = [&](const char* time) {
+        for (const std::string& n :
+             read_case_text(still + "block.prony = [[9.0, \"" + time + "\"]]", "s.toml").notes)
+            if (n.starts_with("block.prony: ")) return n.substr(n.find(": this") + 2);
+        return std::string();
+    };
+    EXPECT_EQ(note("1 h"), "this branch stays a spring");
+    EXPECT_EQ(note("1e-9 ps"), "this branch is always relaxed");
+    EXPECT_EQ(note("1 ns"), "");
+}
+
 TEST(Scene, OneComplaintAKey) { // out of range, and therefore not also a contradiction
     EXPECT_EQ(wrong("[interface]\ncutoff = -1\n").size(), 1u);
     const auto problems =

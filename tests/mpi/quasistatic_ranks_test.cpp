@@ -27,7 +27,8 @@ struct Kind {
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
     int sites = 16, thickness = 60;
-    bool slides = false; ///< between approach and pull-off
+    bool slides = false;               ///< between approach and pull-off
+    std::vector<Branch> branches = {}; ///< of a block that relaxes; it is held there
 };
 
 InterfaceOptions interface_of(const Kind& kind) {
@@ -56,11 +57,17 @@ struct Contact {
     bool slides;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
-        : options(test::paper_block(kind.sites, kind.thickness, 0)), surface(surface_of(kind)),
+        : options(block_of(kind)), surface(surface_of(kind)),
           grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
           path(block, interface, path_options(kind.along)), slides(kind.slides) {}
+
+    static BlockOptions block_of(const Kind& kind) {
+        BlockOptions o = test::paper_block(kind.sites, kind.thickness, 0);
+        o.branches = kind.branches;
+        return o;
+    }
 
     PathOptions path_options(Constraint::Of along) {
         PathOptions o;
@@ -69,6 +76,7 @@ struct Contact {
         o.tolerance = 1e-3;
         o.scales = test::paper_scales();
         o.reference_height = interface.start_height();
+        if (!options.branches.empty()) o.velocity = 1e-4;
         o.report = [this](long long, double) { return ++looks == stop_at; };
         return o;
     }
@@ -77,6 +85,8 @@ struct Contact {
         const Outcome outcome = path.advance();
         if (outcome == Outcome::at_load && slides)
             path.begin({Segment::slide, 1.7, 1}, 1);
+        else if (outcome == Outcome::at_load && !options.branches.empty())
+            path.begin({Segment::hold, 1e5}, 1);
         else if (outcome != Outcome::point && outcome != Outcome::interrupted)
             path.begin({Segment::pull_off}, 2);
         return outcome;
@@ -116,7 +126,8 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
         last = contact.advance();
         points.push_back(contact.trace());
     }
-    EXPECT_GT(contact.path.dissipation().events, kind.along == Constraint::Of::top ? 0 : -1)
+    const bool snaps = kind.along == Constraint::Of::top && kind.branches.empty();
+    EXPECT_GT(contact.path.dissipation().events, snaps ? 0 : -1)
         << kind.name << " is meant to snap";
     return points;
 }
@@ -131,8 +142,9 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
          {Kind{}, Kind{.name = "mean height", .along = Constraint::Of::mean_height},
           Kind{.name = "frictionless", .frictionless = true},
           Kind{.name = "slide", .thickness = 4, .slides = true},
+          Kind{.name = "relaxing", .thickness = 20, .branches = {{1.5, 1e3}, {0.5, 2e4}}},
           Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
-        const std::size_t most = kind.slides ? 90 : 45;
+        const std::size_t most = kind.slides || !kind.branches.empty() ? 90 : 45;
         const std::vector<std::uint64_t> whole = cycle(world(), kind, most);
         EXPECT_EQ(whole, cycle(Communicator(), kind, most)) << kind.name << " on one rank";
         // Each stretch by objects of its own.

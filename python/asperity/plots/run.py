@@ -122,7 +122,8 @@ def energy(run: Result, ax: Axes) -> bool:
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
             ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
             ("damped", "damped", PINK, DASHES[4]),
-            ("dissipated", "dissipated", PINK, DASHES[4])):
+            ("dissipated", "dissipated", PINK, DASHES[4]),
+            ("dissipated_in_block", "dissipated in the block", GREEN, DASHES[3])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
     return finish(ax, "time (ps)" if timed else "point of the path",

@@ -1,0 +1,302 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A block that relaxes: the modulus in time, energies of a step, limits of slow and fast paths, a
+// layer on a spring that yields (integrated here on its own) and the loss of an oscillation, each
+// against its closed form.
+#include "support/path_case.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <memory>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+using namespace asperity;
+
+namespace {
+
+constexpr auto top = Constraint::Of::top, height = Constraint::Of::mean_height;
+const std::vector<Branch> two = {{1.5, 1000.0}, {0.5, 20000.0}}; // fs
+const ExponentialWall hard(0.7, 1.3, 1000.0);
+
+BlockOptions relaxing(int sites, int thickness, const std::vector<Branch>& branches) {
+    BlockOptions o = test::paper_block(sites, thickness, 0);
+    o.branches = branches;
+    return o;
+}
+
+/// The same, without branches, so much stiffer.
+BlockOptions elastic(BlockOptions o, double factor) {
+    o.branches.clear();
+    o.young *= factor;
+    return o;
+}
+
+QuasistaticPath path_of(test::PathCase& c, double velocity, double tolerance, double step,
+                        Constraint::Of along) {
+    PathOptions p;
+    p.along = along;
+    p.step = step;
+    p.tolerance = tolerance;
+    p.scales = test::paper_scales();
+    p.reference_height = c.interface.start_height();
+    p.velocity = velocity;
+    return {c.block, c.interface, p};
+}
+
+/// Its points, to the end of what has begun.
+std::vector<StepRecord> points_of(QuasistaticPath& path) {
+    std::vector<StepRecord> points = {path.now()};
+    for (auto o = QuasistaticPath::Outcome::point; o == QuasistaticPath::Outcome::point;) {
+        o = path.advance();
+        points.push_back(path.now());
+        if (points.size() > 20000) throw std::runtime_error("no end");
+    }
+    return points;
+}
+
+std::vector<StepRecord> lead(QuasistaticPath& path, double to) {
+    path.begin_to(to);
+    return points_of(path);
+}
+
+} // namespace
+
+/// Stretched at once and held, in steps of any length: E(t)/E = 1 + sum r exp(-t/tau).
+TEST(Rate, TheModulusFallsByItsSeries) {
+    SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
+    SpectralBlock rest(elastic(block.options(), 1.0), Communicator(), true);
+    std::mt19937 random(3);
+    std::normal_distribution<double> displacement(0.0, 0.1);
+    for (int y = 0; y < 8; ++y)
+        for (int x = 0; x < 8; ++x)
+            block.layer().z.plane(0)(x, y) = rest.layer().z.plane(0)(x, y) = displacement(random);
+    rest.apply_constraint(Constraint::top(-0.2));
+    Waves<double> g = block.new_waves<double>(), expected = rest.new_waves<double>();
+    rest.gradient(expected);
+    const double lift = rest.stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
+    // At rest there, and from here moved by the top.
+    block.constrain(Constraint::top(0.3));
+    block.begin_step(std::numeric_limits<double>::infinity());
+    block.end_step();
+    double time = 0.0;
+    block.begin_step(1e-12);
+    block.constrain(Constraint::top(-0.2));
+    for (const double dt : {1e-12, 1.0, 300.0, 300.0, 7.0, 5000.0, 1e5}) {
+        if (time > 0.0) block.begin_step(dt);
+        block.apply_constraint();
+        time += dt;
+        double series = 0.0;
+        for (const Branch& b : two)
+            series += b.ratio * std::exp(-time / b.time);
+        block.gradient(g);
+        const double uniform = expected.row(0, 0)[0] + lift * series;
+        EXPECT_NEAR(g.row(0, 0)[0], uniform, 1e-12 * std::abs(uniform)) << time;
+        EXPECT_NEAR(g.row(0, 3)[4], expected.row(0, 3)[4], 1e-12) << time; // did not move
+        EXPECT_NEAR(block.top_force(), 64.0 * uniform, 1e-11 * std::abs(uniform)) << time;
+        block.end_step();
+    }
+}
+
+/// The work on the layer in a step, by the formula for what a branch's spring does on average, is
+/// stored and dissipated; from steps of a millionth of a relaxation time to a million.
+TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
+    SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
+    block.constrain(Constraint::top(0.0));
+    const double spring = 64.0 * block.stiffness(0, 0).zz;
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-6.0, 6.0);
+    std::vector<double> h(two.size(), 0.0);
+    double w = 0.0, stored = 0.0;
+    for (int i = 0; i < 200; ++i) {
+        const double dt = 4000.0 * std::pow(10.0, exponent(random)), next = place(random);
+        const double scale = i % 2 ? 1.0 : 1e-3;
+        block.begin_step(dt);
+        block.set_uniform(scale * next);
+        const BranchEnergies branches = block.branch_energies();
+        const double rate = (scale * next - w) / dt;
+        double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
+        for (std::size_t k = 0; k < two.size(); ++k) {
+            const auto& [r, tau] = two[k];
+            const long double left = -std::expm1(-static_cast<long double>(dt) / tau); // 1 - e
+            work += static_cast<double>(spring * r * rate *
+                                        (h[k] * tau * left + rate * tau * (dt - tau * left)));
+            h[k] = static_cast<double>(h[k] * (1 - left) + rate * tau * left);
+            energy += 0.5 * spring * r * h[k] * h[k];
+        }
+        EXPECT_NEAR(branches.stored, energy, 1e-12 * (1.0 + energy));
+        EXPECT_GE(branches.dissipated, 0.0);
+        const double now = block.elastic_energy() + branches.stored;
+        EXPECT_NEAR(now - stored + branches.dissipated, work, 1e-11 * (1.0 + std::abs(work)))
+            << "dt " << dt;
+        stored = now;
+        w = scale * next;
+        block.end_step();
+    }
+}
+
+/// A flat layer under the top over a wall: u' from the force balance in time, by Runge and Kutta.
+TEST(Rate, APathIsTheMotionOfOneCoordinate) {
+    const double velocity = 1e-3, time = 15000.0; // Å/fs, fs
+    const SmearedWall smooth(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false);
+    test::PathCase reference(relaxing(8, 3, two), test::flat_surface(8), smooth);
+    const double start = reference.interface.start_height();
+    const double spring = reference.spring() / 64.0, down = start - 2.0;
+    const SmearedWall<LennardJones>::In<double> law(smooth);
+    struct State {
+        double u;
+        std::vector<double> h;
+    } s{0.0, {0.0, 0.0}};
+    for (int i = 0; i < 100; ++i)
+        s.u = law.force(start + s.u) / spring;
+    const auto rate = [&](const State& at, double v) {
+        const double d = 1e-6, z = start + at.u;
+        const double stiffness = (law.force(z + d) - law.force(z - d)) / (2.0 * d);
+        double all = spring, relaxing = 0.0;
+        for (std::size_t k = 0; k < two.size(); ++k) {
+            all += spring * two[k].ratio;
+            relaxing += spring * two[k].ratio * at.h[k] / two[k].time;
+        }
+        State r{(all * v + relaxing) / (all - stiffness), {}};
+        for (std::size_t k = 0; k < two.size(); ++k)
+            r.h.push_back(r.u - v - at.h[k] / two[k].time);
+        return r;
+    };
+    const auto plus = [](State a, const State& b, double dt) {
+        a.u += dt * b.u;
+        for (std::size_t k = 0; k < a.h.size(); ++k)
+            a.h[k] += dt * b.h[k];
+        return a;
+    };
+    const auto integrate = [&](double span, double v) {
+        const int steps = 20000;
+        const double dt = span / steps;
+        for (int i = 0; i < steps; ++i) {
+            const State a = rate(s, v), b = rate(plus(s, a, dt / 2), v),
+                        c = rate(plus(s, b, dt / 2), v), d = rate(plus(s, c, dt), v);
+            for (const auto& [slope, weight] :
+                 {std::pair(a, 1.0), std::pair(b, 2.0), std::pair(c, 2.0), std::pair(d, 1.0)})
+                s = plus(s, slope, dt * weight / 6.0);
+        }
+        return start + s.u;
+    };
+    const double at_end = integrate(down / velocity, -velocity), held = integrate(time, 0.0);
+
+    std::vector<double> errors, held_errors;
+    for (const double step : {0.2, 0.1}) {
+        test::PathCase c(reference.options, test::flat_surface(8), smooth);
+        QuasistaticPath path = path_of(c, velocity, 1e-3 * step * step, step, top);
+        path.start();
+        lead(path, -down);
+        EXPECT_NEAR(path.now().time, down / velocity, 1e-9 * path.now().time);
+        errors.push_back(std::abs(path.now().mean_height - at_end));
+        path.begin({Segment::hold, time});
+        points_of(path);
+        EXPECT_NEAR(path.now().time, down / velocity + time, 1e-9 * path.now().time);
+        held_errors.push_back(std::abs(path.now().mean_height - held));
+        EXPECT_EQ(path.dissipation().events, 0);
+    }
+    EXPECT_LT(errors.back(), 1e-5);
+    EXPECT_LT(held_errors.back(), 1e-5);
+    for (std::size_t i = 1; i < errors.size(); ++i)
+        EXPECT_LT(errors[i], 0.5 * errors[i - 1]) << i;
+}
+
+/// Far slower than it relaxes it is the path at the relaxed modulus, far faster one at the
+/// instantaneous; over atoms and a wall, at a held top and a held mean height.
+TEST(Rate, SlowAndFastPathsAreElasticOnes) {
+    const std::vector<Branch> one = {{2.0, 1000.0}};
+    for (const auto along : {top, height})
+        for (const bool wall : {false, true}) {
+            const Surface rough = test::self_affine(16, 0.5);
+            const auto case_of = [&](const BlockOptions& o) {
+                return wall ? std::make_unique<test::PathCase>(o, rough, hard)
+                            : std::make_unique<test::PathCase>(o, rough);
+            };
+            const BlockOptions block = relaxing(16, 4, one);
+            for (const double velocity : {1e-12, 1e6}) { // Å/fs
+                const bool fast = velocity > 1.0;
+                const auto moving = case_of(block);
+                const auto still = case_of(elastic(block, fast ? 3.0 : 1.0));
+                QuasistaticPath path = path_of(*moving, velocity, 1e-4, 0.25, along),
+                                law = path_of(*still, 0.0, 1e-4, 0.25, along);
+                for (QuasistaticPath* p : {&path, &law}) {
+                    p->start();
+                    lead(*p, 3.0 - moving->interface.start_height());
+                }
+                EXPECT_NEAR(path.now().force, law.now().force, 2e-3 * std::abs(law.now().force))
+                    << wall << fast;
+                EXPECT_NEAR(path.now().elastic_energy, law.now().elastic_energy,
+                            2e-3 * law.now().elastic_energy)
+                    << wall << fast;
+                EXPECT_LT(path.now().relaxed, 1e-3 * std::abs(path.now().interface_energy));
+            }
+        }
+}
+
+/// Where it cannot jump, what is put in is there or was dissipated by the block, which gives
+/// nothing back; the smaller the tolerance the closer.
+TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
+    std::vector<double> gaps;
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        test::PathCase c(relaxing(16, 4, two), test::self_affine(16, 0.5), hard);
+        QuasistaticPath path = path_of(c, 1e-3, tolerance, 0.25, top);
+        path.start();
+        std::vector<StepRecord> points = lead(path, 2.0 - c.interface.start_height());
+        path.begin({Segment::hold, 5000.0});
+        for (const StepRecord& r : points_of(path))
+            points.push_back(r);
+        for (const StepRecord& r : lead(path, 0.0))
+            points.push_back(r);
+        for (std::size_t i = 1; i < points.size(); ++i)
+            EXPECT_GE(points[i].relaxed, points[i - 1].relaxed);
+        const StepRecord& end = points.back();
+        EXPECT_EQ(path.dissipation().events, 0);
+        EXPECT_GT(end.relaxed, 0.1 * std::abs(end.work));
+        const double gap = end.work - test::energy(end) - end.relaxed;
+        EXPECT_LT(std::abs(gap), tolerance * c.sites() * 40.0);
+        gaps.push_back(std::abs(gap) / end.relaxed);
+    }
+    EXPECT_LT(gaps.back(), 1e-3);
+    EXPECT_LT(gaps.back(), 0.1 * gaps.front());
+}
+
+/// Pressed to and fro by u0 it loses n pi a_n^2 S''(n w) in a cycle, of each harmonic of a
+/// triangle, a_n = 8 u0 / (pi n)^2; S* is that of the block in series with the wall's.
+TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
+    const double u0 = 0.01, pi = std::numbers::pi;
+    for (const double period : {2000.0, 8000.0, 60000.0}) { // fs
+        test::PathCase c(relaxing(4, 4, two), test::flat_surface(4), hard);
+        const double velocity = 4.0 * u0 / period;
+        const double pressed = -2.0 - c.interface.start_height();
+        c.block.constrain(Constraint::top(pressed));
+        c.block.set_uniform(-c.interface.start_height());
+        QuasistaticPath path = path_of(c, velocity, 1e-7, u0 / 20.0, top);
+        path.start_here();
+        double before = 0.0;
+        const int cycles = 2 + static_cast<int>(std::ceil(5.0 * two.back().time / period));
+        for (int i = 0; i < cycles; ++i) {
+            before = path.now().relaxed;
+            lead(path, pressed + u0);
+            lead(path, pressed - u0);
+        }
+        double expected = 0.0;
+        for (int n = 1; n < 400; n += 2) {
+            const std::complex<double> iw(0.0, 2.0 * pi * n / period);
+            std::complex<double> s = c.spring() / 16.0;
+            for (const Branch& b : two)
+                s += c.spring() / 16.0 * b.ratio * iw * b.time / (1.0 + iw * b.time);
+            const std::complex<double> both = 1000.0 * s / (1000.0 + s);
+            const double a = 8.0 * u0 / (pi * pi * n * n);
+            expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period
+        }
+        EXPECT_NEAR(path.now().relaxed - before, expected, 2e-3 * expected) << period;
+    }
+}
