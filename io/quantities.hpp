@@ -84,7 +84,7 @@ inline constexpr Quantity result_quantities[] = {
      "the same at the end of the pull-off, above a block at rest out of reach"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
      "what a block that relaxes (block.prony) has dissipated in time on the approach, beside "
-     "lost.approach: -work_of_drive.approach = change of the energies of interface and block, "
+     "lost.approach: work_of_drive.approach = change of the energies of interface and block, "
      "branches included, + lost.approach + dissipated_in_block.approach"},
     {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"dissipated_in_block.cycle", "meV/Å^2", per::area,
