@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What no path goes on from, in time or without.
+// What no path goes on from, dynamic or quasi-static.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"

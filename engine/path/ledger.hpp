@@ -28,9 +28,10 @@ struct Works {
     double lateral = 0.0;   ///< of this, by what moves it sideways
     double relaxed = 0.0;   ///< dissipated in time by a block that relaxes
     double lost = 0.0;      ///< damped less the heat of a thermostat, or dissipated
-    /// int F dz of the mean height; empty at a held top without time, where it jumps.
+    /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where it
+    /// jumps.
     std::optional<double> interface;
-    std::optional<double> uncertainty; ///< of on_solids and lost; without time only
+    std::optional<double> uncertainty; ///< of on_solids and lost; quasi-static paths only
 
     /// From an earlier place on the path to this one.
     Works operator-(const Works& earlier) const;

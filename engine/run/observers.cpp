@@ -5,7 +5,7 @@
 #include "engine/path/expected_path.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/run/run_session.hpp"
-#include "engine/units.hpp"
+#include "engine/run/summary.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
@@ -89,9 +89,8 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
         return;
     }
     const std::string where =
-        fmt::format("{}, {} MPa at {} Å{}", c.path[path.segment()].text,
-                    io::number(now.force / (c.area() * units::megapascal), 1),
-                    io::number(now.mean_height, 2), iteration > 0 ? ", relaxing" : "");
+        progress_phase(c, c.path[path.segment()].text, now.force, now.in_contact, now.mean_height) +
+        (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
                      c.in_time ? now.time : 0.0,
                      way_done(c, path.reference_height(), path.segment(), now.top)});

@@ -91,7 +91,8 @@ constexpr SeriesColumn columns[] = {
       "sites whose net normal force is repulsive"},
      [](const SeriesRow& w) { return static_cast<double>(w.at.repulsive) / w.sites; }},
     {SeriesColumn::both,
-     {"series/closest", "Å", "", "smallest distance of a site and an atom; infinite out of reach"},
+     {"series/closest", "Å", "",
+      "smallest distance of a site and an atom; infinite beyond the interaction range"},
      [](const SeriesRow& w) { return w.at.closest; }},
 };
 

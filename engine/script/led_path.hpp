@@ -6,7 +6,7 @@
 // of a run; what is lost on it is counted. It starts out of reach.
 //
 // The mean height is held, or the top plane; the first one that is set decides, or a load, which
-// then holds what drive.control says. Of a scene in time the same solids are taken, as if
+// then holds what drive.control says. Of a dynamic scene the same solids are taken, as if
 // drive.mode were "quasistatic".
 #pragma once
 
@@ -37,8 +37,8 @@ public:
     void set_hold(const std::string& time);
 
     /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
-    /// step (points) count from where the path began: out of reach, or the last restore() or
-    /// release().
+    /// step (points) count from where the path began: beyond the interaction range, or the last
+    /// restore() or release().
     struct Point : StepRecord {
         long long instabilities = 0;
         double contact_fraction = 0.0, repulsive_fraction = 0.0;
@@ -52,9 +52,9 @@ public:
     InterfaceMaps maps() const;
 
     /// The state that the sites come to from where they are with nothing held but drive.load; from
-    /// out of reach the one that the segment "relax" of a run leads to. The next relax() begins
-    /// a new path there. Where none is found (io::PhysicsError), or look
-    /// throws, the sites stay where they were.
+    /// beyond the interaction range the one that the segment "relax" of a run leads to. The next
+    /// relax() begins a new path there. Where none is found (io::PhysicsError), or look throws, the
+    /// sites stay where they were.
     RestState release(const Look& look);
 
     /// All that a state depends on.

@@ -426,7 +426,8 @@ PYBIND11_MODULE(_engine, m) {
             "The state that the sites come to from where they are with nothing held but "
             "drive.load: "
             "a RestState.\n\n"
-            "From out of reach: the state that the segment \"relax\" of a run leads to. The "
+            "From beyond the interaction range: the state that the segment \"relax\" of a run "
+            "leads to. The "
             "next "
             "relax() begins\na path there. Raises PhysicsError if no state is found; the "
             "sites then stay.")
