@@ -39,6 +39,7 @@
 #include "engine/equilibrium/step_decision.hpp"
 #include "engine/setup/case.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -188,8 +189,11 @@ private:
     void first_point(double top, bool apart);
     double longest_step() const;
     double smallest_step() const { return options_.step * 0x1p-16; }
-    /// What energy may be missing in a step of this length, eV.
-    double allowed_missing(double step) const { return options_.tolerance * sites_ * step; }
+    /// What energy may be missing in a step of this length, eV: no less than what sums over the
+    /// sites leave out (kernels/exact_sum.hpp).
+    double allowed_missing(double step) const {
+        return std::max(options_.tolerance * sites_ * step, sites_ * 0x1p-51);
+    }
     /// Of the work of a step with an instability, eV.
     double allowed_uncertainty() const { return allowed_missing(options_.step); }
 
