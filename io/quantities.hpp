@@ -59,8 +59,9 @@ inline constexpr Quantity result_quantities[] = {
     {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
      "work of the drive on the solids during the approach, from rest beyond the interaction range: "
-     "negative where they attract each other. The drive is the top plane (in time with the damping "
-     "medium, which moves along) or the holder of the mean height"},
+     "negative where they attract each other. The drive is the top plane (on dynamic paths with "
+     "the "
+     "damping medium, which moves along) or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
      "the same of the pull-off, to rest beyond the interaction range"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
@@ -85,7 +86,7 @@ inline constexpr Quantity result_quantities[] = {
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "what a block that relaxes (block.prony) has dissipated in time on the approach, beside "
+     "what a block that relaxes (block.prony) has dissipated by relaxing on the approach, beside "
      "lost.approach: work_of_drive.approach = change of the energies of interface and block, "
      "branches included, + lost.approach + dissipated_in_block.approach"},
     {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
@@ -127,7 +128,7 @@ inline constexpr Quantity result_quantities[] = {
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
      "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "what a block that relaxes has dissipated in time, beside lost"},
+     "what a block that relaxes has dissipated by that, beside lost"},
     {"segments[].kinetic", "meV/Å^2", per::area,
      "what still moves at the end of an approach or a pull-off of a dynamic path at T = 0, as "
      "kinetic.*"},

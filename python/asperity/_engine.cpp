@@ -355,7 +355,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
 
     using Point = LedPath::Point;
-    py::class_<Point>(m, "Point", "A point of a path without time: force balance at what is held.")
+    py::class_<Point>(m, "Point", "A point of a quasi-static path: force balance at what is held.")
         .def_readonly(
             "top", &Point::top,
             "displacement of the top plane since the start, Å; 0 where the mean height is held")
@@ -374,7 +374,7 @@ PYBIND11_MODULE(_engine, m) {
                       "energy dissipated at instabilities, since the path began, eV")
         .def_readonly(
             "dissipated_in_block", &Point::relaxed,
-            "energy that a block that relaxes has dissipated in time, beside dissipated, eV")
+            "energy that a block that relaxes has dissipated by that, beside dissipated, eV")
         .def_readonly("branch_energy", &Point::branch_energy,
                       "of elastic_energy, what the branches of a block that relaxes store, eV")
         .def_property_readonly(
