@@ -242,8 +242,8 @@ struct Store {
             const auto& [first, second] = (*list)[i];
             double quantity = 0.0;
             const Schema::Value raw = std::holds_alternative<double>(second)
-                                            ? Schema::Value(std::get<double>(second))
-                                            : Schema::Value(std::get<std::string>(second));
+                                          ? Schema::Value(std::get<double>(second))
+                                          : Schema::Value(std::get<std::string>(second));
             Problem problem = Store{key, raw}(&quantity);
             double number = 0.0;
             if (problem.what.empty()) {
