@@ -230,7 +230,7 @@ TEST(Scene, ABlockThatRelaxes) {
     only(still + "block.prony = [[9.0]]");
     only(still + "block.prony = 9.0");
     EXPECT_EQ(only("block.prony = [[9.0, \"1 ns\"]]").what,
-              "block.prony = [...] on a path in time");
+              "block.prony = [...] on a dynamic path");
     const auto note = [&](const char* time) {
         for (const std::string& n :
              read_case_text(still + "block.prony = [[9.0, \"" + time + "\"]]", "s.toml").notes)
