@@ -36,7 +36,7 @@ endif()
 
 add_library(asperity_flags INTERFACE)
 # No contraction behind our back: where a fused multiply-add is meant, the kernel says so. The same
-# node then gets the same bits whichever loop, rank or thread computes it.
+# node then gets a bitwise identical result whichever loop, rank or thread computes it.
 target_compile_options(asperity_flags INTERFACE -ffp-contract=off -fopenmp-simd)
 add_library(asperity_warnings INTERFACE)
 target_compile_options(asperity_warnings INTERFACE

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Sums over all ranks whose value is the same bits whatever the number of ranks: bins of exact sums
-// are added, which rounds nothing, and rounded once at the end.
+// Sums over all ranks whose value is bitwise identical whatever the number of ranks: bins of exact
+// sums are added, which rounds nothing, and rounded once at the end.
 #pragma once
 
 #include "decomposition/communicator.hpp"

@@ -4,7 +4,7 @@
 // The Fourier transform of a surface in slabs of rows over the ranks.
 //
 // FFTW transforms one row and a few columns at a time, in arrays of a thread's own, by plans made
-// by estimate, not by measurement. So a transform has the same bits on any number of threads and
+// by estimate, not by measurement. So a transform is bitwise identical on any number of threads and
 // ranks. Between rows and columns the ranks exchange all their waves.
 #pragma once
 

@@ -41,7 +41,7 @@ made $gallery/first-contact.png
 "$python" $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
 made $gallery/small-fig6.png
 
-# States at zero load against both theories (half an hour of one core), spheres, and the readings of the work.
+# States at zero load against both theories (half an hour of one core), spheres, and the definitions of the work.
 data=docs/data
 ./asperity sweep scenes/paper/fig2-equilibrium.toml --set theory.spectrum=realised \
     --out $place/renormalised >$place/log.txt
@@ -52,12 +52,12 @@ cp $place/parameters/parameters.csv $data
 made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
-./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/readings >$place/log.txt
-cp $place/readings/readings.svg $gallery/fig2-readings.svg
+./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/works >$place/log.txt
+cp $place/works/works.svg $gallery/fig2-works.svg
 ./asperity sweep scenes/paper/small/fig5-quasistatic.toml --out $place/spheres >$place/log.txt
 "$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
-made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-readings.svg $data/tables/fig5-readings.csv \
-    $gallery/fig2-readings.svg \
+made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-gamma-force.svg $data/tables/fig5-gamma-force.csv \
+    $gallery/fig2-works.svg \
     $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 
 "$python" docs/reference.py

@@ -101,7 +101,7 @@ std::vector<Command> all_commands() {
          }},
         {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
         {"cost",
-         "what accuracy costs in time: a scene with each of its numerical settings varied",
+         "what accuracy costs in run time: a scene with each of its numerical settings varied",
          {}},
         {"estimate",
          "the numbers of a scene with their errors, from runs with one setting varied at a time",

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Cycles of load and unload, without time: the contact area over the load, and what each cycle dissipates.
+"""Quasi-static cycles of load and unload: the contact area over the load, and what each cycle dissipates.
 
     python3 examples/load_cycles.py [SITES [--plot FILE]]
 """

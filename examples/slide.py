@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Friction of an adhesive contact without time: pressed, then slid sideways; it sticks and slips.
+"""Quasi-static friction of an adhesive contact: pressed, then slid sideways; it sticks and slips.
 
     python3 examples/slide.py [SITES [--plot FILE]]
 """

@@ -51,34 +51,39 @@ inline constexpr Quantity result_quantities[] = {
     {"pair_binding_energy", "meV/Å^2", per::area,
      "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
     {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of work_of_interface.approach without time, for the sequence of instabilities "
+     "convergence of work_of_interface.approach (quasi-static), for the sequence of instabilities "
      "that the path takes"},
     {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
-     "work that the drive takes up during the approach from rest out of reach: minus its work on "
-     "the solids. The drive is the top plane (in time with the damping medium, which moves along) "
+     "work that the drive takes up during the approach from rest beyond the interaction range: "
+     "minus its work on "
+     "the solids. The drive is the top plane (of dynamic paths with the damping medium, which "
+     "moves along) "
      "or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
-     "work that the drive gives during the pull-off to rest out of reach: its work on the solids"},
+     "work that the drive gives during the pull-off to rest beyond the interaction range: its work "
+     "on the solids"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of work_of_drive.approach without time, for the sequence of instabilities that "
+     "convergence of work_of_drive.approach (quasi-static), for the sequence of instabilities that "
      "the path takes"},
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.approach", "meV/Å^2", per::area,
-     "energy lost on the approach: dissipated at instabilities (without time), or damped (in "
-     "time, at T = 0). From rest, without a load, work_of_drive.approach + lost.approach + "
+     "energy lost on the approach: dissipated at instabilities (quasi-static), or damped "
+     "(dynamic, at T = 0). From rest, without a load, work_of_drive.approach + lost.approach + "
      "kinetic.approach = binding_energy = work_of_drive.pull_off - lost.pull_off + "
-     "kinetic.approach - kinetic.pull_off; without time nothing is kinetic. Of several cycles: of "
+     "kinetic.approach - kinetic.pull_off; of quasi-static paths nothing is kinetic. Of several "
+     "cycles: of "
      "the last"},
     {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.cycle", "meV/Å^2", per::area,
-     "lost from out of reach to out of reach, and kinetic.pull_off, which nothing gives back: of "
+     "lost over a whole cycle, from and to rest beyond the interaction range, and "
+     "kinetic.pull_off, which nothing gives back: of "
      "an approach and a pull-off alone, work_of_drive.pull_off - work_of_drive.approach"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "what still moves at the end of the approach (in time, at T = 0, without a load): kinetic "
+     "what still moves at the end of the approach (dynamic, at T = 0, without a load): kinetic "
      "energy, and that of vibrations, above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
-     "the same at the end of the pull-off, above a block at rest out of reach"},
+     "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
@@ -109,15 +114,16 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].name", "", "", "as the scene has it"},
     {"segments[].work", "meV/Å^2", per::area,
      "work that the drive has done on the solids, also sideways; from rest where the path starts, "
-     "and to rest out of reach at a pull-off: minus work_of_drive.approach of an approach, "
+     "and to rest beyond the interaction range at a pull-off: minus work_of_drive.approach of an "
+     "approach, "
      "work_of_drive.pull_off of a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
-     "∫ F dz of the mean height; left out at a held top without time"},
+     "∫ F dz of the mean height; left out at a controlled top on quasi-static paths"},
     {"segments[].lost", "meV/Å^2", per::area,
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
      "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "of work and lost, without time, for the sequence of instabilities taken"},
+     "of work and lost, of quasi-static paths, for the sequence of instabilities taken"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
     {"segments[].friction", "eV/Å", per::block,
      "force against a slide: the work of what moves the block sideways, over the distance"},
@@ -128,7 +134,7 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].contact_fraction", "1", per::sites, "at its end"},
     {"segments[].slide", "Å", "", "at its end: place over the substrate along x and y"},
     {"dissipated.energy", "eV", per::block,
-     "energy dissipated at instabilities since the start of a path without time"},
+     "energy dissipated at instabilities since the start of a quasi-static path"},
     {"dissipated.events", "1", "", "number of instabilities"},
     {"dissipated.jumps[]", "", "",
      "the 20 largest instabilities in the order of the path; an empty list if there were none"},
@@ -209,8 +215,9 @@ inline constexpr Quantity result_quantities[] = {
     {"energy.interface", "eV", per::block,
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
     {"energy.damped", "eV", per::block,
-     "energy lost since the start: damped in time (less the heat of the thermostat's noise), "
-     "dissipated at instabilities without time"},
+     "energy lost since the start: damped on dynamic paths (less the heat of the thermostat's "
+     "noise), "
+     "dissipated at instabilities on quasi-static ones"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "lowest height of the substrate"},
@@ -286,11 +293,12 @@ inline constexpr Quantity run_quantities[] = {
      "sites closer to an atom than the inflection of the pair potential; over a wall as at zero "
      "load"},
     {"series/repulsive_fraction", "1", per::sites, "sites whose net normal force is repulsive"},
-    {"series/closest", "Å", "", "smallest distance of a site and an atom; infinite out of reach"},
+    {"series/closest", "Å", "",
+     "smallest distance of a site and an atom; infinite beyond the interaction range"},
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
     {"fields/*/distance", "Å", "",
-     "distance of a site and the nearest atom; infinite out of reach"},
+     "distance of a site and the nearest atom; infinite beyond the interaction range"},
     {"fields/*/contact", "1", "",
      "1 where that is less than the inflection of the potential; with interface.pairs, where an "
      "atom is nearer than that of its type"},

@@ -19,12 +19,13 @@
 // Å: the difference of two is exact, wherever in the box and however high it is formed, and only
 // then becomes a float.
 //
-// Sites out of reach are skipped. For each block of sixteen sites along x the owner tabulates
-// how high the substrate gets in rings of lateral distance around it. From the lowest site of the
-// block follows a gap, from the gap the lateral distance beyond which no pair can interact, and
-// only offsets (atoms) nearer than that are visited. What is left out would have added exact zeros.
-// In the same way, from how low the substrate gets, follow the offsets that need no comparison with
-// the cutoff. The sweep over cells compares each site with the bounds of the cells near its block.
+// Sites beyond the interaction range are skipped. For each block of sixteen sites along x the owner
+// tabulates how high the substrate gets in rings of lateral distance around it. From the lowest
+// site of the block follows a gap, from the gap the lateral distance beyond which no pair can
+// interact, and only offsets (atoms) nearer than that are visited. What is left out would have
+// added exact zeros. In the same way, from how low the substrate gets, follow the offsets that need
+// no comparison with the cutoff. The sweep over cells compares each site with the bounds of the
+// cells near its block.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
 // atoms counted from the one below it, number of the cell), never the tile, block or lane it is in;

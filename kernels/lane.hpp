@@ -6,7 +6,8 @@
 // A kernel text written as a template over its value type runs on packs of a processor's registers
 // and, one node a thread, on a device. Every operation of a lane is the one that the pack of the
 // same name does in each of its lanes: a lane and a pack of a processor level with fused
-// multiply-add (fuses(), variant.hpp) give the same bits. The compiler is told not to contract
+// multiply-add (fuses(), variant.hpp) give bitwise identical results. The compiler is told not to
+// contract
 // (-ffp-contract=off; nvcc: -fmad=false).
 #pragma once
 

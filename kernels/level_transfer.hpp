@@ -24,7 +24,7 @@ struct LevelSeam {
         coarse_y0 = 0; ///< first node owned of the coarse tile (0 where it is held whole)
 };
 
-/// The functions compiled for one processor level; all levels give the same bits.
+/// The functions compiled for one processor level; all levels give bitwise identical results.
 struct TransferKernels {
     /// Fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo included).
     void (*interpolate)(LevelSeam seam, PlaneView<const double> coarse, PlaneView<double> fine,

@@ -394,8 +394,8 @@ struct Simd {
     using Of = Pack<T>;
 };
 
-/// Fused multiplication and addition of one lane, for scalar forms of a kernel: same bits as the
-/// pack's lane.
+/// Fused multiplication and addition of one lane, for scalar forms of a kernel: bitwise identical
+/// to the pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
 #if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);

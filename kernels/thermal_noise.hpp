@@ -4,7 +4,7 @@
 // Langevin noise of one node and step: normal numbers from a counter-based generator (Philox,
 // Random123), and what they add to velocity and displacement. One text for processor and device.
 // Logarithm, sine and cosine are written out in additions, multiplications and divisions, none of
-// them fused, so every compiler and machine gives the same bits.
+// them fused, so every compiler and machine gives bitwise identical results.
 #pragma once
 
 #include "kernels/annotations.hpp"

@@ -6,14 +6,14 @@
 //
 //   contact   a nearly flat substrate (rms 0.3 Å) at the equilibrium separation: every site has all
 //             of its pairs, the dearest a step gets
-//   away      out of reach of the substrate: the block alone
+//   away      beyond the interaction range of the substrate: the block alone
 //
 //     [mpirun -n RANKS] build/release/perf/step_bench contact|away SECONDS [section.key=value ...]
 //
 // Prints JSON: the fastest of many short stretches of steps, its time by phase (of rank 0, seconds
 // a step; waiting for other ranks is in exchange, sums, and advance where a level is gathered),
-// what the most loaded rank holds and sends, and the record of the sixth step, the same bits on any
-// ranks.
+// what the most loaded rank holds and sends, and the record of the sixth step, bitwise identical on
+// any ranks.
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"
 

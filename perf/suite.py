@@ -104,7 +104,7 @@ def kernels(folder, quick):
     groups = [{"question": "Pairs of atoms across the interface", "item": "pair",
                "note": "128 x 128 sites in contact, one core; with energies: those are not counted as GFLOP.",
                "rows": rows}]
-    names = {"out_of_reach": "out of reach of the substrate", "partial_contact/skip:0": "partial contact, all atoms",
+    names = {"out_of_reach": "beyond the interaction range of the substrate", "partial_contact/skip:0": "partial contact, all atoms",
              "partial_contact/skip:1": "partial contact, far ones skipped"}
     groups.append({"question": "Sites with few pairs or none", "item": "site",
                    "note": "128 x 128 sites, one core, double; partial contact: rms 9 Å, the highest atom 4 Å deep.",

@@ -30,7 +30,8 @@ struct Magnifications {
 /// A(ζ)/A0, u(ζ), γ_eff(ζ) and σ_a(ζ) at each magnification.
 struct StressPath {
     std::vector<double> area, energy, gamma, detachment_stress;
-    std::size_t start = 0; ///< up to here the contact is full: the boundary is out of reach
+    std::size_t start =
+        0; ///< up to here the contact is full: the boundary is beyond the interaction range
 };
 
 /// From ζ = 1 to ζ_1 with γ_eff(1) = g0, on so many cells of the stress. Second order in both.

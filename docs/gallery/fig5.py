@@ -2,12 +2,13 @@
 # SPDX-License-Identifier: MIT
 """Fig. 5 of the paper with γ by JKR from the force and from the energy at zero load: python3 docs/gallery/fig5.py
 
-Reads docs/data/fig5.csv (5 m/s) and fig5-equilibrium.csv (scenes/paper/fig5-equilibrium.toml), writes fig5-readings.svg beside
-itself and the table docs/data/tables/fig5-readings.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
+Reads docs/data/fig5.csv (5 m/s) and fig5-equilibrium.csv (scenes/paper/fig5-equilibrium.toml), writes fig5-gamma-force.svg beside
+itself and the table docs/data/tables/fig5-gamma-force.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
 Needs numpy and matplotlib (Debian: python3-numpy python3-matplotlib)."""
 import csv
 import math
 import pathlib
+import sys
 
 import matplotlib
 
@@ -16,6 +17,9 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 GALLERY = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(GALLERY.parents[1] / "python"))
+from asperity.plots.style import RC  # noqa: E402
+
 GPA = 1 / 160.21766208  # eV/Å³
 R, E = 4410.0, 77.2 * GPA / (1 - 0.42**2)
 K = 4 * E / 3
@@ -64,11 +68,10 @@ for rms, these in points.items():
     ways = [f"{float(path[k]):.3f}" if path else "" for k in ("jkr.approach_averaged_ratio", "jkr.pull_off_ratio")]
     cells.append([f"{rms:g}", *ways, f"{energy[0]:.3f}", f"{energy.mean():.3f} ± {energy.std(ddof=1):.3f}", f"{table[-1][4]:.3f}",
                   f"{table[-1][5]:.2f}", f"{table[-1][6]:.3f}", f"{law:.3f}"])
-with open(GALLERY.parent / "data/tables/fig5-readings.csv", "w", newline="") as file:
+with open(GALLERY.parent / "data/tables/fig5-gamma-force.csv", "w", newline="") as file:
     csv.writer(file, lineterminator="\n").writerows(cells)
 
-matplotlib.rcParams.update({"svg.hashsalt": "asperity", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
-                            "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True})
+matplotlib.rcParams.update(RC)
 figure, axis = plt.subplots(figsize=(5.6, 4), constrained_layout=True)
 rms, _, mean, spread, gamma, _, force, law = map(np.array, zip(*table))
 axis.errorbar(rms, mean, spread, fmt="^", ms=5, color="#009e73", capsize=2, label="sphere, energy at zero load, six places")
@@ -81,4 +84,4 @@ axis.plot(rms, gamma, "-", color="#cc79a7", lw=1.2, label="renormalised theory, 
 axis.plot(rms, [float(t[0]["theory.persson.gamma_eff_ratio"]) for t in points.values()], ":", color="0.3", label="paper's theory, flat")
 axis.set(xlabel="rms roughness, Å", ylabel="$γ$ / Δγ by JKR", xlim=(-0.2, 9.3), ylim=(-0.02, 1.12))
 axis.legend(fontsize=7.5)
-figure.savefig(GALLERY / "fig5-readings.svg", metadata={"Date": None})
+figure.savefig(GALLERY / "fig5-gamma-force.svg", metadata={"Date": None})

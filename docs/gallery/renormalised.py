@@ -6,6 +6,7 @@ Reads docs/data/renormalised.csv (512 sites, the paper's roughnesses) and parame
 theory-renormalised.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
 import csv
 import pathlib
+import sys
 
 import matplotlib
 
@@ -14,8 +15,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 GALLERY = pathlib.Path(__file__).resolve().parent
-matplotlib.rcParams.update({"svg.hashsalt": "asperity", "font.size": 9, "axes.linewidth": 0.7, "legend.frameon": False,
-                            "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True})
+sys.path.insert(0, str(GALLERY.parents[1] / "python"))
+from asperity.plots.style import RC  # noqa: E402
+
+matplotlib.rcParams.update(RC)
 SIMULATED, PAPER, RENORMALISED = "#009e73", "#4d4d4d", "#cc79a7"
 
 

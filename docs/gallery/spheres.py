@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Force against height of rough spheres without time, beside Maugis-Dugdale with the renormalised law, of
-scenes/paper/small/fig5-quasistatic.toml, and the table of its readings (mean ± standard deviation of the surfaces):
+"""Force against height of rough spheres on quasi-static paths, beside Maugis-Dugdale with the renormalised law, of
+scenes/paper/small/fig5-quasistatic.toml, and the table of its values of γ (mean ± standard deviation of the surfaces):
 PYTHONPATH=python python3 docs/gallery/spheres.py SWEEP_DIRECTORY PICTURE.svg TABLE.csv"""
 import csv
 import sys
@@ -45,7 +45,7 @@ with style():
     figure.savefig(picture, metadata={"Date": None})
 
 
-def reading(values, digits):
+def shown(values, digits):
     deviation = f" ± {np.std(values, ddof=1):.{digits}f}" if np.ptp(values) else ""  # a smooth sphere has no seeds
     return f"{np.mean(values):.{digits}f}{deviation}"
 
@@ -60,5 +60,5 @@ with open(table, "w") as file:
         ratios = [columns[f"jkr.{name}_ratio"][here] for name in ("approach", "pull_off", "relaxed")]
         area = runs[0].key("surface.sites")**2 * runs[0].key("surface.spacing")**2 / 1000  # meV/Å² to eV
         lost = [area * columns[f"lost.{name}"][here] for name in ("approach", "pull_off")]
-        rows.writerow([f"{rms:g}", *(reading(values, 3) for values in ratios), reading(100 * (ratios[1] / ratios[0] - 1), 1),
-                       *(reading(values, 0) for values in lost)])
+        rows.writerow([f"{rms:g}", *(shown(values, 3) for values in ratios), shown(100 * (ratios[1] / ratios[0] - 1), 1),
+                       *(shown(values, 0) for values in lost)])

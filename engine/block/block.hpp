@@ -18,7 +18,8 @@
 //                  the level above; drift of u in place, row after row behind the forces
 //   exchange()     halos of u
 //
-// Each node's arithmetic is the same whatever tile or thread does it, so states are the same bits.
+// Each node's arithmetic is the same whatever tile or thread does it, so states are bitwise
+// identical.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -155,7 +156,7 @@ public:
     /// out[level].
     void forces(std::vector<VectorField<double>>& out);
 
-    // Global values: collective, the same bits on every rank.
+    // Global values: collective, bitwise identical on every rank.
     /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å, as left by
     /// the last advance() or forces().
     void add_top_force(ExactSum& sum) const;

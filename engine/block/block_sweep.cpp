@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The passes over a block's planes: forces, and a step in time.
+// The passes over a block's planes: forces, and a time step.
 #include "engine/block/block.hpp"
 
 #include <omp.h>

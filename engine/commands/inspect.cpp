@@ -130,20 +130,22 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
                scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
                c.levels.size() == 1 ? "" : "s");
-    if (c.effects.observation)
-        fmt::print("  time step {:.4g} fs, stable up to {:.4g} fs\n", scene.drive.timestep,
-                   c.longest_timestep);
+    if (c.in_time)
+        fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", scene.drive.timestep,
+                   usable_timestep(c.longest_timestep));
     for (const std::string& note : notes)
         fmt::print("  note: {}\n", note);
     return io::exit_code::done;
 }
 
 int plan_command(const Case& c, const Communicator& world) {
-    examine(c, world);
+    const std::vector<std::string> notes = examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root([&] {
         const int threads = std::max(1, cores / c.ranks);
         print_plan(stdout, c, threads, make_plan(c, threads));
+        for (const std::string& note : notes)
+            fmt::print("note: {}\n", note);
     });
     return io::exit_code::done;
 }

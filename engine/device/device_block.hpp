@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A block and its interface in the memory of a device: fields and tables, and the step in time
+// A block and its interface in the memory of a device: fields and tables, and the time step
 // (kernels/device/device.hpp). The host's block keeps the same shape; upload() and download() are
 // the only ways between the two. The bits are those of the host's step.
 //
@@ -67,7 +67,7 @@ public:
     void upload(const Block& block);
     void download(Block& block) const;
 
-    /// One step in time, halos included. block: whose constants, ranks and top plane these are;
+    /// One time step, halos included. block: whose constants, ranks and top plane these are;
     /// noise: in a scene with a temperature.
     DeviceSums step(const Block& block, double reference_height, const StepParameters& step,
                     const std::optional<ThermalNoise>& noise);

@@ -38,7 +38,7 @@ VelocityProfile VelocityProfile::over(double distance, double from, double veloc
 
 Drive::Drive(const DriveOptions& options) : options_(options) {
     if (options_.path.empty()) return;
-    // A path that goes down from out of reach does so from the first step on.
+    // A path that goes down from beyond the interaction range does so from the first step on.
     const Segment& first = options_.path.front();
     const bool down = first.kind == Segment::approach || first.kind == Segment::load;
     if (down) normal_ = {-options_.velocity, -options_.velocity, HUGE_VAL};

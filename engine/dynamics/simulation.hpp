@@ -38,7 +38,7 @@ struct SimulationOptions {
     DeviceChoice device;       ///< that takes the steps; none: the processor
 };
 
-/// Global values of one step, the same bits on every rank. Energies in eV.
+/// Global values of one step, bitwise identical on every rank. Energies in eV.
 struct StepRecord {
     long long step = 0;
     double time = 0.0;        ///< fs

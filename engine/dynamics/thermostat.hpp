@@ -13,8 +13,8 @@
 //                              noise of the present step, half of which they would have.
 //
 // xi is drawn from a counter-based generator keyed by seed, step and node
-// (kernels/thermal_noise.hpp): the same bits on any number of ranks and threads, and on a device. A
-// scene at T = 0 has no thermostat object at all.
+// (kernels/thermal_noise.hpp): bitwise identical on any number of ranks and threads, and on a
+// device. A scene at T = 0 has no thermostat object at all.
 #pragma once
 
 #include "engine/block/block.hpp"

@@ -14,7 +14,7 @@
 //
 //     m <- step_size (target - u) + keep m,      |m| at most bound.
 //
-// While contact spreads, some site snaps into contact in nearly every iteration. A common momentum,
+// While contact spreads, some site jumps into contact in nearly every iteration. A common momentum,
 // set to zero whenever the energy rises, would always be near zero; so each site has its own. Where
 // the target lies behind the last move, the site has gone too far: its momentum is set to zero and
 // its step size is cut, which elsewhere recovers slowly. So the step sizes of sites with stiff

@@ -45,20 +45,21 @@ struct ZeroLoad {
     }
 };
 
-/// Energies of an approach or a pull-off that has ended, meV/Å^2, from or to rest out of reach.
-/// Works are positive where the solids attract: taken up on the way in, given on the way out.
+/// Energies of an approach or a pull-off that has ended, meV/Å^2, from or to rest beyond the
+/// interaction range. Works are positive where the solids attract: taken up on the way in, given on
+/// the way out.
 struct WayEnergies {
     /// Of the interface's force on the mean height of the lowest layer, int F dz / A0. Empty at a
-    /// held top without time, where the mean height jumps at instabilities.
+    /// controlled top on quasi-static paths, where the mean height jumps at instabilities.
     std::optional<double> interface_work;
-    /// Of what drives or holds the block: the top plane (in time with the medium that damps, which
-    /// moves along), or the holder of the mean height.
+    /// Of what drives or holds the block: the top plane (on dynamic paths with the medium that
+    /// damps, which moves along), or the holder of the mean height.
     std::optional<double> drive_work;
     std::optional<double> lost; ///< damped or dissipated; empty with a thermostat
-    /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
-    /// at zero load (empty where that is not known), or about the solids at rest apart.
+    /// What still moves at the end of a dynamic path at T = 0: kinetic energy and vibrations about
+    /// the state at zero load (empty where that is not known), or about the solids at rest apart.
     std::optional<double> kinetic;
-    std::optional<double> uncertainty; ///< of each of these; without time only
+    std::optional<double> uncertainty; ///< of each of these; quasi-static paths only
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -78,7 +79,7 @@ struct SegmentResults {
     double work = 0.0;
     std::optional<double> interface_work; ///< int F dz / A0, meV/Å^2; empty as above
     double lost = 0.0;                    ///< damped or dissipated, meV/Å^2
-    std::optional<double> uncertainty;    ///< of work and lost; without time only, meV/Å^2
+    std::optional<double> uncertainty;    ///< of work and lost; quasi-static paths only, meV/Å^2
     double attraction = 0.0;              ///< the largest, eV/Å
     std::optional<double> lateral_mean;   ///< force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most;   ///< the largest of it, eV/Å
@@ -106,13 +107,13 @@ struct SegmentResults {
 };
 
 struct PathResults {
-    std::optional<ZeroLoad> zero_load;     ///< of the last approach, or of the path's start
-    WayEnergies approach, pull_off;        ///< the last of each
-    std::optional<double> lost_in_cycle;   ///< from out of reach to out of reach, meV/Å^2
-    double attraction_in = 0.0;            ///< largest attraction of the last approach, eV/Å
-    double attraction_out = 0.0;           ///< of the last pull-off
-    double strongest = 0.0;                ///< of the path so far
-    std::optional<double> contact_made;    ///< when the last approach ended, fs
+    std::optional<ZeroLoad> zero_load;   ///< of the last approach, or of the path's start
+    WayEnergies approach, pull_off;      ///< the last of each
+    std::optional<double> lost_in_cycle; ///< from and to rest beyond the interaction range, meV/Å^2
+    double attraction_in = 0.0;          ///< largest attraction of the last approach, eV/Å
+    double attraction_out = 0.0;         ///< of the last pull-off
+    double strongest = 0.0;              ///< of the path so far
+    std::optional<double> contact_made;  ///< when the last approach ended, fs
     std::optional<Dissipation> dissipated; ///< of a quasi-static path (which lists it itself)
     std::vector<SegmentResults> segments;  ///< those that have ended
     // Of the segment under way, eV/Å:

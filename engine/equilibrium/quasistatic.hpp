@@ -89,7 +89,7 @@ public:
     /// pull.
     Outcome advance();
 
-    /// The last point. Without time: step counts points, damped is what was dissipated.
+    /// The last point. On quasi-static paths: step counts points, damped is what was dissipated.
     const StepRecord& now() const { return record_; }
     /// Work that was done on the block in the segment under way, eV. At a held mean height it is
     /// minus that of the interface's force, for the mean height does not jump.

@@ -3,7 +3,7 @@
 //
 // The relaxed state of a contact: the spectral block over its substrate, without inertia.
 //
-// Over atoms there are two stages. While contact spreads, sites snap into contact one after the
+// Over atoms there are two stages. While contact spreads, sites jump into contact one after the
 // other, and the energy is far from quadratic. However well a step is chosen, it is good for some
 // tenths of an angstrom only, the range of an attraction; so steps must be cheap. Every site is a
 // heavy ball of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component,
@@ -131,7 +131,7 @@ struct RelaxedState {
     double mean_height = 0.0; ///< of the lowest layer above the reference height, Å
     long long in_contact = 0; ///< sites
     long long repulsive = 0;  ///< sites
-    double closest = 0.0;     ///< smallest pair distance, Å; infinite out of reach
+    double closest = 0.0;     ///< smallest pair distance, Å; infinite beyond the interaction range
 };
 
 /// Below this no residual force can be brought, about, where sites stand as high as this over the

@@ -75,7 +75,7 @@ double WallMinimiser::conclude() {
         for (int x = 0; x < g.nx; ++x)
             largest = std::max(largest, std::abs(g(x, y)));
     largest = block_.communicator().max(largest);
-    // What the steps do not show: forces of single precision, or sites that still snap.
+    // What the steps do not show: forces of single precision, or sites that still jump.
     single_ = false;
     doubt_ *= largest > options_.tolerance ? 0.5 : 1.0;
     return largest;

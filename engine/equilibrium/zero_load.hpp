@@ -39,8 +39,8 @@ struct LayerAtRest {
 /// The state at zero load below a block in motion. At rest the displacements of its lowest layer
 /// are all that the state depends on (spectral_block.hpp): they go from the ranks' tiles to slabs
 /// of rows, where all ranks relax them, and back. place: of the block over the substrate, Å. The
-/// state is the same bits on any number of ranks. Collective. Without numbers, and without a layer,
-/// if stop asked for an end.
+/// state is bitwise identical on any number of ranks. Collective. Without numbers, and without a
+/// layer, if stop asked for an end.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop,
                           const std::array<double, 2>& place);

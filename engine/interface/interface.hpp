@@ -37,7 +37,7 @@ namespace asperity {
 /// Contacts over all tiles.
 struct ContactCount {
     long long in_contact = 0, repulsive = 0; ///< sites
-    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
+    double closest = 0.0; ///< smallest pair distance, Å; infinite beyond the interaction range
 };
 /// From the sums of this rank's tile. Collective.
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);

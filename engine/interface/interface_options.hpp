@@ -28,7 +28,8 @@ struct InterfaceOptions {
     bool rough_too = false; ///< sweeps may be asked for with SweepOptions::rough
     bool slides = false;    ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
-    bool skip = true; ///< false: visit all offsets or atoms everywhere (same bits; for tests)
+    bool skip =
+        true; ///< false: visit all offsets or atoms everywhere (bitwise identical; for tests)
 
     PairTable pairs() const {
         if (by_type.empty()) return potential;

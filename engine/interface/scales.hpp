@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The natural scales of a scene (engine/setup/scales.cpp finds them). Steps, thresholds and
-// tolerances of relaxations and of paths without time are fractions of these, so that scenes which
+// tolerances of relaxations and of quasi-static paths are fractions of these, so that scenes which
 // differ in the unit of length or of energy alone are solved in the same way.
 #pragma once
 

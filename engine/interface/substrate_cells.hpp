@@ -26,7 +26,7 @@ struct CellOptions {
     double spacing = 2.6;                  ///< of the sites, Å
     std::vector<double> cutoffs = {13.12}; ///< [type], Å, largest_cell_cutoff at most
     double margin = 5.2;                   ///< sideways displacement that the lists allow for, Å
-    bool skip = true; ///< false: no block of sites is passed over (same bits; for tests)
+    bool skip = true; ///< false: no block of sites is passed over (bitwise identical; for tests)
 };
 
 class SubstrateCells {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A path in time as its scene's drive takes it: where it starts, what the drive is told after each
+// A dynamic path as its scene's drive takes it: where it starts, what the drive is told after each
 // step, and the works of a segment that has ended. It steps nothing and writes nothing: a run does
 // that (dynamic_run.cpp), or a script with a loop of its own (time_path.hpp).
 //
@@ -77,8 +77,8 @@ private:
     };
     std::optional<std::size_t> tell_drive(const StepRecord& now);
     Account account() const;
-    /// The same, if the block were brought to rest and out of reach from there as a rigid body:
-    /// bound, moving: its energies, eV.
+    /// The same, if the block were brought to rest and beyond the interaction range from there as a
+    /// rigid body: bound, moving: its energies, eV.
     static Account at_rest_apart(Account account, double bound, double moving);
     double kinetic_as_top(double time) const;
 

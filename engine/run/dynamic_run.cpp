@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The parts of the path one after the other in time: steps until the drive has come to its end;
+// The parts of the path one after the other, dynamic: steps until the drive has come to its end;
 // when the approach has ended, a copy of the block's lowest layer is relaxed under zero load.
 #include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"
@@ -10,6 +10,7 @@
 #include "engine/run/guard.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
+#include "engine/run/summary.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -252,7 +253,7 @@ private:
 
     io::Progress::State progress_state(const StepRecord& now) const {
         const Drive& drive = simulation_.drive();
-        return {fmt::format("{}, F = {} eV/Å", drive.now().text, io::number(now.force, 1)),
+        return {progress_phase(case_, drive.now().text, now.force, now.in_contact, now.mean_height),
                 simulation_.steps(), now.time,
                 run_.way_done(drive.segment(), now.top, simulation_.reference_height())};
     }

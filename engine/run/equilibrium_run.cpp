@@ -10,6 +10,7 @@
 #include "engine/run/ledger.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
+#include "engine/run/summary.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -122,7 +123,8 @@ private:
 
     /// Of the last point; its steps are iterations.
     io::Progress::State path_progress() const {
-        return {fmt::format("{}, F = {} eV/Å", now().text, io::number(path_.now().force, 1)),
+        const auto& at = path_.now();
+        return {progress_phase(case_, now().text, at.force, at.in_contact, at.mean_height),
                 path_.iterations(), 0.0,
                 run_.way_done(segment_, path_.now().top, interface_.start_height())};
     }
@@ -133,7 +135,7 @@ private:
         if (kind == Segment::approach) {
             require_load_reached(case_.simulation.drive.load_force, run_.results.attraction_in,
                                  path_.slack(), case_.area());
-            path_.put_back(); // as after a resume, to the same bits
+            path_.put_back(); // as after a resume, with bitwise identical results
             const bool found = find_state(0.0);
             path_.put_back();
             if (!found) return stop_at_last_point();

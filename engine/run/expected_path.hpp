@@ -15,7 +15,7 @@ struct ExpectedPath {
     /// Of each segment, Å: how far the top plane moves, or the block over the substrate.
     std::vector<double> ways;
     double deepest = 0.0; ///< below the start, Å
-    double time = 0.0;    ///< of a path in time, fs
+    double time = 0.0;    ///< of a dynamic path, fs
 };
 /// start: height of the lowest layer at the start, Å.
 ExpectedPath expected_path(const Case& c, double start);

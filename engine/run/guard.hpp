@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What no path goes on from, in time or without.
+// What no path goes on from, dynamic or quasi-static.
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
@@ -25,7 +25,7 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
 /// "site (3, 7) moves at 1e+05 m/s": that of the lowest layer with the largest velocity, which may
 /// be infinite or no number. Collective.
 std::string fastest_site(const Simulation& simulation);
-/// Of a step in time at which something was wrong; where: its fastest_site(); kept: what is left to
+/// Of a time step at which something was wrong; where: its fastest_site(); kept: what is left to
 /// go on from.
 io::PhysicsError step_failed(const std::string& wrong, const std::string& where, const Case& c,
                              const std::string& kept);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Works and losses of a path, in time or without: those of each segment, and of approach and
-// pull-off from rest out of reach to rest out of reach.
+// Works and losses of a path, dynamic or quasi-static: those of each segment, and of approach and
+// pull-off from and to rest beyond the interaction range.
 //
 //     -(work on the solids, approach) + lost + kinetic = binding energy
 //       = work on the solids, pull-off - lost - kinetic there + kinetic after the approach
@@ -25,9 +25,10 @@ struct Works {
     double on_solids = 0.0; ///< done on the block by what drives or holds it
     double lateral = 0.0;   ///< of this, by what moves it sideways
     double lost = 0.0;      ///< damped less the heat of a thermostat, or dissipated
-    /// int F dz of the mean height; empty at a held top without time, where it jumps.
+    /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where it
+    /// jumps.
     std::optional<double> interface;
-    std::optional<double> uncertainty; ///< of on_solids and lost; without time only
+    std::optional<double> uncertainty; ///< of on_solids and lost; quasi-static paths only
 
     Works& operator+=(const Works& more);
 

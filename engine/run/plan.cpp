@@ -39,6 +39,8 @@ std::string memory_text(double bytes) {
                        : fmt::format("{:.3g} GB", bytes / 1e9);
 }
 
+constexpr double one_day = 86400.0; ///< s
+
 /// Of growing width; the last is the largest that there is time for.
 std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double atoms) {
     // The box of a piece is twice the cutoff at least.
@@ -137,7 +139,7 @@ Plan make_plan(const Case& c, int threads) {
         plan.steps = std::llround(expected_path(c, plan.start).time / c.simulation.dt);
         if (const long long most = c.scene.drive.max_steps; most > 0)
             plan.steps = std::min(plan.steps, most);
-        // An approach and a pull-off are half of their way out of reach.
+        // An approach and a pull-off are half of their way beyond the interaction range.
         const double far = c.guided() ? 0.0 : 0.5;
         plan.moving = share * static_cast<double>(plan.steps) * nodes_of(c.levels) / piece.nodes *
                       (far * piece.far_step + (1.0 - far) * piece.near_step);
@@ -211,6 +213,10 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
                "wall time   of idle processors, without messages between machines; measured on "
                "{0} x {0} sites, kernels for {1}\nNothing was run or written.\n",
                plan.sites, name(processor_level()));
+    if (plan.making + plan.moving + plan.rest > one_day)
+        fmt::print(to, "note: the run takes more than a day: fewer sites or layers, a higher "
+                       "velocity, or drive.mode = \"quasistatic\"; `asperity cost` says what each "
+                       "loses\n");
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {

@@ -3,8 +3,8 @@
 //
 // `asperity plan`: what a scene will simulate and what not, and what it will take, before it is
 // run. Memory is that of a piece of the case (rehearsal.hpp) times the ratio of the counts that
-// each part grows with. Steps in time are counted along the path and timed on a piece. States, and
-// paths without time, are timed on pieces of twice as many sites across each, while there is time
+// each part grows with. Time steps are counted along the path and timed on a piece. States, and
+// quasi-static paths, are timed on pieces of twice as many sites across each, while there is time
 // for it, and continued by the power of the width that the last two show.
 #pragma once
 
@@ -20,11 +20,11 @@ struct Plan {
     std::vector<double> bytes_of_rank;        ///< the most that each holds at once
     // Seconds of idle processors, without messages between machines:
     double making = 0.0; ///< surface, tables, block
-    double moving = 0.0; ///< steps in time
-    double rest = 0.0;   ///< states, and paths without time
+    double moving = 0.0; ///< time steps
+    double rest = 0.0;   ///< states, and quasi-static paths
     double factor = 1.0; ///< that the last may be off by, either way
     bool ended = true;   ///< these on a piece; else they take longer
-    long long steps = 0; ///< in time
+    long long steps = 0; ///< of a dynamic path
     double start = 0.0;  ///< height of the lowest layer at the start, Å
     int sites = 0;       ///< across the largest piece
 };

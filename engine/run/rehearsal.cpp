@@ -23,7 +23,7 @@ namespace asperity {
 
 namespace {
 
-/// Layers of a piece in time; of a plain lattice, each takes as much as all coarse levels together.
+/// Layers of a dynamic piece; of a plain lattice, each takes as much as all coarse levels together.
 constexpr int most_layers = 128, most_layers_of_lattice = 48;
 
 /// Of this thread, s: what else runs on the machine does not count.
@@ -100,7 +100,7 @@ Surface stand_in(Case piece, double rms, int atoms) {
     return surface_from_atoms(options, std::move(at));
 }
 
-/// All segments of a path without time, as a run follows them; relax: to the state under a load.
+/// All segments of a quasi-static path, as a run follows them; relax: to the state under a load.
 /// Whether it came to its end.
 bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto& stop) {
     for (std::size_t n = 0; n < c.path.size(); ++n) {

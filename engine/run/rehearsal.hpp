@@ -14,7 +14,7 @@ namespace asperity {
 
 struct Piece {
     /// Of a run. Kept: states of the energy guard, or the points that a path goes back to. Rest:
-    /// relaxations, and paths without time. Maps: while one state's are written.
+    /// relaxations, and quasi-static paths. Maps: while one state's are written.
     enum Part : std::size_t { surface, interface, block, kept, rest, maps, parts };
     std::array<double, parts> bytes{};
     double table = 0.0; ///< bytes of the waves' stiffness, which each rank holds whole
@@ -22,10 +22,11 @@ struct Piece {
     double atoms = 0.0; ///< of the substrate
     double nodes = 0.0; ///< of all levels
     // Seconds of one idle processor:
-    double making = 0.0;                    ///< surface, tables, block
-    double far_step = 0.0, near_step = 0.0; ///< in time, out of reach and in contact
-    double resting = 0.0;                   ///< all states, and paths without time
-    bool ended = true;                      ///< these, within the time for them
+    double making = 0.0; ///< surface, tables, block
+    double far_step = 0.0,
+           near_step = 0.0; ///< of dynamic paths, beyond the interaction range and in contact
+    double resting = 0.0;   ///< all states, and quasi-static paths
+    bool ended = true;      ///< these, within the time for them
 };
 /// On this rank alone. seconds: for states and paths; 0: a few iterations, for the memory alone.
 /// of_file: the surface of a case that reads it from a file, which has so many atoms; without it

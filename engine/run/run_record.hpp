@@ -17,7 +17,7 @@ namespace asperity {
 io::Result scene_result(const Scene& scene);
 /// The same with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
-/// What runs in time and without it have in common: the scene, its surface, its effects, the
+/// What dynamic runs and without it have in common: the scene, its surface, its effects, the
 /// results, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 

@@ -5,8 +5,8 @@
 // (run_storage.hpp) and what is recorded in it (recorder.hpp), checkpoints, reasons to stop
 // (interruptions.hpp), what it has come to (path_results.hpp), and the result.
 //
-// A kind of run has one as a member, and reads from top to bottom in its own file: dynamic_run.cpp
-// in time, equilibrium_run.cpp without.
+// A kind of run has one as a member, and reads from top to bottom in its own file: dynamic_run.cpp,
+// equilibrium_run.cpp.
 //
 //     RunSession run(c, options, ranks);
 //     return run.carry_out(bytes, [&] { ... the run ... }, add_to);

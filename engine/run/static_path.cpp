@@ -31,7 +31,7 @@ const char* name(Constraint::Of held) {
     return held == Constraint::Of::top ? "the top plane" : "the mean height";
 }
 
-/// The same solids without time.
+/// The same solids on a quasi-static path.
 Case without_time(const Case& c) {
     if (c.ranks != 1)
         refuse("Statics", fmt::format("on {} ranks", c.ranks),

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A scene without time in a loop of the caller's own (asperity.Statics of Python): its solids in
+// A quasi-static scene in a loop of the caller's own (asperity.Statics of Python): its solids in
 // force balance, where they are led. What is found depends on the way there, as on a path of a run;
-// what is lost on it is counted. It starts out of reach.
+// what is lost on it is counted. It starts beyond the interaction range.
 //
 // The mean height is held, or the top plane; the first one that is set decides, or a load, which
-// then holds what drive.control says. Of a scene in time the same solids are taken, as if
+// then holds what drive.control says. Of a dynamic scene the same solids are taken, as if
 // drive.mode were "quasistatic".
 #pragma once
 
@@ -34,8 +34,8 @@ public:
     void set_load(const std::string& pressure); ///< "100 MPa"
 
     /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
-    /// step (points) count from where the path began: out of reach, or the last restore() or
-    /// release().
+    /// step (points) count from where the path began: beyond the interaction range, or the last
+    /// restore() or release().
     struct Point : StepRecord {
         long long instabilities = 0;
         double contact_fraction = 0.0, repulsive_fraction = 0.0;
@@ -49,9 +49,9 @@ public:
     InterfaceMaps maps() const;
 
     /// The state that the sites come to from where they are with nothing held but drive.load; from
-    /// out of reach the one that the segment "relax" of a run leads to. The next relax() begins
-    /// a new path there. Where none is found (io::PhysicsError), or look
-    /// throws, the sites stay where they were.
+    /// beyond the interaction range the one that the segment "relax" of a run leads to. The next
+    /// relax() begins a new path there. Where none is found (io::PhysicsError), or look throws, the
+    /// sites stay where they were.
     RestState release(const Look& look);
 
     /// All that a state depends on.
@@ -83,7 +83,7 @@ private:
     std::optional<Held> held_;
     /// Of the block as it is; none: it has not begun, or is to begin anew.
     std::optional<QuasistaticPath> path_;
-    bool placed_ = false; ///< it begins where the block is, not out of reach
+    bool placed_ = false; ///< it begins where the block is, not beyond the interaction range
     Point before_;        ///< the last of the path before
     struct Goal {
         std::optional<double> at{}, load{}; ///< Å, eV/Å

@@ -51,12 +51,20 @@ struct Numbers {
 
 std::string number(Number value, int digits) { return value ? io::number(*value, digits) : "-"; }
 
-/// With the unit behind it, as people print it.
+/// With the unit behind it, as people print it; of energies over an area both units of energies().
 std::string named(const std::string& name, io::Key key) {
     std::string unit(io::unit_of(key));
     if (unit == "1") return name;
+    if (unit == "meV/Å^2") return name + ", meV/Å² (mJ/m²)";
     if (const std::size_t at = unit.find("^2"); at != std::string::npos) unit.replace(at, 2, "²");
     return name + ", " + unit;
+}
+
+/// "55.60 (891)": meV/Å² and mJ/m².
+std::string energies(Number value, int digits = 2) {
+    if (!value) return "-";
+    return fmt::format("{} ({})", io::number(*value, digits),
+                       io::cell(*value * units::millijoule_per_square_metre, 3));
 }
 
 /// Works and losses of a whole path.
@@ -96,12 +104,11 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                    c.in_time ? "energy lost + energy that still moves" : "energy lost there",
                    c.in_time ? "" : " =\n  work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.in_time)
-        fmt::print(to,
-                   "  The work of the interface is that of its force on the mean height of the "
-                   "surface: a block that snaps\n  as a whole changes nothing of it, patches that "
-                   "snap on their own do.\n");
+        fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
+                       "surface: a jump of the\n  whole block does not change it, jumps of single "
+                       "patches do.\n");
     if (!hardly && scene.drive.control == Control::top)
-        fmt::print(to, "  A thick block is a soft spring and snaps as a whole; a thinner one "
+        fmt::print(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
 }
 
@@ -142,6 +149,14 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
 
 } // namespace
 
+std::string progress_phase(const Case& c, const std::string& segment, double force,
+                           long long in_contact, double mean_height) {
+    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
+    return fmt::format("{}, {} MPa, contact {:.3f}, height {} Å", segment,
+                       io::number(force / (c.area() * units::megapascal), 1),
+                       static_cast<double>(in_contact) / sites, io::number(mean_height, 2));
+}
+
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory) {
     const Scene& scene = c.scene;
@@ -156,7 +171,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
                io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
-               "  interface   {}flat on flat {} meV/Å² at {} Å with a reach of {} Å, "
+               "  interface   {}flat on flat {} meV/Å² at {} Å and a range of {} Å, "
                "in {} precision\n",
                interface.wall ? "a wall, " : "", io::number(c.flat.work_of_adhesion, 2),
                io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
@@ -188,53 +203,59 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const bool loaded = c.has(Segment::relax) && scene.drive.load != 0.0;
     const std::string at =
         loaded ? fmt::format("under {:.6g} MPa", scene.drive.load) : std::string("at zero load");
-    io::Table table({"", "approach", "pull-off", "state " + at});
-    const auto row = [&](const std::string& name, io::Key unit, int digits, Number approach,
-                         Number pull_off, Number state) {
-        table.row({named(name, unit), number(approach, digits), number(pull_off, digits),
-                   number(state, digits)});
-    };
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
                  interface_in = of("work_of_interface.approach"),
                  interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
-    const auto ratio = [&](Number v) { return v && flat != 0.0 ? Number(*v / flat) : Number(); };
     const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
-    const auto over_flat = [&](Number in, Number out, Number of_state) {
-        table.row({fmt::format("  over {} ({})", anywhere ? "one flat layer" : "flat on flat",
-                               io::number(flat, 2)),
-                   number(ratio(in), 4), number(ratio(out), 4), number(ratio(of_state), 4)});
+    const std::string flat_text =
+        fmt::format("  over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
+    const auto over_flat = [&](Number v) {
+        return number(v && flat != 0.0 ? Number(*v / flat) : Number(), 4);
     };
-    row("binding energy", "binding_energy", 2, {}, {}, state);
-    over_flat({}, {}, state);
-    if (interface_in || interface_out) {
-        row("work of the interface", "work_of_interface.approach", 2, interface_in, interface_out,
-            {});
-        over_flat(interface_in, interface_out, {});
-    }
-    if (drive_in || drive_out) {
-        row("work of the drive", "work_of_drive.approach", 2, drive_in, drive_out, {});
-        over_flat(drive_in, drive_out, {});
-    }
-    const Number lost_in = of("lost.approach"), lost_out = of("lost.pull_off");
-    if (lost_in || lost_out) row("energy lost", "lost.approach", 2, lost_in, lost_out, {});
-    const Number moves_in = of("kinetic.approach"), moves_out = of("kinetic.pull_off");
-    if (moves_in || moves_out)
-        row("energy that still moves", "kinetic.approach", 2, moves_in, moves_out, {});
     const auto plus_minus = [](Number v) { return v ? fmt::format("{:.1e}", *v) : "-"; };
-    if (state || drive_in)
-        table.row({named("convergence of the above", "binding_energy_uncertainty"),
-                   plus_minus(of("work_of_drive.uncertainty.approach")),
-                   plus_minus(of("work_of_drive.uncertainty.pull_off")),
-                   plus_minus(of("binding_energy_uncertainty"))});
-    row("largest attraction", "pull_off_force", 1, of("approach_force"), of("pull_off_force"), {});
-    if (scene.surface.radius)
-        row("  as a JKR sphere", "jkr.approach", 2, of("jkr.approach"), of("jkr.pull_off"), {});
-    row("contact area fraction", "contact_fraction", 4, {}, {}, of("contact_fraction"));
-    row("repulsive sites, fraction", "repulsive_fraction", 4, {}, {}, of("repulsive_fraction"));
-    row("elastic energy stored", "relaxed.elastic_energy", 2, {}, {}, of("relaxed.elastic_energy"));
-    row("energy of the pairs alone", "pair_binding_energy", 2, {}, {}, of("pair_binding_energy"));
-    fmt::print(to, "\n");
-    table.print(to);
+
+    if (state) {
+        io::Table table({"state " + at, ""});
+        const auto row = [&](const std::string& name, io::Key key, const std::string& value) {
+            table.row({named(name, key), value});
+        };
+        row("binding energy", "binding_energy", energies(state));
+        table.row({flat_text, over_flat(state)});
+        table.row({"  convergence, meV/Å²", plus_minus(of("binding_energy_uncertainty"))});
+        row("energy of the pairs alone", "pair_binding_energy",
+            energies(of("pair_binding_energy")));
+        row("elastic energy stored", "relaxed.elastic_energy",
+            energies(of("relaxed.elastic_energy")));
+        row("contact fraction", "contact_fraction", number(of("contact_fraction"), 4));
+        row("repulsive sites, fraction", "repulsive_fraction", number(of("repulsive_fraction"), 4));
+        fmt::print(to, "\n");
+        table.print(to);
+    }
+    if (drive_in || drive_out || of("approach_force")) {
+        io::Table table({"path", "approach", "pull-off"});
+        const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
+            if (in || out) table.row({named(name, key), energies(in), energies(out)});
+        };
+        const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
+            row(name, key, in, out);
+            if (in || out) table.row({flat_text, over_flat(in), over_flat(out)});
+        };
+        work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
+        work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
+        row("energy lost", "lost.approach", of("lost.approach"), of("lost.pull_off"));
+        row("energy that still moves", "kinetic.approach", of("kinetic.approach"),
+            of("kinetic.pull_off"));
+        if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
+            table.row({"convergence of the above, meV/Å²",
+                       plus_minus(of("work_of_drive.uncertainty.approach")),
+                       plus_minus(of("work_of_drive.uncertainty.pull_off"))});
+        table.row({named("largest attraction", "pull_off_force"), number(of("approach_force"), 1),
+                   number(of("pull_off_force"), 1)});
+        if (scene.surface.radius)
+            row("  as a JKR sphere", "jkr.approach", of("jkr.approach"), of("jkr.pull_off"));
+        fmt::print(to, "\n");
+        table.print(to);
+    }
     if (c.guided()) print_segments(to, c, results);
     fmt::print(to, "\nHow to read it\n");
     if (state)

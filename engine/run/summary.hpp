@@ -17,6 +17,11 @@ namespace asperity {
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory);
 
+/// What a run does, for its progress: "approach, -12.3 MPa, contact 0.012, height 3.11 Å". In
+/// contact: sites.
+std::string progress_phase(const Case& c, const std::string& segment, double force,
+                           long long in_contact, double mean_height);
+
 /// The numbers of result.json side by side, and how to read them. states: where all were asked for.
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const PathResults& results, const std::string& directory);

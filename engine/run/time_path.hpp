@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A scene's path in time in a loop of the caller's own (asperity.Simulation of Python): it is
-// stepped, observed, led by hand, pushed and saved. It starts and turns as a run has it, to the
-// same bits (driven_path.hpp).
+// A scene's dynamic path in a loop of the caller's own (asperity.Simulation of Python): it is
+// stepped, observed, led by hand, pushed and saved. It starts and turns as a run has it, with
+// bitwise identical results (driven_path.hpp).
 //
 // All ranks of the communicator make the same calls with the same arguments, but for what is
 // written to the sites of their own tiles.
@@ -66,9 +66,9 @@ private:
 
 class TimePath : public std::enable_shared_from_this<TimePath> {
 public:
-    /// At its start. Throws io::SceneError for a scene without time, or that a run would refuse.
+    /// At its start. Throws io::SceneError for a quasi-static scene, or that a run would refuse.
     TimePath(Case c, SceneText source, const Communicator& ranks);
-    /// Of a file of save(): it goes on to the same bits.
+    /// Of a file of save(): it goes on with bitwise identical results.
     static std::shared_ptr<TimePath> resume(const std::string& file, const Communicator& ranks);
 
     /// n steps, or fewer: none are made past the end of the path. Returns how many were. The last

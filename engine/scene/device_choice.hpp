@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-/// What makes the steps of a path in time (numerics.device).
+/// What makes the steps of a dynamic path (numerics.device).
 struct DeviceChoice {
     enum class Kind {
         none,      ///< the processor

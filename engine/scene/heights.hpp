@@ -11,7 +11,7 @@
 namespace asperity::heights {
 
 /// Two-dimensional complex transform in place, FFTW's sign and no scaling. Planned by estimate and
-/// on one thread, so that every rank gets the same bits. Throws std::runtime_error.
+/// on one thread, so that every rank gets a bitwise identical result. Throws std::runtime_error.
 void transform(std::vector<std::complex<double>>& data, int nx, int ny, int sign);
 
 double rms_of(const std::vector<double>& h);

@@ -120,7 +120,8 @@ io::Schema bind(Scene& scene) {
     schema.choice<Amplitudes>("amplitudes", surface.amplitudes,
                               {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
                               "random amplitudes and phases, or random phases alone");
-    schema.integer("seed", surface.seed, at_least(0), "of the surface: same seed, same bits");
+    schema.integer("seed", surface.seed, at_least(0),
+                   "of the surface: same seed, bitwise identical surface");
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
     schema.key(
         "file", surface.file,
@@ -153,10 +154,11 @@ io::Schema bind(Scene& scene) {
     schema.choice<BlockModel>(
         "model", block.model,
         {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
-        "on a path in time: every atom, or coarser with depth; without time the block is the waves "
+        "on a dynamic path: every atom, or coarser with depth; on a quasi-static path the block is "
+        "the waves "
         "of its lattice");
     schema.removed({"block.model", "spectral",
-                    "a path without time is always one of waves, and a path in time never",
+                    "a quasi-static path is always one of waves, and a dynamic path never",
                     "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
                     "[\"relax\"]"});
     schema.number("young", block.young, "GPa", io::Range{0.0, 1e6, true, false},
@@ -182,8 +184,8 @@ io::Schema bind(Scene& scene) {
     schema.choice<InterfaceKind>("kind", interface.kind,
                                  {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
                                  "pairs of atoms, or a wall: a law of the gap below each site, "
-                                 "without lateral forces (paths "
-                                 "without time)");
+                                 "without lateral forces (quasi-static "
+                                 "paths)");
     std::vector<std::pair<std::string, int>> names;
     each_potential(interface.potentials,
                    [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
@@ -210,7 +212,7 @@ io::Schema bind(Scene& scene) {
         "type");
     schema.key("tail", interface.tail, "continuum correction beyond the cutoff");
     schema.key("frictionless", interface.frictionless,
-               "paths without time: no lateral tractions, normal displacements only");
+               "quasi-static paths: no lateral tractions, normal displacements only");
     schema.choice<WallLawKind>(
         "law", interface.law,
         {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
@@ -328,7 +330,7 @@ io::Schema bind(Scene& scene) {
     schema
         .choice<DeviceChoice>(
             "device", numerics.device, devices,
-            "that takes the steps in time: a CUDA device by its number (further ranks of "
+            "that takes the time steps: a CUDA device by its number (further ranks of "
             "a machine take the next ones in turn); \"auto\": one if there is one; "
             "\"emulated\": on the processor, for tests")
         .numerals = true;

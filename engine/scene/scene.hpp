@@ -29,7 +29,8 @@ enum class Detrend { none, plane, periodic };
 enum class MapMissing { refuse, fill };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
-/// How the block is resolved on a path in time. Without time it is the waves of the lattice.
+/// How the block is resolved on a dynamic path. On quasi-static paths it is the waves of the
+/// lattice.
 enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };

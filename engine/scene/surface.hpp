@@ -5,9 +5,9 @@
 // request. Or its atoms, at positions of their own, and the map of the topmost ones.
 //
 // A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude
-// and phase from a counter-based generator keyed by seed and wavevector, so the same seed gives the
-// same bits on every rank, and the same large-scale shape when the grid grows. Every rank makes the
-// whole map: it is one plane, small beside the block.
+// and phase from a counter-based generator keyed by seed and wavevector, so the same seed gives
+// bitwise identical heights on every rank, and the same large-scale shape when the grid grows.
+// Every rank makes the whole map: it is one plane, small beside the block.
 //
 // Conventions (Persson): h_rms^2 = 2 pi int q C(q) dq; on the grid C(q) = |h_q|^2 (L / 2 pi)^2 with
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.

@@ -42,7 +42,7 @@ struct MapTimes {
 struct Case {
     Scene scene;         ///< that it was made of
     int ranks = 1;       ///< that it is for
-    bool in_time = true; ///< the path is followed in time; else equilibria only
+    bool in_time = true; ///< a dynamic path; else equilibria only
     std::string file;    ///< of the map or the atoms, where it was found; empty: the scene has none
     std::vector<Segment> path; ///< its segments; never empty where the scene is right
     MapTimes maps;
@@ -62,8 +62,9 @@ struct Case {
     /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
     /// too large; 1 where the spacing resolves what attracts beside the edge.
     double edge_pinning = 1.0;
-    double longest_step = HUGE_VAL; ///< of a path without time, Å: half the potential's width
-    double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs
+    double longest_step = HUGE_VAL; ///< of a quasi-static path, Å: half the potential's width
+    double longest_timestep = 0.0;  ///< stability limit 2/omega_max at the bottom of the well, fs;
+                                    ///< usable_timestep() of it is used
     std::vector<std::string> notes; ///< worth knowing, not wrong
     /// What a run would refuse; theory and surface can do with the case.
     std::vector<io::Problem> refused;
@@ -78,8 +79,8 @@ struct Case {
     int substrate() const {
         return substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
     }
-    /// How the box is cut: slabs of rows without time, tiles in time. Throws std::invalid_argument
-    /// if it cannot be.
+    /// How the box is cut: slabs of rows on quasi-static paths, tiles on dynamic ones. Throws
+    /// std::invalid_argument if it cannot be.
     ProcessGrid grid(int rank) const;
     /// Throws io::SceneError with all that a run would refuse.
     void require_runnable() const;
@@ -105,5 +106,10 @@ Surface surface_of(const Case& c, const Communicator& world = Communicator());
 /// Everything that a run would refuse, found without running: require_runnable(), and what is in
 /// the file of a surface. Returns the notes of the case and of such a surface. Collective.
 std::vector<std::string> examine(const Case& c, const Communicator& world = Communicator());
+
+/// Of a stability limit of flat contacts: pressed sites vibrate faster.
+double usable_timestep(double limit);
+/// Notes on a surface that is too steep or too high for its box, one sentence each.
+std::vector<std::string> notes_on_roughness(double rms, double slope, double edge);
 
 } // namespace asperity

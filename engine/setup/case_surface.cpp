@@ -210,6 +210,9 @@ Surface surface_of(const Case& c, const Communicator& world) {
                         std::filesystem::path(s.file).filename().string(), points, points,
                         edge / points, edge, map.unit));
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+        for (std::string& note : notes_on_roughness(surface.statistics.rms,
+                                                    surface.statistics.rms_slope, surface.length))
+            surface.notes.push_back(std::move(note));
         const double softness = lattice_softness(c.simulation.block, surface.statistics);
         if (softness < 0.97)
             surface.notes.push_back(fmt::format(

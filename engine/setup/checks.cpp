@@ -40,7 +40,8 @@ void check_path(const Case& c, io::Problems& problems) {
         switch (segment.kind) {
         case Segment::approach:
             if (!after_all)
-                refuse("from a state that is in contact already", "an approach starts out of reach",
+                refuse("from a state that is in contact already",
+                       "an approach starts beyond the interaction range",
                        "put a \"pull-off\" before it, or lead it further with \"load\" or "
                        "\"height\"");
             break;
@@ -62,7 +63,8 @@ void check_path(const Case& c, io::Problems& problems) {
             break;
         case Segment::slide:
             if (after_all)
-                refuse("out of reach", "nothing slides there", "put an \"approach\" before it");
+                refuse("beyond the interaction range", "nothing slides there",
+                       "put an \"approach\" before it");
             if (c.scene.interface.tail)
                 refuse("with interface.tail = true", "the tail has no lateral forces",
                        "take a larger interface.cutoff and tail = false");
@@ -73,10 +75,11 @@ void check_path(const Case& c, io::Problems& problems) {
             break;
         case Segment::hold:
             if (!c.in_time)
-                refuse("on a path without time", "equilibria do not change while they are held",
+                refuse("on a quasi-static path", "equilibria do not change while they are held",
                        "take it out, or take drive.mode = \"dynamic\"");
             else if (after_all)
-                refuse("out of reach", "nothing happens there", "put an \"approach\" before it");
+                refuse("beyond the interaction range", "nothing happens there",
+                       "put an \"approach\" before it");
             break;
         }
     }
@@ -197,8 +200,9 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "leave it out, or take surface.kind = \"atoms\"");
 
     if (wall && c.in_time)
-        problems.add("interface.kind", "= \"wall\" on a path in time",
-                     "a wall takes no lateral tractions, and in time lateral displacements cannot "
+        problems.add("interface.kind", "= \"wall\" on a dynamic path",
+                     "a wall takes no lateral tractions, and dynamic paths cannot leave lateral "
+                     "displacements "
                      "be left out",
                      "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or kind = "
                      "\"atoms\"");
@@ -211,7 +215,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "a wall has a height below each site, and no lattice of its own",
                      "take lattice_ratio = 1, or interface.kind = \"atoms\"");
     if (interface.frictionless && !wall && c.in_time)
-        problems.add("interface.frictionless", "= true on a path in time",
+        problems.add("interface.frictionless", "= true on a dynamic path",
                      "lateral displacements can be left out only where the block's stiffness for "
                      "normal forces alone is known wave by wave",
                      "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or "
@@ -219,18 +223,20 @@ void check_keys(const Case& c, io::Problems& problems) {
 
     check_path(c, problems);
     if (drive.control == Control::mean_height && c.in_time)
-        problems.add("drive.control", "= \"mean-height\" on a path in time",
-                     "in time the top plane is driven, and the lowest layer's mean height is what "
-                     "the waves in the block make of it",
-                     "take drive.mode = \"quasistatic\", or control = \"top\"");
+        problems.add(
+            "drive.control", "= \"mean-height\" on a dynamic path",
+            "a dynamic path drives the top plane, and the lowest layer's mean height is what "
+            "the waves in the block make of it",
+            "take drive.mode = \"quasistatic\", or control = \"top\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
     if (scene.block.strain == Strain::finite && !c.in_time)
-        problems.add("block.strain", "= \"finite\" on a path without time",
-                     "without time the block is a sum of waves, and at finite strain waves do not "
-                     "add up",
-                     "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
+        problems.add(
+            "block.strain", "= \"finite\" on a quasi-static path",
+            "on such a path the block is a sum of waves, and at finite strain waves do not "
+            "add up",
+            "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -268,8 +274,8 @@ std::vector<io::Problem> device_problems(const Case& c) {
                         std::move(why), std::move(instead)});
     };
     if (!c.in_time)
-        refuse("a path without time",
-               "a device takes steps in time; equilibria are relaxed by the "
+        refuse("a quasi-static path",
+               "a device takes time steps; equilibria are relaxed by the "
                "processor",
                "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
     if (c.scene.surface.kind == SurfaceKind::atoms)

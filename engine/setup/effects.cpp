@@ -56,7 +56,7 @@ Effects effects_of(const Case& c) {
                     : Effect{on, std::move(why)};
     };
     Effects e;
-    e.inertia = timed(true, "drive.path is followed in time");
+    e.inertia = timed(true, "the path is dynamic");
     e.lateral = pairs(
         !s.interface.frictionless,
         s.interface.frictionless ? "interface.frictionless = true" : "three components a node", "");

@@ -24,13 +24,13 @@ struct Effect {
 };
 
 struct Effects {
-    Effect inertia,    ///< velocities, steps in time
+    Effect inertia,    ///< velocities, time steps
         lateral,       ///< displacements along x and y
         damping,       ///< against a medium that moves with the top plane
         temperature,   ///< thermal noise
         finite_strain, ///< geometrically exact springs
         coarse_levels, ///< a block that gets coarser with depth
-        skipping,      ///< sites out of reach are left out of the sweep
+        skipping,      ///< sites beyond the interaction range are left out of the sweep
         sliding,       ///< of the block over the substrate
         tail,          ///< continuum correction beyond the cutoff
         curvature,     ///< a spherical cap under the roughness
@@ -40,7 +40,7 @@ struct Effects {
         trajectory,    ///< frames of the lowest layer
         checkpoints,   ///< states from which a run can be resumed
         theory,        ///< Persson's theory for the same scene
-        device;        ///< steps in time on a device in place of the processor
+        device;        ///< time steps on a device in place of the processor
 
     /// All of them, as `asperity plan` and result.json call them.
     std::vector<std::pair<const char*, Effect>> list() const;

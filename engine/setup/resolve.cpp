@@ -321,6 +321,8 @@ void derive(Case& c, io::Problems& problems) {
     note_coarse_tolerance(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
+    for (std::string& note : notes_on_validity(c))
+        c.notes.push_back(std::move(note));
     look_at_ranks(c, refused);
     c.refused = refused.list();
 }

@@ -24,5 +24,7 @@ std::vector<io::Problem> device_problems(const Case& c);
 void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused);
 /// What the keys alone tell (a block thinner than wide, keys without effect): one sentence each.
 std::vector<std::string> notes_on_keys(const Case& c);
+/// Where results mean little: roughness, velocity, time step; one sentence each.
+std::vector<std::string> notes_on_validity(const Case& c);
 
 } // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The natural scales of a scene without time. The force is the smallest on a site that decides the
+// The natural scales of a quasi-static scene. The force is the smallest on a site that decides the
 // state:
 //
 // - the largest attraction of a site; over several types of atoms, of the one that attracts least;

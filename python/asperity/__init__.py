@@ -29,19 +29,32 @@ if TYPE_CHECKING:
                         sweep)
     from .state_search import states as states
 
-__all__ = ["Adhesion", "Error", "Estimate", "InputOutputError", "InternalError", "PhysicsError", "Result", "SceneError", "SceneWarning",
-           "Stopped", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
+_LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
+                          "load_sweep", "run", "sweep"), ".forms"),
+         "Simulation": ".engine", "Statics": ".engine", "states": ".state_search"}
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
+           *(name for name, module in _LAZY.items() if module == ".forms")]
 
 
 def __getattr__(name: str):
     # numpy and h5py are imported with the first name that needs them, so that --help needs neither.
     import importlib
 
-    if name in ("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run",
-                "sweep"):
-        return getattr(importlib.import_module(".forms", __name__), name)
-    if name in ("Simulation", "Statics"):
-        return getattr(importlib.import_module(".engine", __name__), name)
-    if name == "states":
-        return importlib.import_module(".state_search", __name__).states
+    if name in _LAZY:
+        return getattr(importlib.import_module(_LAZY[name], __name__), name)
+    if name == "__version__":
+        return importlib.import_module(".program", __name__).version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    """For dir(), help() and completion: Simulation, Statics and states where the compiled module is there."""
+    import importlib
+
+    names = {*__all__, "__version__"}
+    try:
+        importlib.import_module(".engine", __name__)
+        names |= _LAZY.keys()
+    except ImportError:
+        pass
+    return sorted(names | {name for name in globals() if name.startswith("__")})

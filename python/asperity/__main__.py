@@ -86,7 +86,7 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("--wall-limit", default="", metavar="23h50m",
                        help="stop with checkpoints when this time has passed (exit 75)")
     sweep.add_argument("--theory-only", action="store_true", help="the theory alone, no simulation")
-    cost = add("cost", "what accuracy costs in time: a scene with each of its numerical settings varied",
+    cost = add("cost", "what accuracy costs in run time: a scene with each of its numerical settings varied",
                "The same command goes on where it stopped.")
     scene(cost, "results/<scene>-cost")
     cost.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side, one thread each")

@@ -346,7 +346,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
 
     using Point = StaticPath::Point;
-    py::class_<Point>(m, "Point", "A point of a path without time: force balance at what is held.")
+    py::class_<Point>(m, "Point", "A point of a quasi-static path: force balance at what is held.")
         .def_readonly(
             "top", &Point::top,
             "displacement of the top plane since the start, Å; 0 where the mean height is held")
@@ -411,7 +411,8 @@ PYBIND11_MODULE(_engine, m) {
             "The state that the sites come to from where they are with nothing held but "
             "drive.load: "
             "a RestState.\n\n"
-            "From out of reach: the state that the segment \"relax\" of a run leads to. The "
+            "From beyond the interaction range: the state that the segment \"relax\" of a run "
+            "leads to. The "
             "next "
             "relax() begins\na path there. Raises PhysicsError if no state is found; the "
             "sites then stay.")

@@ -38,7 +38,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) ->
 
 
 def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """Which of them are beaten by no other in time and error at once; NaN is never among them."""
+    """Which of them are beaten by no other in run time and error at once; NaN is never among them."""
     s, e = np.asarray(seconds, float), np.asarray(errors, float)
     beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
@@ -74,7 +74,7 @@ class Cost:
         parts: dict[str, list[tuple[float, float, Row]]] = {p.part: [] for p in self.case.parameters if p.part in base.parts}
         for parameter in (p for p in self.case.parameters if p.part in parts):
             reference = parameter.rows[-1]
-            # Without time the velocity is another base.
+            # On a quasi-static path the velocity is another base.
             exact = parameter.exact and parameter.name != "velocity"
             for row in parameter.rows if exact else parameter.rows[:-1]:
                 error = largest_error(row.numbers, reference.numbers, base.question)

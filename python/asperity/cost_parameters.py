@@ -54,7 +54,7 @@ class Row(Variation):
 class Parameter(NamedTuple):
     """rows: from coarse to fine; the last is what own errors are taken against (exact: nothing of the parameter's error is
     left there, it may be chosen too). part: parameters of one part exclude each other in a combination; "": never in one.
-    moved: without effect on the scene as it is, its runs are without time."""
+    moved: without effect on the scene as it is, its runs are quasi-static."""
 
     name: str
     rows: list[Row]
@@ -112,7 +112,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         vary("tail", scene.cut(True, *(c for c in cutoffs if c <= 4 * length), widest), "interaction", True)
     if moves:
         reference += [*AT_REST, f"drive.displacement_step={step:.6g}"]
-    text = ("without time, " + f"no inertia (velocity to 0), steps of {step:.6g} Å, " * moves
+    text = ("quasi-static, " + f"no inertia (velocity to 0), steps of {step:.6g} Å, " * moves
             + f"cutoff {widest:.6g} Å and tail, " * bool(length)
             + f"double precision, tolerance {scene.worded('drive.tolerance', tolerance)}")
     if dynamic:
@@ -129,7 +129,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
     vary("tolerance", scene.scaled("drive.tolerance", 100, 10, 1, 0.1), "tolerance", moved=dynamic)
     if moves:
         vary("step", scene.scaled("drive.displacement_step", 4, 2, 1, 0.5, 0.25), "step", moved=dynamic)
-        vary("model", [("lattice, in time", ["block.model=lattice"])] * dynamic
+        vary("model", [("lattice, dynamic", ["block.model=lattice"])] * dynamic
              + [("quasi-static", AT_REST), ("zero load alone", ["drive.path=relax"])])
 
     if same_experiment:
@@ -137,7 +137,7 @@ def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | 
         best = [k.rows[-1] for k in parameters]
         return CostCase([key for one in best for key in one.own], "the scene with " + ", ".join(one.label for one in best),
                         parameters, [Base("", [], [k.part for k in parameters], "path" if moves else "state")])
-    bases = [Base("in time", [], ["interaction", "block", "precision", "timestep", "velocity"])] * dynamic
+    bases = [Base("dynamic", [], ["interaction", "block", "precision", "timestep", "velocity"])] * dynamic
     bases += [Base("quasi-static", AT_REST, ["interaction", "precision", "tolerance", "step"])] * moves
     bases.append(Base("zero load alone", ["drive.path=relax"], ["interaction", "precision", "tolerance"], "state"))
     return CostCase(reference, text, _chosen(parameters, names), bases)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The engine in a loop of your own: Simulation, a scene that is stepped, and Statics, one without time."""
+"""The engine in a loop of your own: Simulation, a dynamic scene that is stepped, and Statics, a quasi-static one."""
 
 from __future__ import annotations
 
@@ -24,6 +24,7 @@ from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
 from .terminal import Progress, number
+from .units import GIGAPASCAL, speed
 
 NAME = "asperity._engine"
 
@@ -98,13 +99,13 @@ class Top:
 
     @property
     def velocity(self) -> float:
-        """Velocity in the next step, m/s; positive moves away. Written: kept from then on, and the scene's path
+        """Velocity in the next step, m/s; positive moves away. Written (a number or "2 m/s"): kept from then on, and the scene's path
         ends nowhere; None: back to the scene's drive, where that was."""
         return self._simulation._top_velocity
 
     @velocity.setter
-    def velocity(self, v: float | None) -> None:
-        self._simulation._top_velocity = v
+    def velocity(self, v: float | str | None) -> None:
+        self._simulation._top_velocity = speed(v) if isinstance(v, str) else v
 
 
 class Substrate(NamedTuple):
@@ -116,6 +117,8 @@ class Substrate(NamedTuple):
     """Edge of the periodic box, Å."""
 
 
+MPA = 1e3 / GIGAPASCAL
+"""MPa in an eV/Å³."""
 MAPS = {"gap": "Å", "contact": "1", "pressure": "GPa"}
 SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
     "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time), "force": ("eV/Å", lambda s: s.force),
@@ -138,7 +141,7 @@ def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
         bar = tqdm(total=steps, unit="step")
 
     def tell(simulation: Simulation, made: int) -> None:
-        said = f"{number(simulation.time, 1)} ps, {simulation.force:.4g} eV/Å"
+        said = f"{number(simulation.time, 1)} ps, {simulation.stress:.4g} MPa, contact {simulation.contact:.3f}"
         if bar is not None:
             bar.set_postfix_str(said, refresh=False)
             bar.update(made - bar.n)
@@ -181,7 +184,7 @@ def _end_all_with(comm: Any) -> None:
 
 
 class Simulation(_engine.Simulation):
-    """A scene's path in time, a step at a time.
+    """A scene's dynamic path, a step at a time.
 
         sim = asperity.Simulation("scene.toml", {"surface.rms": 2.0})
         while not sim.done:
@@ -191,7 +194,7 @@ class Simulation(_engine.Simulation):
     scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
     overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
 
-    The path starts and turns as `asperity run` has it, to the same bits. A step takes forces at its start and
+    The path starts and turns as `asperity run` has it, with bitwise identical results. A step takes forces at its start and
     then moves the sites: time, force and energies are of that start, as in the rows of a run's series, and u has
     moved on by one step. Energies and contacts are summed in observed steps: the last of each step(), each
     output.series-th, and those of observers.
@@ -206,6 +209,10 @@ class Simulation(_engine.Simulation):
 
     __setattr__ = _set_what_is_there
 
+    def __repr__(self) -> str:
+        return (f"<Simulation {self._name}: {self.segment}, step {self.steps}, {self.time:.4g} ps, "
+                f"{self.stress:.4g} MPa, contact {self.contact:.4g}>")
+
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """A scene at the start of its path."""
         with scene_file(scene) as file:
@@ -219,7 +226,7 @@ class Simulation(_engine.Simulation):
 
     @classmethod
     def resume(cls, file: str | os.PathLike, comm: Any = None) -> Simulation:
-        """The simulation that save() wrote, which goes on to the same bits. Observers are given anew."""
+        """The simulation that save() wrote, which goes on with bitwise identical results. Observers are given anew."""
         simulation = cls.__new__(cls)
         _engine.Simulation.__init__(simulation, os.fspath(file), _number(comm))
         simulation._begin(comm)
@@ -249,6 +256,21 @@ class Simulation(_engine.Simulation):
     def substrate(self) -> Substrate:
         """The substrate: .height (Å, [y, x]) and .edge (Å)."""
         return Substrate(self._substrate_height, self._substrate_edge)
+
+    @property
+    def edge(self) -> float:
+        """Edge of the periodic box, Å."""
+        return self._substrate_edge
+
+    @property
+    def area(self) -> float:
+        """Nominal area, Å²."""
+        return self._substrate_edge**2
+
+    @property
+    def stress(self) -> float:
+        """Force over the nominal area, MPa; positive is repulsion."""
+        return self.force / self.area * MPA
 
     def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
         """Calls observer(simulation) after each step whose number divides by n, the first one included.
@@ -328,6 +350,7 @@ class Simulation(_engine.Simulation):
                     file[name] = values
                     if unit:
                         file[name].attrs["unit"] = unit
+                file["substrate"].attrs["edge"] = self.substrate.edge
             files.write(place / "result.json", files.sealed_json({
                 "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
                 "scene": tomllib.loads(self._scene)}))
@@ -335,7 +358,7 @@ class Simulation(_engine.Simulation):
 
 
 class Statics(_engine.Statics):
-    """A scene without time: its solids in force balance, where a script leads them.
+    """A quasi-static scene: its solids in force balance, where a script leads them.
 
         statics = asperity.Statics("scene.toml")
         for height in (6.0, 4.0, 3.0, 4.0, 6.0):
@@ -343,9 +366,9 @@ class Statics(_engine.Statics):
             point = statics.relax()
             print(point.mean_height, point.force, point.dissipated)
 
-    It starts out of reach. What is found depends on the way there, as on a path of `asperity run`, and what is
+    It starts beyond the interaction range. What is found depends on the way there, as on a path of `asperity run`, and what is
     lost on it is counted. The mean height is held, or the top plane: the first one that is written decides (a
-    load holds what drive.control of the scene says). Of a scene in time the same solids are taken, as if
+    load holds what drive.control of the scene says). Of a dynamic scene the same solids are taken, as if
     drive.mode were "quasistatic". scene and overrides are as for Simulation.
 
     free() is the state with nothing held; copy() keeps a state, and restore() leads back to it:
@@ -359,8 +382,32 @@ class Statics(_engine.Statics):
 
     __setattr__ = _set_what_is_there
 
+    def __repr__(self) -> str:
+        return (f"<Statics {self._case['name']}: point {self.now.number}, mean height {self.now.mean_height:.4g} Å, "
+                f"{self.stress:.4g} MPa, contact {self.now.contact:.4g}>")
+
+    @property
+    def area(self) -> float:
+        """Nominal area, Å²."""
+        return self._case["area"]
+
+    @property
+    def edge(self) -> float:
+        """Edge of the periodic box, Å."""
+        return self.area**0.5
+
+    @property
+    def spacing(self) -> float:
+        """Distance of neighbouring sites, Å."""
+        return self._case["spacing"]
+
+    @property
+    def stress(self) -> float:
+        """Force of the last point over the nominal area, MPa; positive is repulsion."""
+        return self.now.force / self.area * MPA
+
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
-        """The solids of a scene, out of reach of each other."""
+        """The solids of a scene, beyond the interaction range of each other."""
         with scene_file(scene) as file:
             super().__init__(file, assignments(overrides))
 

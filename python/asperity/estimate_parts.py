@@ -4,7 +4,7 @@
 
 A part has a shift, which corrects a bias, and a standard error. What a finer setting changes is measured; what lies beyond
 it follows from the order of the error and is counted as its standard error in full. Every part varies one setting of a
-base: the scene, or the scene without time where its path can be followed so.
+base: the scene, or the quasi-static scene where its path can be followed so.
 """
 
 from __future__ import annotations
@@ -167,7 +167,7 @@ class Part:
 class Plan(NamedTuple):
     scene: Variation
     rest: Variation | None
-    """The scene without time, which the parts of a path in time take as their base."""
+    """The quasi-static scene, which the parts of a dynamic path take as their base."""
     parts: list[Part]
 
 
@@ -203,7 +203,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])
     if scene.dynamic and not scene.finite:
-        rest = Variation("rate", "without time", AT_REST)
+        rest = Variation("rate", "quasi-static", AT_REST)
     base, moved = rest or start, AT_REST if rest else []
     coarse = Variation("spacing", "twice the spacing", joined(moved, spaced(scene, 2, spacing_also))) if is_coarse(scene) else None
     parts: list[Part] = []
@@ -236,7 +236,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     part("thickness", "geometry", f"{2 * scene.thickness} layers",
          scene.at("block.thickness", scene.thickness if coarse else 2 * scene.thickness), limit, coarse or base)
     if rest:
-        parts.append(Part("rate", "rate", "velocity to 0: the path without time", [rest], limit, start))
+        parts.append(Part("rate", "rate", "velocity to 0: the quasi-static path", [rest], limit, start))
     elif scene.dynamic:
         part("rate", "rate", f"velocity {2 * own('drive.velocity'):.4g} m/s, to 0", scene.scaled("drive.velocity", 2),
              coarser(2, 1), start)

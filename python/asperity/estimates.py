@@ -222,7 +222,7 @@ def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
             if (one := part.found(q)) is not None:
                 number.parts[part.name] = one
         if plan.rest and "rate" in number.parts:
-            # The path without time has no levels and no time steps either: what these have shifted is part of it.
+            # The quasi-static path has no levels and no time steps either: what these have shifted is part of it.
             others = sum(number.parts[n].shift for n in ("levels", "timestep") if n in number.parts)
             number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
     return found

@@ -28,7 +28,7 @@ from .scene import scene_file, toml_of
 SITES = 256
 """Sites along an edge unless others are asked for: a path and its variations take minutes."""
 SITE_BYTES = 1200
-"""Of a path without time; the finest variation has four times as many sites."""
+"""Of a quasi-static path; the finest variation has four times as many sites."""
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""

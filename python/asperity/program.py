@@ -21,6 +21,11 @@ from .terminal import environment_alone, launched
 
 
 @functools.lru_cache(maxsize=None)
+def version() -> str:
+    """Of the program that the package calls."""
+    return call(["--version"]).split()[-1]
+
+
 def path() -> str:
     """The program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 

@@ -42,8 +42,8 @@ FIGURES = {
 """Sections of a run: heading, and of each figure its plot, heading and caption."""
 PATH_CAPTIONS = {
     False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above "
-           "the substrate’s mean plane; negative is attraction. The area under a curve is the work of adhesion of that "
-           "segment.",
+           "the substrate’s mean plane; negative is attraction. The area under a curve is the work of the interface "
+           "on that segment.",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
           "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the "
           "sphere’s periodic images."}
@@ -128,7 +128,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) 
 
 def _segments(page: Page, run: Result) -> None:
     """Of a path that does more than to approach and to pull off."""
-    if set(run.segments) <= {"approach", "pull-off", "relax"}:
+    if set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         return
     lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")

@@ -44,7 +44,7 @@ FIGURES = {
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
     "pull-off": ("Pull-off force", "What it takes to pull the block off."),
     "hysteresis": ("Energy lost in the cycle", "Energy that approach, pull-off and both lose."),
-    "readings": ("Readings of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
+    "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
                  "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
                  "energy."),
     "full-contact": ("Binding energy, theory and full contact",
@@ -101,7 +101,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
     for k in range(few):
         name, run = runs[k * (len(runs) - 1) // (few - 1)]
         unit, label = run_plots.force_unit(run)
-        for number, words in enumerate(run.segments):
+        for number, words in enumerate(run.segment_names):
             here = run.series["segment"] == number
             if here.sum() > 1:
                 curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,

@@ -258,6 +258,10 @@ class Group(Attributes, Mapping):
         return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
 
 
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self._called}: {', '.join(self)}>"
+
+
 class Series(Group):
     """The path of a run: columns of equal length."""
 
@@ -383,7 +387,12 @@ class Result(Values):
         return self.part("units")
 
     @property
-    def segments(self) -> list[str]:
+    def segments(self) -> list[Values]:
+        """The segments that have ended, with their numbers: result.segments[0].work."""
+        return [Values(s) for s in self.listed("segments") if isinstance(s, dict)]
+
+    @property
+    def segment_names(self) -> list[str]:
         """The segments of the path, as the scene names them: series["segment"] counts them from 0."""
         return [str(s) for s in self.listed("scene.drive.path")]
 

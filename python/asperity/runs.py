@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import signal
 import subprocess
-import tempfile
+import sys
 from numbers import Integral
 from pathlib import Path
 
@@ -16,6 +17,7 @@ from . import files, program
 from .errors import InputOutputError, SceneError
 from .result import Result
 from .scene import Overrides, SceneLike, assignments, scene_file
+from .terminal import progress_shown
 
 
 def launcher(ranks: int) -> list[str]:
@@ -37,14 +39,19 @@ def launcher(ranks: int) -> list[str]:
     return [*words, "-n", str(ranks)]
 
 
+OF_PROGRESS = re.compile(r" *\d+ %  ")
+"""Lines of the program that say how far it is."""
+
+
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,
-        ranks: int = 1) -> Result:
+        ranks: int = 1, progress: bool | None = None) -> Result:
     """Simulates a scene and returns its Result.
 
     scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
     overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
     out        the result directory; None: results/<scene>, or the next name that is free
     ranks      MPI ranks
+    progress   lines that say how far it is; None: on a terminal and in a notebook
 
     An interruption (Ctrl-C) lets the run write a checkpoint first. Raises SceneError, PhysicsError,
     InputOutputError or Stopped with the program's message.
@@ -55,23 +62,27 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     with scene_file(scene) as file:
         first = Path("results") / Path(file).stem
         place = files.numbered(first, Path.exists) if out is None else files.chosen(str(out), "")
-        words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "off",
+        words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "lines" if progress_shown(progress) else "off",
                  *program.sets(assignments(overrides))]
-        with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as said:
-            try:
-                child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=said,
-                                         start_new_session=True)
-            except OSError as error:
-                raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
-                                       "check that it is installed") from None
-            try:
-                code = child.wait()
-            except KeyboardInterrupt:
-                child.send_signal(signal.SIGUSR1)  # mpirun passes it on
-                child.wait()
-                raise
-            said.seek(0)
-            text = said.read()
+        said = []
+        try:
+            child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                     start_new_session=True, text=True, encoding="utf-8", errors="replace")
+        except OSError as error:
+            raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
+                                   "check that it is installed") from None
+        try:
+            for line in child.stderr:
+                if OF_PROGRESS.match(line):
+                    print(line, end="", file=sys.stderr, flush=True)
+                else:
+                    said.append(line)
+            code = child.wait()
+        except KeyboardInterrupt:
+            child.send_signal(signal.SIGUSR1)  # mpirun passes it on
+            child.communicate()
+            raise
+        text = "".join(said)
         if code == 75 and not text.strip():
             text = f"{place}: the run stopped early\n    why: a signal or a limit ended it\n" \
                    f"    fix: resume it: asperity run {file} --out {place} --resume auto"

@@ -6,10 +6,15 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
+import re
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Union
+
+from .errors import Error
 
 SceneLike = Union[str, Path, Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], list]
@@ -40,10 +45,25 @@ def toml_of(scene: Mapping[str, Any]) -> str:
 
 
 def assignments(overrides: Overrides | None) -> list[str]:
-    """Overrides as "key=value"; a mapping or a list of such strings."""
+    """Overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
     if not isinstance(overrides, Mapping):
         return list(overrides or [])
-    return [f"{key}={v if isinstance(v, str) else toml_value(v)}" for key, v in overrides.items()]
+    found = []
+    for key, value in overrides.items():
+        if isinstance(value, Mapping):
+            found += assignments({f"{key}.{name}": inner for name, inner in value.items()})
+        else:
+            found.append(f"{key}={value if isinstance(value, str) else toml_value(value)}")
+    return found
+
+
+def _caller() -> str:
+    """File and line of the script that called the package."""
+    package = str(Path(__file__).parent)
+    frame = sys._getframe(1)
+    while frame and (frame.f_code.co_filename.startswith(package) or frame.f_code.co_filename == contextlib.__file__):
+        frame = frame.f_back
+    return f"{os.path.basename(frame.f_code.co_filename)}:{frame.f_lineno}" if frame else "the scene"
 
 
 @contextlib.contextmanager
@@ -56,4 +76,8 @@ def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
     with tempfile.TemporaryDirectory(prefix="asperity-", dir=folder or None) as directory:
         file = Path(directory) / f"{scene.get('name', 'scene')}.toml"
         file.write_text(toml_of(sections), encoding="utf-8")
-        yield str(file)
+        try:
+            yield str(file)
+        except Error as error:  # the caller has not seen this file
+            error.args = tuple(re.sub(re.escape(str(file)) + r"(:\d+)*", _caller(), str(a)) for a in error.args)
+            raise

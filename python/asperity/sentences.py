@@ -170,9 +170,9 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
     own = [run.number("work_of_interface." + k) for k in ("approach", "pull_off")]
-    if None not in own and run.find("dissipated") is None:  # in time; without it is the same work
+    if None not in own and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
         text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a "
-                 "snap of the block as a whole changes nothing of it.")
+                 "jump of the block as a whole changes nothing of it.")
     return text
 
 
@@ -183,7 +183,7 @@ def results(run: Result) -> list[str]:
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0 and set(run.segments) <= {"approach", "pull-off", "relax"}:
+    if into is not None and out is not None and flat > 0 and set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         text.append(_cycle_sentence(run, into, out, flat))
     if (pinning := run.number("jkr.edge_pinning")) is not None:
         text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion that JKR "

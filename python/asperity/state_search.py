@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """`asperity states`: the stable states of a contact under its load P, as far as a path leads to them.
 
-A path at a held mean height goes inwards from out of reach; where its force F passes P the block is set free. From an
+A path at a held mean height goes inwards from beyond the interaction range; where its force F passes P the block is set free. From an
 instability the new branch is followed outwards, too. At the inner end full contact is pressed on, and the way back is
 followed. Where it ends, and what it may miss: docs/explanation/relaxation.md.
 """

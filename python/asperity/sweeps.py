@@ -382,7 +382,8 @@ def _values(given: Any) -> str:
 
 
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
-          jobs: int = 1, theory_only: bool = False, executor: Executor | None = None) -> Sweep:
+          jobs: int = 1, theory_only: bool = False, executor: Executor | None = None,
+          progress: bool | None = None) -> Sweep:
     """Simulates a scene for every combination of the values; returns its Sweep, whose table has all points.
 
     values     {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4), "surface.hurst": [0.7, 0.8],
@@ -393,6 +394,7 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     executor   of concurrent.futures, whose workers run the points instead, one thread each unless their
                OMP_NUM_THREADS says more: mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need
                this package, the program and the same file system.
+    progress   how far it is; None: on a terminal and in a notebook
     """
     refuse_jobs(jobs)
     if executor is None:
@@ -404,4 +406,5 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene, "" if executor is None else ".") as file:  # workers elsewhere have no /tmp of ours
         return Carried([file], given, None if out is None else str(out), theory_only,
-                        PoolOptions(jobs=jobs, progress="off", executor=executor), lambda text: None).sweeps[0]
+                        PoolOptions(jobs=jobs, progress="auto" if terminal.progress_shown(progress) else "off",
+                                                         executor=executor), lambda text: None).sweeps[0]

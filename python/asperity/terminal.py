@@ -127,3 +127,10 @@ class Progress:
             sys.stderr.write("\r\033[K")
             sys.stderr.flush()
         self._drawn = False
+
+
+def progress_shown(wanted: bool | None) -> bool:
+    """None: where somebody looks, a terminal or a notebook."""
+    if wanted is not None:
+        return bool(wanted)
+    return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")

@@ -85,7 +85,7 @@ class Variations:
             raise SceneError.of(problems)
 
     def refuse_finite_strain(self, fix: str) -> None:
-        self._refuse((("block.strain", self.finite, "errors are measured against the path without time, and there is "
+        self._refuse((("block.strain", self.finite, "errors are measured against the quasi-static path, and there is "
                        "none at finite strain", fix),))
 
     def own(self, key: str) -> float:

@@ -53,7 +53,7 @@ class Runs:
 
 
 def punch(runs: Runs) -> list[dict]:
-    """A surface of height 0 in a circle and out of reach around it. With images the compliance of a punch that sticks is
+    """A surface of height 0 in a circle and beyond the interaction range around it. With images the compliance of a punch that sticks is
     C = [1/(2a) + φ0/(πL) + φ2 a²/(6πL³)]/E*, and Griffith's condition, -(P²/2) dC/da = 2πaw, gives Kendall's
     P² = 8πE*wa³ over 1 - 2φ2 a³/(3πL³)."""
     w, box, wanted = 0.1, 100.0, 25.0

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The energies of random paths without time against each other (docs/reports/validation.md).
+"""The energies of random quasi-static paths against each other (docs/reports/validation.md).
 
     scenes/validation/identities.py [--count 12] [--seed 1] [--out results/identities]
 

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <utility>
@@ -256,6 +257,15 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("drive.path = [\"approach\", \"load -19.708 GPa\", \"pull-off\"]", "by 10 %"));
     EXPECT_FALSE(said("drive.load = 19708\nblock.strain = \"finite\"", "strains"));
     EXPECT_FALSE(said("drive.load = 1000", "strains"));
+    for (const auto& [fine, wrong, note] : std::vector<std::array<const char*, 3>>{
+             {"drive.velocity = 50", "drive.velocity = 51", "above 50 m/s"},
+             {"drive.timestep = 40", "drive.timestep = 41", "the longest that is usable"},
+             {"surface.rms = 4", "surface.rms = 20", "the rms slope is"},
+             {"surface.rms = 133", "surface.rms = 134", "a tenth of the box"}}) {
+        EXPECT_FALSE(said(fine, note)) << fine;
+        EXPECT_TRUE(said(wrong, note)) << wrong;
+    }
+    EXPECT_FALSE(said(still + "drive.timestep = 60", "usable")) << "no time passes";
 }
 
 TEST(Scene, MapsAreFoundBesideTheScene) {
@@ -291,7 +301,7 @@ TEST(Scene, ScenesThatComeWithAsperity) {
     EXPECT_EQ(first.surface.rms, 1.5);
     EXPECT_EQ(first.block.model, BlockModel::multiscale);
     Scene flat = read_scene(scenes + "paper/flat-3A.toml");
-    EXPECT_EQ(flat.drive.timestep, 50.0);
+    EXPECT_EQ(flat.drive.timestep, 40.0);
     EXPECT_EQ(flat.numerics.precision, Precision::mixed);
     flat.drive.timestep = Scene{}.drive.timestep; // the rest is the defaults, spelt out
     flat.numerics.precision = Scene{}.numerics.precision;

@@ -33,11 +33,11 @@ BAD = {
         ["scene.toml:2:1: block.seams is not a key any more", "leave it out; drive.damping with drive.damping_from"]),
     "waves at finite strain": (
         '[block]\nstrain = "finite"\n[drive]\npath = ["relax"]',
-        ['scene.toml:2:10: block.strain = "finite" on a path without time', "waves do not add up"]),
-    "a wall in time": ('[interface]\nkind = "wall"', ['scene.toml:2:8: interface.kind = "wall" on a path in time']),
+        ['scene.toml:2:10: block.strain = "finite" on a quasi-static path', "waves do not add up"]),
+    "a wall in time": ('[interface]\nkind = "wall"', ['scene.toml:2:8: interface.kind = "wall" on a dynamic path']),
     "mean height in time": (
         '[drive]\ncontrol = "mean-height"',
-        ['scene.toml:2:11: drive.control = "mean-height" on a path in time', 'take drive.mode = "quasistatic"']),
+        ['scene.toml:2:11: drive.control = "mean-height" on a dynamic path', 'take drive.mode = "quasistatic"']),
     "several": ("[surface]\nrms = -1\nhurst = 3\n[drive]\nspeed = 1\n",
                 ["scene.toml:2:7", "scene.toml:3:9", "scene.toml:5:1", "3 problems"]),
     # What stands in the map is looked at before anything is written.

@@ -283,7 +283,7 @@ def test_the_page_of_a_sweep_of_paths(tmp_path):
     page(sweep.directory)
     columns = np.genfromtxt(sweep.directory / "report/curves.csv", delimiter=",", names=True)
     run = asperity.load(sweep.directory / "rms=0.3")
-    up = run.series["segment"] == run.segments.index("pull-off")
+    up = run.series["segment"] == run.segment_names.index("pull-off")
     drawn = [columns[name][:up.sum()] for name in columns.dtype.names]
     assert any(np.allclose(x, run.series["mean_height"][up], rtol=1e-8) for x in drawn)
     assert len(drawn) == 8  # height and force of two approaches and two pull-offs

@@ -200,7 +200,7 @@ def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
     assert [label for label, _, _ in here] == ["theory", "renormalised theory", "state at zero load"]
     assert here[2][2][0] == pytest.approx(41.375 / 150)
     assert not plots.plot([sweep], "hysteresis", Figure().add_subplot())  # no cycle
-    assert not plots.plot([sweep], "readings", Figure().add_subplot())  # no path
+    assert not plots.plot([sweep], "works", Figure().add_subplot())  # no path
 
 
 def labels(sweeps, name="gamma"):

@@ -12,7 +12,7 @@ from conftest import ROOT
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion  # noqa: E402
 import rings  # noqa: E402
-import snaps  # noqa: E402
+import jumps  # noqa: E402
 import stated_errors  # noqa: E402
 
 
@@ -41,7 +41,7 @@ def test_a_sphere_parts_like_the_rings(results):
 
 
 def test_the_loss_in_time_falls_to_that_without_time(results):
-    flat, rough = snaps.losses(results / "snaps", (5, 2))
+    flat, rough = jumps.losses(results / "jumps", (5, 2))
     assert rough[0] == pytest.approx(0, abs=0.05) and rough[5] > 2.5 * rough[2] > 0  # no snap
     assert flat[0] > 1
     # A fold that is passed at a velocity v is left later and loses v^(2/3) more.

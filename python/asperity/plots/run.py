@@ -39,7 +39,7 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
     """A curve for each segment of the path."""
     labels: set[str] = set()
     others = 0
-    for number, words in enumerate(run.segments):
+    for number, words in enumerate(run.segment_names):
         here = run.series["segment"] == number
         if words not in WAYS:
             others += 1
@@ -97,7 +97,7 @@ def friction(run: Result, ax: Axes) -> bool:
     """Force against each slide of the path, over its distance."""
     unit, _ = force_unit(run)
     drawn = False
-    for number, words in enumerate(run.segments):
+    for number, words in enumerate(run.segment_names):
         word, *rest = words.split()
         if word != "slide" or "slide_x" not in run.series:
             continue
@@ -126,7 +126,7 @@ def energy(run: Result, ax: Axes) -> bool:
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
     return finish(ax, "time (ps)" if timed else "point of the path",
-                  "energy (eV)" if run.curved else "energy per area (meV/Å²)")
+                  "energy (eV)" if run.curved else "energy per area (meV/Å²)", legend="above")
 
 
 def balance(run: Result, ax: Axes) -> bool:
@@ -134,7 +134,7 @@ def balance(run: Result, ax: Axes) -> bool:
     if not (columns := _columns(run, "time", "balance_error")):
         return False
     curve(ax, columns[0], columns[1] * 1e6)
-    return finish(ax, "time (ps)", "error of the balance ($10^{-6}$ of the largest term)")
+    return finish(ax, "time (ps)", "balance error ($10^{-6}$)")
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
@@ -208,7 +208,7 @@ def pressures(state: State, ax: Axes) -> bool:
     if "pressure" not in state:
         return False
     pressure = state["pressure"]
-    felt = pressure[np.isfinite(pressure) & (pressure != 0)]  # a site out of reach feels exactly nothing
+    felt = pressure[np.isfinite(pressure) & (pressure != 0)]  # a site beyond the interaction range feels exactly nothing
     if felt.size < 100 or not felt.max() > felt.min():
         return False
     count, edges = np.histogram(felt, bins=80)
@@ -235,14 +235,15 @@ def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     return image(ax, state[name], run.edge, **look)
 
 
-OF_RUN = {f.__name__: f for f in (separation, loading, contact, energy, balance, spectrum, roughness, height)}
+OF_RUN = {f.__name__: f for f in (separation, loading, contact, friction, energy, balance, spectrum, roughness,
+                                    height)}
 OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 class RunPlots:
     """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
 
-    Of the run: separation, loading, contact, energy, balance, spectrum, roughness, height.
+    Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, height.
     Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed").
     """
 

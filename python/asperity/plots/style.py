@@ -122,9 +122,9 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
     drawn(ax).curves.append(Curve(plain(label), x, y, bars))
 
 
-def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True, zero: bool = False) -> bool:
+def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True, zero: bool = False) -> bool:
     """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic
-    axes; zero: with a line at y = 0."""
+    axes; zero: with a line at y = 0; legend: "above" the curves, where they fill the axes."""
     if zero:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
@@ -140,7 +140,11 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool = True, zero
         else:
             axis.set_minor_locator(ticker.AutoMinorLocator())
     handles, labels = ax.get_legend_handles_labels()
-    if legend and len(labels) > 0:
+    if legend == "above" and len(labels) > 0:
+        low, high = ax.get_ylim()
+        ax.set_ylim(low, high + 0.22 * (high - low))
+        ax.legend(handles, labels, loc="upper center", ncols=3, fontsize=6.5)
+    elif legend and len(labels) > 0:
         ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
                   fontsize=7.5 if len(labels) < 5 else 6.5)
     return True

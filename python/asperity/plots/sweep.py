@@ -83,7 +83,7 @@ SIMULATED: dict[str, Spec] = {
         Trace("curved, in", "jkr.approach_ratio", SKY, "", "D"),
         Trace("curved, out", "jkr.pull_off_ratio", YELLOW, "", "v", False),
         Trace("curved, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
-    "readings": (GAMMA, [THEORY, RENORMALISED], [
+    "works": (GAMMA, [THEORY, RENORMALISED], [
         Trace("∫F dz, approach", "work_of_interface.approach_ratio", BLUE, "", "o"),
         Trace("∫F dz, pull-off", "work_of_interface.pull_off_ratio", RED, "", "s", False),
         Trace("atom by atom, both ways", "pair_binding_energy_ratio", YELLOW, "", "D", False),
@@ -209,7 +209,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if not shared:
         return False
     y, lines, points = (SIMULATED if shared[0].simulated else OF_THEORY)[name]
-    if name == "readings" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
+    if name == "works" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
         return False  # of paths
     simulated = False
     colours, told = dict(zip(_words(shared, x), COLOURS)), set()
