@@ -24,7 +24,7 @@ with tempfile.TemporaryDirectory() as directory:
               f"{lost[k + 1] - lost[k]:.3f} eV lost")
     slide = run.find("segments")[2]
     print(f"friction {slide['friction']:.3f} eV/Å, at most {slide['largest_friction']:.3f}; "
-          f"{slide['lost']:.3f} of {slide['work']:.3f} meV/Å² lost")
+          f"{slide['lost']:.3f} of {slide['work_of_drive']:.3f} meV/Å² lost")
 
 if "--plot" in sys.argv:
     import matplotlib.pyplot as plt

@@ -26,6 +26,7 @@ def version() -> str:
     return call(["--version"]).split()[-1]
 
 
+@functools.lru_cache(maxsize=None)
 def path() -> str:
     """The program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 

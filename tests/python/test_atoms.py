@@ -56,7 +56,7 @@ def test_a_flat_layer_is_the_flat_surface(place):
     command("check", ATOMS / "stepped.toml", "--set", f"surface.file={place}/flat.data", expect=2,
             says=f"convert it first: asperity convert '{place}/flat.data' flat.h5")
     command("convert", "flat.data", "flat.h5", says="52 coordinates of atoms lay outside of the box")
-    says = {"flat": [], "atoms": ["256 atoms", "a unit of measure", "over one flat layer (98.86)"]}
+    says = {"flat": [], "atoms": ["256 atoms", "a unit of measure", "over one flat layer, 98.86"]}
     for kind, file in ("flat", ""), ("atoms", 'file = "flat.h5"\n'):
         surface = f'[surface]\nkind = "{kind}"\n{file}sites = 16\n'
         Path(f"{kind}.toml").write_text(surface + '[drive]\npath = ["relax"]\n')

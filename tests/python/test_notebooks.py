@@ -22,7 +22,7 @@ def test_progress(with_tqdm, capfd, monkeypatch):
     assert sim.step(300, progress=True) == plain.step(300) == 300
     assert all((one == other).all() for one, other in zip(sim.u + sim.v, plain.u + plain.v))
     said = capfd.readouterr().err
-    assert ("300/300" if with_tqdm else "300 of 300 steps") in said and "eV/Å" in said, said
+    assert ("300/300" if with_tqdm else "300 of 300 steps") in said and "MPa" in said, said
 
 
 def results(notebook):

@@ -137,9 +137,9 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     assert numbers["binding energy at zero load"].value == "0.500"
     assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in sentences.results(run)[2]
     assert "(75.0\u00a0% of Δγ)" in sentences.results(run)[2]
-    assert numbers["work of the drive, approach"].note == "30.00 meV/Å²; solver converged to 3"
-    assert numbers["work of the drive, pull-off"].note == "50.00 meV/Å²; solver converged to 0.25"
-    assert numbers["work of the interface, pull-off"].note == "44.00 meV/Å²"
+    assert numbers["work that the drive takes up, approach"].note == "30.00 meV/Å²; solver converged to 3"
+    assert numbers["work that the drive gives, pull-off"].note == "50.00 meV/Å²; solver converged to 0.25"
+    assert numbers["work against the interface, pull-off"].note == "44.00 meV/Å²"
     assert numbers["lost in a cycle (hysteresis)"].value == "20"
     cycle = sentences.results(run)[1]
     assert "takes up 30.00 meV/Å²" in cycle and "gives 50.00 meV/Å²" in cycle and "20.00 meV/Å², is lost" in cycle

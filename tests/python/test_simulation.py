@@ -540,7 +540,8 @@ def test_examples(name, tmp_path):
     script = ROOT / "examples" / f"{name}.py"
     lines = [line for line in script.read_text(encoding="utf-8").splitlines() if line.strip()]
     assert len(lines) < 40
-    done = subprocess.run([sys.executable, str(script), "16", "--plot", "picture.svg"], capture_output=True, text=True,
+    sites = "32" if name == "load_cycles" else "16"  # on fewer, steeper ones sites that move sideways lead elsewhere
+    done = subprocess.run([sys.executable, str(script), sites, "--plot", "picture.svg"], capture_output=True, text=True,
                           cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT / "python")})
     assert done.returncode == 0 and done.stdout.strip(), done.stdout + done.stderr
     assert [p.name for p in Path(tmp_path).iterdir()] == ["picture.svg"]
