@@ -15,9 +15,9 @@ namespace asperity {
 
 namespace {
 
-constexpr double steepest = 0.6;     ///< rms slope
-constexpr double highest = 0.1;      ///< rms height over the edge of the box
-constexpr double fastest = 50.0;     ///< m/s
+constexpr double steepest = 0.6;      ///< rms slope
+constexpr double highest = 0.1;       ///< rms height over the edge of the box
+constexpr double fastest = 50.0;      ///< m/s
 constexpr double usable_part = 0.545; ///< of the stability limit of a flat contact
 
 /// rms slope of the spectrum that a self-affine surface is made from.

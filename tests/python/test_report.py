@@ -143,7 +143,7 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     assert numbers["lost in a cycle (hysteresis)"].value == "20"
     cycle = sentences.results(run)[1]
     assert "takes up 30.00 meV/Å²" in cycle and "gives 50.00 meV/Å²" in cycle and "20.00 meV/Å², is lost" in cycle
-    assert "interface’s force on the mean height is 36.00 meV/Å² and 44.00 meV/Å²" in cycle
+    assert "interface’s force on the mean height is 36.00 meV/Å² and −44.00 meV/Å²" in cycle
     rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)
     rows = [re.findall(r"<td.*?>(.*?)</td>", row) for row in rows]
     over = {cells[0].split(":")[0]: cells[-1] for cells in rows if len(cells) == 4}
