@@ -15,9 +15,11 @@ namespace asperity {
 
 namespace {
 
-constexpr double steepest = 0.6;      ///< rms slope
-constexpr double highest = 0.1;       ///< rms height over the edge of the box
-constexpr double fastest = 50.0;      ///< m/s
+constexpr double steepest = 0.6; ///< rms slope
+constexpr double highest = 0.1;  ///< rms height over the edge of the box
+constexpr double fastest = 50.0; ///< m/s
+constexpr double one_state =
+    0.5; ///< rms slope up to which a slow approach ends in the relaxed state
 constexpr double usable_part = 0.545; ///< of the stability limit of a flat contact
 
 /// rms slope of the spectrum that a self-affine surface is made from.
@@ -56,9 +58,21 @@ std::vector<std::string> notes_on_roughness(double rms, double slope, double edg
 std::vector<std::string> notes_on_validity(const Case& c) {
     const Scene& scene = c.scene;
     std::vector<std::string> notes;
-    if (scene.surface.kind == SurfaceKind::self_affine)
-        notes = notes_on_roughness(scene.surface.rms,
-                                   slope_of_spectrum(scene.surface, scene.edge()), scene.edge());
+    if (scene.surface.kind == SurfaceKind::self_affine) {
+        const double slope = slope_of_spectrum(scene.surface, scene.edge());
+        notes = notes_on_roughness(scene.surface.rms, slope, scene.edge());
+        // Measured on soft blocks: docs/explanation/relaxation.md.
+        const bool sideways =
+            scene.interface.kind != InterfaceKind::wall && !scene.interface.frictionless;
+        const bool soft = scene.block.young * slope < 2.0 * c.largest_tension;
+        if (c.starts_with(Segment::relax) && sideways && soft && slope > one_state)
+            notes.push_back(fmt::format(
+                "on slopes as steep as these (rms {:.2f}) a soft block has several states, and a "
+                "slow approach may end in another one than the segment \"relax\": "
+                "drive.mode = \"quasistatic\" with an approach finds that one, asperity states "
+                "lists more",
+                slope));
+    }
     if (!c.in_time) return notes;
     if (scene.drive.velocity > fastest)
         notes.push_back(fmt::format("drive.velocity = {:.4g} m/s is above {:.4g} m/s: sound that "

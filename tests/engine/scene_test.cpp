@@ -297,6 +297,13 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("drive.path = [\"approach\", \"load -19.708 GPa\", \"pull-off\"]", "by 10 %"));
     EXPECT_FALSE(said("drive.load = 19708\nblock.strain = \"finite\"", "strains"));
     EXPECT_FALSE(said("drive.load = 1000", "strains"));
+    // Stiff, soft and frictionless.
+    const std::string steep =
+        "surface.sites = 16\nsurface.rms = 4\nsurface.rolloff = 1\nblock.thickness = 16\n"
+        "drive.path = [\"relax\"]\nblock.young = ";
+    EXPECT_FALSE(said(steep + "100", "several states"));
+    EXPECT_TRUE(said(steep + "8", "several states"));
+    EXPECT_FALSE(said(steep + "8\ninterface.frictionless = true", "several states"));
     for (const auto& [fine, wrong, note] : std::vector<std::array<const char*, 3>>{
              {"drive.velocity = 50", "drive.velocity = 51", "above 50 m/s"},
              {"drive.timestep = 40", "drive.timestep = 41", "the longest that is usable"},
