@@ -76,6 +76,26 @@ TEST(Guard, APathWithoutTimeEndsWhereItsEnergyIsOff) {
     EXPECT_TRUE(has(refusal<io::PhysicsError>(still + "drive.tolerance = 1\n"), "energy balance"));
 }
 
+TEST(Guard, AFailedRunGoesOnFromItsLastGoodState) {
+    const Case c =
+        resolve(read_scene_text("surface.sites = 32\nsurface.rms = 1.5\nblock.thickness = 32\n"
+                                "drive.velocity = 60\ndrive.timestep = 73\ndrive.load = 25000\n"
+                                "output.series = 5\n",
+                                "scene.toml"));
+    const io::Scratch scratch;
+    RunOptions options;
+    options.out = scratch / "run";
+    options.progress = io::ProgressMode::off;
+    const auto fails = [&] {
+        return test::message_of<io::PhysicsError>([&] { run(c, options, Communicator()); });
+    };
+    const std::string first = fails();
+    ASSERT_TRUE(has(first, "is in last-good.h5")) << first;
+    options.resume = options.out + "/last-good.h5";
+    const std::string second = fails(); // in the same step, to the same bits
+    EXPECT_EQ(first.substr(0, first.find("fix:")), second.substr(0, second.find("fix:")));
+}
+
 TEST(Guard, APullThatNothingReachesIsNoZeroLoad) {
     const std::string quick = "drive.velocity = 50\ndrive.timestep = 40\n";
     for (const std::string& scene : {rough + quick, still}) {
