@@ -251,7 +251,7 @@ class Bench:
     def stopped_run(self, name):
         """A run that was killed when it had two checkpoints; None: it ended sooner."""
         out = self.out(name)
-        for _ in range(10):
+        for _ in range(200):
             child = self.start(out)
             while child.poll() is None and not os.path.exists(os.path.join(out, "checkpoint-before.h5")):
                 time.sleep(0.0005)

@@ -35,8 +35,8 @@ velocity = 60
 [output]
 checkpoint = 0.2
 """
-EIGHT = {"drive.velocity": [50, 60], "surface.seed": [1, 2, 3, 4]}
-SETS = ["--set", "drive.velocity=50,60", "surface.seed=1,2,3,4"]
+EIGHT = {"drive.velocity": [25, 30], "surface.seed": [1, 2, 3, 4]}
+SETS = ["--set", "drive.velocity=25,30", "surface.seed=1,2,3,4"]
 SHORT = [*SETS, "drive.max_steps=100"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT / "python")}
 
