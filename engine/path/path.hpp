@@ -87,6 +87,18 @@ public:
     /// relaxation ends.
     using Watch = std::function<bool(long long iteration, double residual)>;
     void watch(Watch told) { watch_ = std::move(told); }
+    /// Does the work with this watch, and then without any.
+    template <class Work>
+    auto while_watched(Watch told, const Work& work) {
+        struct Watching {
+            explicit Watching(Path& path) : of(path) {}
+            ~Watching() { of.watch({}); }
+            Path& of;
+        };
+        watch(std::move(told));
+        const Watching until_here(*this);
+        return work();
+    }
     /// Under way is a relaxation that goes on from where the block is: it can be saved within.
     virtual bool relaxes_freely() const { return false; }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A path of states of force balance, without time: the points of a quasi-static path
+// A path of states of force balance: the points of a quasi-static path
 // (quasistatic.hpp), segment by segment. A segment "relax" is one relaxation with the top plane
 // free: find_state() of it, after which the block stands there.
 //

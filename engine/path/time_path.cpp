@@ -85,10 +85,7 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
 }
 
 std::optional<LayerAtRest> TimePath::find_state() {
-    LayerAtRest found = bring_to_rest(
-        std::as_const(simulation_).block(), surface_, reference_height(), case_,
-        [this](long long iteration, double residual) { return told(iteration, residual); },
-        now().slide);
+    LayerAtRest found = state_at(now().slide);
     if (!found.numbers) return std::nullopt;
     results_.zero_load = found.numbers;
     return found;
@@ -97,6 +94,10 @@ std::optional<LayerAtRest> TimePath::find_state() {
 LayerAtRest TimePath::state_from_here() {
     const std::array<double, 2> place = simulation_.place(); // of the sites as they are now
     simulation_.interface().slide_to(place[0], place[1]);
+    return state_at(place);
+}
+
+LayerAtRest TimePath::state_at(const std::array<double, 2>& place) {
     return bring_to_rest(
         std::as_const(simulation_).block(), surface_, reference_height(), case_,
         [this](long long iteration, double residual) { return told(iteration, residual); }, place);

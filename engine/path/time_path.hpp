@@ -9,6 +9,7 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/path/path.hpp"
 
+#include <array>
 #include <optional>
 
 namespace asperity {
@@ -70,6 +71,7 @@ private:
         v("results", results_);
     }
     void keep(const Wish& wish);
+    LayerAtRest state_at(const std::array<double, 2>& place);
     std::optional<std::size_t> tell_drive(const StepRecord& now);
     Works so_far() const;
     static Works at_rest_apart(Works works, double bound, double moving);

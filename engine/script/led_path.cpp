@@ -98,15 +98,15 @@ template <class Work>
 auto LedPath::while_looking(const Look& look, const Work& work) {
     LookNowAndThen now_and_then(look);
     std::exception_ptr thrown;
-    path_.watch([&](long long, double) {
+    const auto told = [&](long long, double) {
         try {
             now_and_then();
         } catch (...) {
             thrown = std::current_exception();
         }
         return thrown != nullptr;
-    });
-    auto done = work();
+    };
+    auto done = path_.while_watched(told, work);
     if (!done) std::rethrow_exception(thrown);
     return done;
 }

@@ -273,11 +273,11 @@ RestState SteppedPath::relax(const Look& look) {
                "take the field away before (external = None)");
     take_in_writes();
     LookNowAndThen now_and_then(look);
-    path_.watch([&](long long, double) { // what it throws ends the search
+    const auto told = [&](long long, double) { // what it throws ends the search
         now_and_then();
         return false;
-    });
-    const LayerAtRest found = path_.state_from_here();
+    };
+    const LayerAtRest found = path_.while_watched(told, [this] { return path_.state_from_here(); });
     return {*found.numbers,
             path_.interface().maps(found.layer.view()[0], path_.reference_height())};
 }
