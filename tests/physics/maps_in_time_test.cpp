@@ -10,6 +10,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -122,6 +123,31 @@ TEST(MapsInTime, AreOfOneStep) {
     while (time[later] < time[after[0] - 1] + 1.0)
         ++later;
     run.expect_of_row("after-approach:1", later);
+}
+
+/// Each kind asks for the layer of its own steps: alone it writes the maps that it writes beside
+/// the others.
+TEST(MapsInTime, AskedForAloneAreTheSame) {
+    const auto run = [](const std::string& fields, int series) {
+        return test::Written("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n[block]\nthickness = 6\n"
+                             "[drive]\npath = [\"approach\", \"pull-off\"]\n"
+                             "velocity = 100\ntimestep = 20\ndamping = 0.5\n[output]\nseries = " +
+                             std::to_string(series) + "\nfields = [" + fields + "]\n");
+    };
+    const auto all = run("\"every:50\", \"segments\", \"pull-off\", \"after-approach:1\"", 1);
+    for (const auto& [fields, series, maps] :
+         std::vector<std::tuple<std::string, int, std::vector<std::string>>>{
+             {"\"every:50\"", 77, {"step-0", "step-50", "step-100"}},
+             {"\"segments\"", 77, {"segment-0", "segment-1"}},
+             {"\"pull-off\"", 1, {"pull-off"}},
+             {"\"after-approach:1\"", 77, {"after-approach:1"}}}) {
+        const auto alone = run(fields, series);
+        for (const std::string& map : maps)
+            for (const char* column : {"u_x", "u_z", "pressure"}) {
+                const std::string name = "/fields/" + map + "/" + column;
+                EXPECT_EQ(alone.file->read<double>(name), all.file->read<double>(name)) << name;
+            }
+    }
 }
 
 } // namespace

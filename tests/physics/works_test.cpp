@@ -226,6 +226,19 @@ TEST(Works, OfSegmentsAreThoseOfTheSeries) {
                                   false, true);
 }
 
+TEST(Works, OfASecondCycleKnowWhatStillMovedAfterTheFirst) {
+    // What moves when a cycle begins was paid for by the one before.
+    const Path run(scene(flat, 48,
+                         "path = [\"approach\", \"pull-off\", \"approach\", \"pull-off\"]\n"
+                         "velocity = 40\ntimestep = 20\ndamping = 0.01"));
+    const auto work = [&](std::size_t k) {
+        return run.json["segments"][k].at("work_of_drive").get<double>();
+    };
+    const double left = run.json["segments"][1].at("kinetic").get<double>();
+    EXPECT_GT(left, 0.02 * run.state()) << "the case must tell";
+    EXPECT_NEAR(work(2) + work(3), run("lost.cycle"), 1e-3 * run("delta_gamma"));
+}
+
 TEST(Works, WithHeatOrALoadAreNotComparedWithTheState) {
     const Path warm(scene(flat, 4, "velocity = 100\ntimestep = 20\ntemperature = 50\ndamping = 1"));
     EXPECT_TRUE(warm.holds("work_of_drive.pull_off"));
