@@ -35,9 +35,9 @@ SegmentRule::End SegmentRule::look(double force, bool apart, double slack, bool 
         attracted_ = false;
         return End::no;
     }
-    const bool pressed = beside && force >= aim() - slack;
+    const bool there = beside && force >= aim() - slack;
     if (force < std::min(load_, 0.0) - slack) attracted_ = true;
-    if (!pressed && !(attracted_ && force >= load_)) return End::no;
+    if (!there) return End::no;
     if (load_ < -slack && !attracted_) refuse();
     return End::at_load;
 }
