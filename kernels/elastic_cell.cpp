@@ -13,6 +13,10 @@ using PackVector = Triple<V>;
 
 constexpr int cache_line = 64 / sizeof(double);
 
+/// Where a register holds a whole line of the cache, each load that does not begin at one would
+/// take two, and there are registers enough to shift the lanes of packs instead.
+constexpr bool by_shifts = V::width == cache_line;
+
 /// The parts (column_parts) of the columns of a stretch of a row, in the first-level cache: of each
 /// component a row of numbers for the nodes west of the columns, at them and east of them.
 class RowParts {
@@ -68,10 +72,6 @@ public:
     }
 
 private:
-    /// Where a register holds a whole line of the cache, each load that does not begin at one would
-    /// take two, and there are registers enough to shift the lanes of packs instead.
-    static constexpr bool by_shifts = V::width == cache_line;
-
     ASPERITY_INLINE V component(int k) {
         if constexpr (!by_shifts)
             return ((at_ + 1).to_west(k) + (at_ + -1).to_east(k)) + at_.here(k);
@@ -85,11 +85,13 @@ private:
     V west_[3], east_before_[3];
 };
 
-/// Prefetches what is needed two rows later into the second-level cache; further ahead, and it is
-/// gone again before it is used.
+/// Prefetches what is needed a row or two later into the second-level cache; further ahead, and it
+/// is gone again before it is used.
 class Prefetch {
 public:
-    static constexpr int distance = 2;
+    static constexpr int distance = by_shifts ? 1 : 2;
+    /// The fewer loads and stores a pack takes, the more of them wait for the memory at a time.
+    static constexpr bool parts_in_registers = by_shifts;
 
     /// row: where the row begins whose nodes will be kicked. lowest: it is in a band's lowest
     /// plane; of the others all but the displacements above has been read by the plane below.
@@ -122,6 +124,7 @@ private:
     bool lowest_;
 };
 struct NoPrefetch {
+    static constexpr bool parts_in_registers = false;
     NoPrefetch() = default;
     ASPERITY_INLINE NoPrefetch(const VectorVolume<const double>&, const VectorVolume<double>&,
                                std::ptrdiff_t, bool) {}
@@ -131,6 +134,33 @@ struct NoPrefetch {
 /// to 8 % of its time.
 constexpr std::ptrdiff_t nodes_in_cache = 170000;
 
+/// As sweep_row(), for an x0 at which a pack begins: the parts of the packs of columns before, at
+/// and behind a node's stay in registers, as far as these reach.
+template <Face face, class Fetch, class Use>
+ASPERITY_INLINE void sweep_in_registers(const VectorVolume<const double>& u, std::ptrdiff_t line,
+                                        int x0, int x1, const Weights<V, face>& weights,
+                                        const Around& around, const Fetch& fetch, const Use& use) {
+    const auto columns = [&](int x) __attribute__((always_inline)) {
+        ColumnParts<V> parts;
+        column_parts(u.x.origin + line + x, u.y.origin + line + x, u.z.origin + line + x, around,
+                     weights, parts);
+        return parts;
+    };
+    ColumnParts<V> before = columns(x0 - V::width), here = columns(x0);
+    for (int x = x0; x < x1; x += V::width) {
+        const ColumnParts<V> behind = columns(x + V::width);
+        const auto force = [&](int k) __attribute__((always_inline)) {
+            return (shift_left(here.west[k], behind.west[k]) +
+                    shift_right(before.east[k], here.east[k])) +
+                   here.here[k];
+        };
+        fetch(x);
+        use(x, x1 - x, PackVector{force(0), force(1), force(2)});
+        before = here;
+        here = behind;
+    }
+}
+
 /// Calls use(x, count, force) for the nodes [x0, x1) of a row, pack by pack from x0 on; count: how
 /// many lanes are nodes of it, where these are not all. Before each line of the cache, fetch(x).
 /// A stretch at a time: first the parts of its columns, then the forces, which read them a number
@@ -139,6 +169,8 @@ template <Face face, class Fetch, class Use>
 ASPERITY_INLINE void sweep_row(const VectorVolume<const double>& u, std::ptrdiff_t line, int x0,
                                int x1, const Weights<V, face>& weights, const Around& around,
                                RowParts& parts, const Fetch& fetch, const Use& use) {
+    if constexpr (Fetch::parts_in_registers)
+        return sweep_in_registers<face>(u, line, x0, x1, weights, around, fetch, use);
     constexpr int last = V::width - 1;
     int known = (x0 - 1) & ~last; // columns before it have their parts
     for (int begin = x0; begin < x1; begin += RowParts::stretch) {

@@ -36,7 +36,8 @@
 // each force component needs a part for x itself, one for x - 1 and one for x + 1. So a pack of
 // columns is read with 27 aligned loads and turned into nine such parts (72 operations). A buffer
 // in the first-level cache keeps those of a stretch of a row, and the outer ones are read from it a
-// number further on or back: no value is loaded twice for its x neighbours.
+// number further on or back: no value is loaded twice for its x neighbours. With AVX-512, registers
+// keep them instead where the level comes from memory.
 #pragma once
 
 #include "kernels/exact_sum.hpp"

@@ -52,6 +52,11 @@ struct Stack {
     }
     /// Band by band; of the upper plane also the frame around the tile.
     void evaluate(int band = 8) {
+        const ElasticLevel of = level();
+        for (int y = 0; y < tile.ny; y += band)
+            elastic_kernels(strain).forces(of, y, std::min(tile.ny, y + band), force.view());
+    }
+    ElasticLevel level() {
         ElasticLevel level;
         level.cells = cells;
         level.u = u.view();
@@ -61,8 +66,7 @@ struct Stack {
         level.inner = make_stencil(cell.elasticity, Face::inner);
         level.upper = make_stencil(cell.elasticity, Face::upper);
         level.cell = cell;
-        for (int y = 0; y < tile.ny; y += band)
-            elastic_kernels(strain).forces(level, y, std::min(tile.ny, y + band), force.view());
+        return level;
     }
     Place force_at(int x, int y, int z) const {
         if (z == cells)
@@ -143,6 +147,45 @@ TEST_P(LevelCells, GiveTheSameBitsInBandsOfAnyHeight) {
     // The frame is what the nodes inside are, seen through the periodic border.
     for (int x = -1; x <= n; ++x)
         EXPECT_EQ(whole.force_at(x, m, 3), whole.force_at(periodic(x, n), 0, 3));
+}
+
+/// Levels in the caches and beyond them, damped, observed or not, have loops of their own.
+TEST(ElasticPass, KicksByTheForcesInAllItsLoops) {
+    constexpr int layers = 3, band = 8;
+    for (const auto& [n, m] : {std::pair{5, 7}, {8, 8}, {17, 3}, {72, 17}, {250, 251}}) {
+        Stack stack(n, m, layers, CellStrain::small);
+        stack.shake(0.4, 3);
+        stack.transferred.y.view()(2, 1, 0) = 0.3;
+        stack.evaluate();
+        std::vector<Stack::Place> upper;
+        for (int y = -1; y <= m; ++y)
+            for (int x = -1; x <= n; ++x)
+                upper.push_back(stack.force_at(x, y, layers));
+        for (int loop = 0; loop < 4; ++loop) {
+            Kick kick;
+            kick.kick = 1.0; // of nodes at rest: their velocities are the forces, bit for bit
+            kick.damped = loop & 1;
+            kick.observed = loop & 2;
+            VectorField<double> v(stack.tile, layers);
+            ElasticLevel level = stack.level();
+            level.v = v.view();
+            KickSums sums;
+            for (int y = 0; y < m; y += band)
+                elastic_kernels().advance(level, {kick, kick, kick, layers}, 0.0,
+                                          {y, std::min(m, y + band), 0, m}, {}, sums);
+            for (int z = 0; z < layers; ++z)
+                for (int y = 0; y < m; ++y)
+                    for (int x = 0; x < n; ++x)
+                        ASSERT_EQ((Stack::Place{v.x.view()(x, y, z), v.y.view()(x, y, z),
+                                                v.z.view()(x, y, z)}),
+                                  stack.force_at(x, y, z))
+                            << n << ' ' << loop << ": " << x << ' ' << y << ' ' << z;
+            auto expected = upper.begin();
+            for (int y = -1; y <= m; ++y)
+                for (int x = -1; x <= n; ++x)
+                    ASSERT_EQ(stack.force_at(x, y, layers), *expected++);
+        }
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, LevelCells,
