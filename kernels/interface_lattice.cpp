@@ -31,6 +31,11 @@ private:
     }
 };
 
+/// Two quads do not fit into the sixteen registers of AVX2. Where energies are asked for, or a
+/// potential takes long to begin, keeping some of them in memory is the lesser evil.
+template <>
+inline constexpr bool one_by_one<Simd, LennardJones, false> = register_bytes == 32;
+
 namespace {
 
 ASPERITY_INLINE PlaneView<const double> heights_in(double, const LatticeSubstrate& s) {

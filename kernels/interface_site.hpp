@@ -226,6 +226,11 @@ struct PairSums {
     V nearest;                    ///< least r^2
 };
 
+/// Whether a quad's forces are formed before the next one is begun. Else the next one's divisions
+/// are under way meanwhile, but that takes the registers of two quads.
+template <class F, class P, bool observe>
+inline constexpr bool one_by_one = false;
+
 /// Sums over the quads in reach of sites displaced by ux, uy that stand at z; `here`: the atom of
 /// the first of them.
 template <class F, class T, bool observe, bool close, class P>
@@ -249,6 +254,45 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
         south2 = south * south;
         north2 = north * north;
     };
+    V f_south, f_north; // sums of a row
+    const auto end_row = [&](int n) __attribute__((always_inline)) {
+        f_all = f_all + (f_south + f_north);
+        f_cy = fma(f_south - f_north, offset(n), f_cy);
+    };
+    if constexpr (one_by_one<F, P, observe>) {
+        const auto half = [&](int m, const auto* atoms, V side2, auto masked, V& f_west, V& f_east)
+            __attribute__((always_inline)) {
+            const V z_west = z.above(atoms + 1 - m), z_east = z.above(atoms + m);
+            const V r2_west = fma(z_west, z_west, lateral.west2(m) + side2);
+            const V r2_east = fma(z_east, z_east, lateral.east2(m) + side2);
+            V t_west, t_east;
+            pair.template begin<close>(r2_west, r2_east, t_west, t_east);
+            f_west = pair.force(t_west, r2_west, masked);
+            f_east = pair.force(t_east, r2_east, masked);
+            f_z = fma(f_west, z_west, f_z);
+            f_z = fma(f_east, z_east, f_z);
+        };
+        const auto take = [&](int m, auto masked) __attribute__((always_inline)) {
+            V f_sw, f_se, f_nw, f_ne;
+            half(m, south_row, south2, masked, f_sw, f_se);
+            f_south = f_south + (f_sw + f_se);
+            half(m, north_row, north2, masked, f_nw, f_ne);
+            f_north = f_north + (f_nw + f_ne);
+            f_cx = fma((f_sw + f_nw) - (f_se + f_ne), offset(m), f_cx);
+        };
+        for (int n = 1, rows = all.rows(half_offsets); n <= rows; ++n) {
+            enter_row(n);
+            f_south = f_north = V(T(0));
+            const int inside = within.of_row[n - 1], last = all.of_row[n - 1];
+            int m = 1;
+            for (; m <= inside && m <= last; ++m)
+                take(m, std::false_type{});
+            for (; m <= last; ++m)
+                take(m, std::true_type{});
+            end_row(n);
+        }
+        return {f_all, f_cx, f_cy, f_z, v, nearest};
+    }
     const auto approach = [&](int m) __attribute__((always_inline)) {
         Quad<V> q;
         q.z_sw = z.above(south_row + 1 - m);
@@ -263,7 +307,6 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
         pair.template begin<close>(q.r2_nw, q.r2_ne, q.t_nw, q.t_ne);
         return q;
     };
-    V f_south, f_north; // sums of a row
     const auto collect = [&](int m, const Quad<V>& q, auto masked) __attribute__((always_inline)) {
         const V f_sw = pair.force(q.t_sw, q.r2_sw, masked);
         const V f_se = pair.force(q.t_se, q.r2_se, masked);
@@ -306,8 +349,7 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
         else
             collect(last, quad, std::true_type{});
         quad = next;
-        f_all = f_all + (f_south + f_north);
-        f_cy = fma(f_south - f_north, offset(n), f_cy);
+        end_row(n);
     }
     return {f_all, f_cx, f_cy, f_z, v, nearest};
 }
