@@ -25,9 +25,9 @@ made docs/reference/scene.md docs/reference/result.md
 
 for figure in 2 3; do
     ./asperity sweep scenes/paper/fig$figure.toml --theory-only --out $place/theory-$figure >$place/log.txt
-    cp $place/theory-$figure/sweep.csv $gallery/theory-fig$figure.csv
-    made $gallery/theory-fig$figure.csv
 done
+cp $place/theory-2/sweep.csv $gallery/theory-fig2.csv # the same numbers as those of figure 3
+made $gallery/theory-fig2.csv
 cp $place/theory-2/gamma.svg $gallery/theory-fig2a.svg
 cp $place/theory-2/area.svg $gallery/theory-fig2b.svg
 cp $place/theory-3/full-contact.svg $gallery/theory-fig3.svg

@@ -23,6 +23,7 @@ class LedPath {
 public:
     explicit LedPath(const Case& c);
     const Case& scene_case() const { return case_; }
+    const Surface& surface() const { return surface_; }
 
     // Where the next relax() goes. Throw io::SceneError where the other one is held.
 

@@ -191,6 +191,10 @@ std::string SteppedPath::segment() const {
     return done() ? "done" : simulation().drive().now().text;
 }
 
+int SteppedPath::segment_number() const {
+    return simulation().drive().by_hand() ? -1 : static_cast<int>(path_.segment());
+}
+
 double SteppedPath::fraction(long long sites) const {
     const double across = case_.scene.surface.sites;
     return static_cast<double>(sites) / (across * across);

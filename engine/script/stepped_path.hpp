@@ -79,6 +79,8 @@ public:
     /// The path has come to its end. Never while the top is led by hand.
     bool done() const { return path_.done(); }
     std::string segment() const; ///< as the scene has it; "done" after the last
+    /// That of the last step, from 0; -1 while the top is led by hand.
+    int segment_number() const;
 
     const Case& scene_case() const { return case_; }
     const Simulation& simulation() const { return path_.simulation(); }

@@ -82,6 +82,13 @@ py::array array_of(const PlaneView<double>& plane, std::shared_ptr<const void> o
     return array;
 }
 
+/// Heights of a substrate, to be read.
+py::array heights_of(const Surface& of, std::shared_ptr<const void> owner) {
+    const PlaneView<double> heights{const_cast<double*>(of.height.data()), of.sites, of.sites,
+                                    of.sites};
+    return array_of(heights, std::move(owner), false);
+}
+
 py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& view,
                      bool writable = true) {
     if (!view) return py::none();
@@ -338,19 +345,16 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "spacing", [](const Sim& sim) { return sim.scene_case().scene.surface.spacing; },
             "distance of the sites, Å")
-        .def_property_readonly("_substrate_height",
-                               [](Sim& sim) {
-                                   const Surface& of = sim.surface();
-                                   const PlaneView<double> heights{
-                                       const_cast<double*>(of.height.data()), of.sites, of.sites,
-                                       of.sites};
-                                   return array_of(heights, sim.shared_from_this(), false);
-                               })
+        .def_property_readonly(
+            "_substrate_height",
+            [](Sim& sim) { return heights_of(sim.surface(), sim.shared_from_this()); })
         .def_property_readonly(
             "_scene", [](const Sim& sim) { return scene_toml(sim.scene_case().scene, false); })
         .def_property_readonly("_name", [](const Sim& sim) { return sim.scene_case().scene.name; })
         .def_property_readonly("_substrate_edge",
                                [](const Sim& sim) { return sim.surface().length; })
+        .def_property_readonly("_segment_number", &Sim::segment_number)
+        .def_property_readonly("_top_then", [](const Sim& sim) { return sim.now().top; })
         .def_property("_top_position", &Sim::top_position, &Sim::set_top_position)
         .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
 
@@ -409,10 +413,10 @@ PYBIND11_MODULE(_engine, m) {
             "displacements of the lowest layer, Å, [component, y, x], to be read and written")
         .def_readwrite("top", &State::top, "displacement of the top plane, Å");
 
-    py::class_<LedPath>(m, "Statics")
+    py::class_<LedPath, std::shared_ptr<LedPath>>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {
             const Given scene = read(file, overrides);
-            return working([&] { return std::make_unique<LedPath>(scene.resolved); });
+            return working([&] { return std::make_shared<LedPath>(scene.resolved); });
         }))
         .def(
             "relax", [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
@@ -465,6 +469,9 @@ PYBIND11_MODULE(_engine, m) {
                     "lateral"_a = !c.scene.interface.frictionless &&
                                   c.scene.interface.kind != InterfaceKind::wall);
             })
+        .def_property_readonly(
+            "_substrate_height",
+            [](const std::shared_ptr<LedPath>& s) { return heights_of(s->surface(), s); })
         .def("_hold", py::overload_cast<double>(&LedPath::set_hold))
         .def("_hold", py::overload_cast<const std::string&>(&LedPath::set_hold))
         .def("_load", py::overload_cast<double>(&LedPath::set_load))

@@ -82,6 +82,8 @@ class Simulation:
     _scene: str
     _substrate_edge: float
     _substrate_height: _Array
+    _segment_number: int
+    _top_then: float
     _top_position: float
     _top_velocity: Any
 
@@ -118,5 +120,6 @@ class Statics:
     mean_height: float
     top: float
     _case: dict[str, Any]
+    _substrate_height: _Array
     def _hold(self, time: float | str) -> None: ...
     def _load(self, pressure: float | str) -> None: ...

@@ -90,7 +90,7 @@ class Top:
 
     @property
     def position(self) -> float:
-        """Displacement since the start, Å. Written: the plane stands there in the next step, at once."""
+        """Displacement since the start, Å. Written: the plane is there in the next step, without a way in between."""
         return self._simulation._top_position
 
     @position.setter
@@ -99,8 +99,8 @@ class Top:
 
     @property
     def velocity(self) -> float:
-        """Velocity in the next step, m/s; positive moves away. Written (a number or "2 m/s"): kept from then on, and the scene's path
-        ends nowhere; None: back to the scene's drive, where that was."""
+        """Velocity in the next step, m/s; positive moves away. Written, a number or "2 m/s": it is kept, and the scene's
+        path waits. None: the scene's path goes on from where it was."""
         return self._simulation._top_velocity
 
     @velocity.setter
@@ -121,13 +121,14 @@ MPA = 1e3 / GIGAPASCAL
 """MPa in an eV/Å³."""
 MAPS = {"gap": "Å", "contact": "1", "pressure": "GPa"}
 SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
-    "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time), "force": ("eV/Å", lambda s: s.force),
+    "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time),
+    "segment": ("1", lambda s: s._segment_number), "top_displacement": ("Å", lambda s: s._top_then), "force": ("eV/Å", lambda s: s.force),
     "top_force": ("eV/Å", lambda s: s.top_force), "mean_height": ("Å", lambda s: s.mean_height),
     "contact_fraction": ("1", lambda s: s.contact), "repulsive_fraction": ("1", lambda s: s.repulsive_fraction),
     "interface_energy": ("eV", lambda s: s.energy.interface), "elastic_energy": ("eV", lambda s: s.energy.elastic),
     "kinetic_energy": ("eV", lambda s: s.energy.kinetic), "work": ("eV", lambda s: s.energy.work),
-    "damped": ("eV", lambda s: s.energy.damped)}
-"""The engine's columns of Simulation.series, as in run.h5: unit, value."""
+    "damped": ("eV", lambda s: s.energy.damped), "balance_error": ("1", lambda s: s.energy.balance_error)}
+"""The engine's columns of Simulation.series, as in run.h5: unit, value. segment: -1 while the top is led by hand."""
 
 
 @contextlib.contextmanager
@@ -400,6 +401,11 @@ class Statics(_engine.Statics):
     def spacing(self) -> float:
         """Distance of neighbouring sites, Å."""
         return self._case["spacing"]
+
+    @property
+    def substrate(self) -> Substrate:
+        """The substrate: .height (Å, [y, x]) and .edge (Å)."""
+        return Substrate(self._substrate_height, self.edge)
 
     @property
     def stress(self) -> float:

@@ -30,9 +30,10 @@ def minus(text: str) -> str:
 
 
 def _set(text: Any) -> Markup:
-    """Escaped, with its subscripts γ_{eff}, and units that stay with their numbers."""
+    """Escaped, with its subscripts γ_{eff} and `commands`, and units that stay with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))
-    return Markup(out.replace(" meV/Å", "\u00a0meV/\u2060Å"))
+    out = re.sub(r"`([^`]*)`", r"<code>\1</code>", out)
+    return Markup(out.replace(" meV/Å", "\u00a0meV/\u2060Å").replace(" mJ/m", "\u00a0mJ/\u2060m"))
 
 
 @dataclass

@@ -15,7 +15,7 @@ from .page import Page, file_name, minus
 from .plots import run as plots
 from .plots.style import KINDS
 from .result import Result, State, Values
-from .tables import AREA
+from .tables import AREA, BOTH
 from .units import shown
 
 MOST_STATES = 6
@@ -23,27 +23,28 @@ FIGURES = {
     "path": ("Force and contact", (
         ("separation", "Force and separation", "{path}"),
         ("contact", "Contact over the path",
-         "{contact} (in contact), and sites whose net normal force is repulsive."))),
+         "{contact} (in contact), and sites whose net normal force is repulsive (repulsive), over all sites. Displacement "
+         "is negative towards the substrate."))),
     "surface": ("Surface and theory", (
         ("height", "Height of the substrate", "The substrate from above. The colour bar spans 99\u00a0% of it."),
         ("spectrum", "Roughness spectrum",
-         "Radially averaged power spectrum of the surface that was made, and what was asked for."),
-        ("roughness", "Binding energy and roughness", "Persson’s theory for this scene at other roughnesses, and this "
-         "run’s numbers."))),
+         "Radially averaged power spectrum of this surface (realised), and the one that the scene asks for (target)."),
+        ("roughness", "Binding energy and roughness", "Curves: the theories for this scene at other roughnesses. Markers: "
+         "this run’s numbers, all as energies that separate the solids: works of the interface’s force, works of the "
+         "drive, and the binding energy of the state."))),
     "energies": ("Energies", (
         ("energy", "Energies",
-         "Energies over the path. Work is done by the top plane and the moving medium of the damping."),
+         "{energy}"),
         ("balance", "Energy balance", "Work done minus energy gained minus energy damped, over the largest "
          "of these terms so far."),
         ("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
-         "displacement: what a testing machine would record. Between the curves lies the energy lost in a cycle."),
+         "displacement (negative towards the substrate): what a testing machine would record. {loading}"),
         ("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each "
          "slide, over its distance.")))}
 """Sections of a run: heading, and of each figure its plot, heading and caption."""
 PATH_CAPTIONS = {
-    False: "Force of the substrate on the block over the mean separation, the mean height of the lowest layer above "
-           "the substrate’s mean plane; negative is attraction. The area under a curve is the work of the interface "
-           "on that segment.",
+    False: "Force of the substrate on the block, over the nominal area; negative is attraction. The mean separation is "
+           "the mean height of the lowest layer above the substrate’s mean plane. ",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
           "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the "
           "sphere’s periodic images."}
@@ -52,10 +53,10 @@ MAPS = (("gap", "Gap", "Height of each site above the substrate below it. The co
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
         ("contact", "Contact", "{contact}."))
 DISTRIBUTIONS = (
-    ("pressures", "Distribution of pressure", "How the interface’s pressure is distributed over the sites that feel "
-     "any: the left wing is attractive, the right one repulsive. Per site of the box."),
-    ("gaps", "Distribution of gaps", "Distribution of the gaps of all sites, normalised to one."))
-SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive, meV/Å²", "lost": "lost, meV/Å²",
+    ("pressures", "Distribution of pressure", "Probability density of the pressure on a site; negative is attraction. Sites "
+     "beyond the interaction range are left out: the integral is the fraction of the others."),
+    ("gaps", "Distribution of gaps", "Probability density of the gaps of all sites; the integral is one."))
+SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOTH, "lost": "lost" + BOTH,
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
 
@@ -66,7 +67,20 @@ def _words(run: Result) -> dict[str, str]:
     if run.key("interface.kind") == "wall":
         contact = "Sites that touch the wall" if run.key("interface.law") == "exponential" else \
             "Sites nearer to the wall than the inflection of its potential"
-    return {"path": PATH_CAPTIONS[run.curved], "contact": contact, "at": run.load_words[0],
+    static, held = run.key("drive.mode") == "quasistatic", run.key("drive.control") == "mean-height"
+    path = PATH_CAPTIONS[run.curved]
+    if not run.curved:
+        path += ("Straight lines across are jumps, on which the solids are not in force balance." if static and not held else
+                 "The integral of a curve along its path is the work of the interface’s force on that segment.")
+    relaxes = " + dissipated in the block" * ("dissipated_in_block" in run.series)
+    return {"path": path, "contact": contact,
+            "energy": "Work of the drive = interface + elastic + dissipated" + relaxes + ". Steps of the curves are "
+                      "instabilities." if static else
+                      "Work of the drive = interface + elastic + kinetic + damped. The drive is the top plane, and the "
+                      "medium of the damping that moves with it.",
+            "loading": "The area between approach and pull-off is the energy lost in a cycle." if static else
+                       "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
+                       "the damping does is not in it.", "at": run.load_words[0],
             "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
 
 
@@ -120,10 +134,12 @@ def _states(page: Page, run: Result) -> None:
 
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
-    """Numbers by the names of columns; "": of the line itself."""
-    page.table([*heads.values()], [
-        [str(i) if name == "" else line.text(name) or sentences.general(line.find(name), digits) for name in heads]
-        for i, line in enumerate(lines, 1)])
+    """Numbers by the names of columns."""
+    def cell(line: Values, name: str, head: str) -> str:
+        text, value = line.text(name) or minus(sentences.general(line.find(name), digits)), line.number(name)
+        return text + f" ({minus(terminal.millijoules(value))})" * (head.endswith(BOTH) and value is not None)
+
+    page.table([*heads.values()], [[cell(line, *head) for head in heads.items()] for line in lines])
 
 
 def _segments(page: Page, run: Result) -> None:
@@ -146,9 +162,10 @@ def _numbers(page: Page, run: Result) -> None:
         nominal = known["per"] == AREA and not key.startswith("theory.")
         over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
         rows.append([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
+                     minus(terminal.millijoules(value)) if unit == "meV/Å²" else "",
                      minus(terminal.number(value / flat, 4)) if over else ""])
     page.section("numbers", "All numbers")
-    page.table(["", "value", "unit", "over Δγ"], rows)
+    page.table(["", "value", "unit", "mJ/m²", "over Δγ"], rows)
 
 
 def _times(page: Page, run: Result) -> None:

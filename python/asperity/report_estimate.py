@@ -17,10 +17,8 @@ from .page import Page, minus
 from .plots import style as figures
 from .plots.style import BLUE, INK, Curve, drawn, finish
 from .sentences import ALWAYS_LEFT_OUT
-from .units import ELECTRONVOLT, NANONEWTON, shown
+from .units import MILLIJOULE, NANONEWTON, shown
 
-PER_AREA = 1e20 * ELECTRONVOLT
-"""1 meV/Å² in mJ/m²."""
 SMALL = 0.1
 """Of the whole error: contributions below it are not quoted."""
 LEFT_OUT = [text for text in ALWAYS_LEFT_OUT if not text.startswith("edges")]  # the width, or a map's edges, are parts
@@ -42,7 +40,7 @@ def rounded(value: float, error: float) -> tuple[str, str]:
 def _units(n: Number) -> list[tuple[float, str]]:
     """Factors and units that people quote, the one to be quoted first."""
     if n.unit == "meV/Å^2":
-        return [(PER_AREA, "mJ/m²"), (1.0, shown(n.unit))]
+        return [(MILLIJOULE, "mJ/m²"), (1.0, shown(n.unit))]
     return [(1.0 / NANONEWTON, "nN")] if n.unit == "eV/Å" else [(1.0, shown(n.unit))]
 
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from .page import minus
 from .result import Result, Values, finite
-from .terminal import duration, number
+from .terminal import duration, millijoules, number
 from .units import GIGAPASCAL, NANONEWTON
 
 
@@ -27,8 +27,9 @@ def percent(fraction: float) -> str:
     return minus(f"{number(100 * fraction, digits)}\u00a0%")
 
 
-def energy(gamma: float) -> str:
-    return minus(f"{number(gamma, 2)} meV/Å²")
+def energy(gamma: float, more: str = "") -> str:
+    """"69.91 meV/Å² (1120 mJ/m²)"; more: to be said in the brackets too."""
+    return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
 
 
 def general(value: Any, digits: int = 4) -> str:
@@ -84,19 +85,20 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     def add(value: str, unit: str, name: str, note: str = "") -> None:
         found.append(KeyNumber(minus(value), unit, name, note))
 
-    def gamma(key: str, name: str, symbol: str = "γ_{eff}/Δγ") -> None:
+    def gamma(key: str, name: str, symbol: str = "Δγ") -> None:
         sign, key = (-1.0, key[1:]) if key.startswith("-") else (1.0, key)  # of works on the solids
         value, flat = run.number(key), reference(run, key)
         if value is not None and flat > 0:
             value *= sign
             parent, _, leaf = key.rpartition(".")
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
-            add(number(value / flat, 3), symbol, name, energy(value) + (f"; solver converged to {error:.2g}" if error else ""))
+            add(number(value / flat, 3), symbol, name,
+                energy(value) + (f"; solver converged to {error:.2g} meV/Å²" if error else ""))
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
-        gamma("jkr.pull_off", "from the pull-off force, by JKR", "γ_{JKR}/Δγ")
-        gamma("jkr.approach_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps", "γ_{JKR}/Δγ")
+        gamma("jkr.pull_off", "from the pull-off force, by JKR", "Δγ")
+        gamma("jkr.approach_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
                            for k in ("delta_gamma", "theory.sphere.maugis_images"))
@@ -115,7 +117,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                 "pull-off stress, the largest attraction on the way out", f"{force / NANONEWTON:.4g} nN in all")
     if (lost := run.number("lost.cycle")) is not None:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
-            "lost in a cycle (hysteresis)", _loss(run))
+            "lost in a cycle (hysteresis)", _loss(run) if run.curved else f"{millijoules(lost)} mJ/m²; {_loss(run)}")
     if not run.curved:
         gamma("work_of_interface.approach", "work of the interface, approach")
         gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
@@ -128,7 +130,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         add(percent(theory), "", f"contact area in theory{pressed}")
     residual = run.number("energy.balance_error")
     if residual is not None and not run.failure_text:
-        add(f"{abs(residual):.1e}", "", "energy balance", "relative to its largest term")
+        add(f"{abs(residual):.1e}", "", "energy balance error", "of the largest work or energy; below 1e-3 is good")
     return found
 
 
@@ -140,15 +142,15 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
         text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
     else:
         unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
-        text = (f"{at} the solids are bound by {energy(state)}, {percent(state / flat)} of the "
-                f"{energy(flat)} of {unit}.")
+        text = (f"{at} the solids are bound by {energy(state)}. That is {percent(state / flat)} of the binding energy "
+                f"Δγ of {unit}, {energy(flat)}.")
         if bonds is not None:
-            text += (f" The bonds across the interface give {energy(bonds)}; {energy(bonds - state)} of it is spent on "
-                     "bending the block into contact.")
+            text += (f" The bonds across the interface give {energy(bonds)}; bending the block into contact costs "
+                     f"{energy(bonds - state)} of it.")
     if contact is not None:
         text += f" {percent(contact)} of the sites are in contact"
         if pushed is not None:
-            text += f", the force on {percent(pushed)} is repulsive"
+            text += f"; the force on {percent(pushed)} of the sites is repulsive"
         text += "."
     return text
 
@@ -167,17 +169,17 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         return f"A cycle of approach and pull-off loses {loop} eV" + (
             f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
             "detaches." if all(parts) else ".")
-    text = f"On the way in the drive takes up {energy(-into)}; on the way out it gives {energy(out)}."
+    text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
     if (relaxed := run.number("dissipated_in_block.cycle")) is not None:
         text += f" The block, which relaxes, dissipates {energy(relaxed)}; {energy(lost)} are lost at instabilities."
     elif abs(lost) < 0.01 * flat:
-        text += f" The two agree to {energy(abs(lost))}: hardly anything is lost on the way."
+        text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
     own = [run.number("work_of_interface." + k) for k in ("approach", "pull_off")]
     if None not in own and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
-        text += (f" The work of the interface’s force on the mean height is {energy(own[0])} and {energy(own[1])}: a "
-                 "jump of the block as a whole changes nothing of it.")
+        text += (f" The interface’s force does the work {energy(own[0])} on the approach and {energy(own[1])} on the "
+                 "pull-off (its integral over the mean height); a jump of the block as a whole does not change it.")
     return text
 
 
@@ -196,13 +198,14 @@ def results(run: Result) -> list[str]:
     theory = run.number("theory.persson.gamma_eff")
     if theory is not None and flat > 0:
         (at, pressed), given = run.load_words, reference(run, "theory.persson.gamma_eff")
-        sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = {energy(theory)} ({percent(theory / given)} of "
-                    + ("Δγ)" if math.isclose(given, flat) else f"its Δγ, {energy(given)})"))
+        share = "Δγ" if math.isclose(given, flat) else f"its Δγ, {number(given, 2)} meV/Å²"
+        sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = "
+                    + energy(theory, f"{percent(theory / given)} of {share}"))
         full, renormalised = run.number("theory.persson.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
         if full is not None:
-            sentence += f", and {energy(full)} if contact were full"
+            sentence += f", or {energy(full)} if the whole area were in contact"
         if renormalised is not None:
-            sentence += f"; the renormalised theory {energy(renormalised)} ({percent(renormalised / flat)} of Δγ)"
+            sentence += f"; the renormalised theory gives {energy(renormalised, f'{percent(renormalised / flat)} of Δγ')}"
         found = run.number("jkr.pull_off") if run.curved else state
         if found is not None:
             sentence += f"; the simulation finds {energy(found)}" + \
@@ -215,8 +218,8 @@ def results(run: Result) -> list[str]:
     return [t for t in text if t]
 
 
-CONVERGED = ("Behind a number stands how far its solver converged. Cutoff, spacing, thickness, width, velocity and the choice of the "
-             "surface are not in that: `asperity estimate` measures them.")
+CONVERGED = ("“Solver converged to” is what an exact solver could change, not the error of the number. What cutoff, "
+             "spacing, thickness, width, velocity and the choice of the surface change is measured by `asperity estimate`.")
 ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout",
                    "edges: the box is periodic sideways")
 

@@ -16,7 +16,7 @@ from . import program
 from .grid import is_seed, shown
 from .pool import DONE
 from .result import Values, finite
-from .terminal import number
+from .terminal import millijoules, number
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
 """Columns of a result whose path in result.json is that of a key of the scene."""
@@ -177,16 +177,17 @@ class Table(Columns):
         return super().frame().assign(status=self.status)
 
 
+BOTH = ", meV/Å² (mJ/m²)"
 # The table as text: head, column and digits; columns without numbers are left out.
 OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_interface.approach_ratio", 4),
                  ("interface, out", "-work_of_interface.pull_off_ratio", 4),
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
-                 ("radius, Å", "contact_radius.relaxed", 1), ("lost, meV/Å²", "lost.cycle", 4),
+                 ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("its contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
-    ("γ_eff, meV/Å²", "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
+    ("γ_eff" + BOTH, "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
     ("A/A0", "persson.contact_fraction", 5), ("full contact", "persson.gamma_full_contact_ratio", 5),
     ("renormalised", "renormalised.gamma_eff_ratio", 5)))
 
@@ -207,11 +208,13 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     rows = []
     for group, (values, places) in enumerate(table.groups):
         row = [shown(values[key]) for key in axes]
-        for _, (mean, deviation, count), digits in cells:
+        for head, (mean, deviation, count), digits in cells:
             row.append((number(float(mean[group]), digits) if count[group] else "-") +
-                       (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else ""))
+                       (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else "") +
+                       (f" ({millijoules(float(mean[group]))})" if head.endswith(BOTH) and count[group] else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
-    meaning = "binding energies over Δγ, and works: of the interface on the way in, of the drive on the way out; the others with the other sign" if table.simulated else ""
+    meaning = ("binding energy of the state, and works of approach (in) and pull-off (out), as energies that separate the "
+               "solids over Δγ") if table.simulated else ""
     if meaning and len(axes) < len(table.axes):
         meaning += ", mean ± standard deviation over the seeds"
     return [*axes, *(c[0] for c in cells), ""], rows, meaning

@@ -12,6 +12,7 @@ import sys
 import time
 
 from .errors import SceneError
+from .units import MILLIJOULE
 
 PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
@@ -42,6 +43,11 @@ def number(value: float, decimals: int) -> str:
     if size < 0.9995e-3:
         return f"{value:.2e}"
     return f"{value:.{2 - math.floor(math.log10(size))}f}"
+
+
+def millijoules(gamma: float) -> str:
+    """An energy over an area, meV/Å², in mJ/m²: "1120", "7.65"."""
+    return number(gamma * MILLIJOULE, 0)
 
 
 def duration(seconds: float) -> str:

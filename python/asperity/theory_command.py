@@ -16,10 +16,10 @@ from .errors import SceneError
 from .result import Values
 
 STATUS = {
-    "adhesive": "the surfaces hold together without any load",
-    "pressed": "the load alone holds the surfaces together: it takes more energy to bend them into contact than the "
-               "bonds give back",
-    "no contact": "there is no adhesive solution: the surfaces come apart, and all is zero"}
+    "adhesive": "the surfaces adhere without load",
+    "pressed": "only the load keeps the surfaces in contact: bending them into contact costs more energy than the bonds "
+               "across the interface give",
+    "no contact": "the theory has no adhesive solution: the surfaces separate, and all numbers are zero"}
 
 
 def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
@@ -52,7 +52,7 @@ def _text(point: Values) -> str:
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
     def row(words: str, energy: float | None, ratio: float, error: float | None = None) -> list[str]:
-        return [words, "" if energy is None else f"{energy:.4g}", f"{ratio:.5f}",
+        return [words, *(("", "") if energy is None else (f"{energy:.4g}", terminal.millijoules(energy))), f"{ratio:.5f}",
                 "" if error is None else f"{error:.1e}"]
 
     def over(energy: float) -> float:
@@ -74,11 +74,11 @@ def _text(point: Values) -> str:
                  row("  contact area", None, law.number("contact_fraction", 0.0), law.number("contact_fraction_error"))]
     lines = [f"{point.text('name')}: Persson's theory, Eqs. (1) to (5), rms {rms:.4g} Å, rms slope {slope:.4g}, load "
              f"{point.number('scene.drive.load', 0.0):.6g} MPa", "",
-             terminal.table(["", "meV/Å²", "over Δγ", "± (numerical)"], rows), ""]
+             terminal.table(["", "meV/Å²", "mJ/m²", "over Δγ", "± (numerical)"], rows), ""]
     critical, theta = point.number("theory.persson.critical_rms"), point.number("theory.persson.theta")
     if critical is not None:
         full = point.number("theory.persson.critical_rms_full_contact")
-        lines.append(f"  critical rms   {critical:.4g} Å: beyond it nothing holds"
+        lines.append(f"  critical rms   {critical:.4g} Å: a rougher surface does not adhere without a load"
                      + (f" (assuming full contact: {full:.4g} Å)" if full is not None else ""))
     if theta is not None:
         lines.append(f"  theta          {theta:.4f} = E* h² q0 / Δγ" + (
@@ -95,7 +95,7 @@ def _text(point: Values) -> str:
     if gamma is not None:
         place = law.number("separation")
         lines.append("  renormalised   mean separation " + (
-            "undefined, nothing binds" if place is None else f"{place:.3f} Å") +
+            "undefined, for the surfaces do not adhere" if place is None else f"{place:.3f} Å") +
             f", largest tension {law.number('tension', 0.0):.4g} GPa")
     if (spheres := point.part("theory.sphere")) and "maugis_images" in spheres:
         lines.append(f"  smooth sphere  Maugis' λ {spheres['maugis_parameter']:.3g}; pull-off by Maugis and Dugdale "

@@ -10,6 +10,8 @@ NANONEWTON = 1e-19 / ELECTRONVOLT
 """1 nN in eV/Å"""
 GIGAPASCAL = 1e-21 / ELECTRONVOLT
 """1 GPa in eV/Å^3"""
+MILLIJOULE = 1e20 * ELECTRONVOLT
+"""1 meV/Å² in mJ/m²"""
 
 
 def shown(unit: str) -> str:

@@ -7,12 +7,14 @@ import io
 import matplotlib.image
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import asperity
 from asperity import theories, units
 from asperity.plots import style
 from asperity.plots import run as run_plots
+from conftest import SMALL
 
 
 def axes():
@@ -50,7 +52,7 @@ def test_energies_are_per_area(path_run):
 
 def test_the_theory_over_roughness_meets_the_runs_own(path_run):
     ax = path_run.plot.roughness(axes())
-    theory = next(c for c in style.drawn(ax).curves if c.label == "theory")
+    theory = next(c for c in style.drawn(ax).curves if c.label == "Persson’s theory")
     at_own = np.interp(path_run.surface.rms, theory.x, theory.y)
     assert at_own == pytest.approx(path_run.theory.persson.gamma_eff / path_run.delta_gamma, abs=1e-3)
     assert theory.x[-1] == pytest.approx(1.8 * path_run.surface.rms)
@@ -61,11 +63,11 @@ def test_each_theory_is_over_its_own_reference(state_run):
     run = asperity.run({**state_run["scene"], "name": "given"}, {"theory.delta_gamma": 130.0, "drive.load": 100},
                        out=state_run.directory.with_name("given"))
     curves = {c.label: c for c in style.drawn(run.plot.roughness(axes())).curves}
-    for label, ratio in (("theory", run.theory.persson.gamma_eff / 130),
+    for label, ratio in (("Persson’s theory", run.theory.persson.gamma_eff / 130),
                          ("renormalised theory", theories.of_run(run).number("theory.renormalised.gamma_eff_ratio"))):
         curve = curves[label + " under a load of 100 MPa"]
         assert np.interp(run.surface.rms, curve.x, curve.y) == pytest.approx(ratio, abs=2e-3)
-    assert curves["state under a load of 100 MPa"].y == pytest.approx(run.binding_energy / run.delta_gamma)
+    assert curves["binding energy under a load of 100 MPa"].y == pytest.approx(run.binding_energy / run.delta_gamma)
 
 
 def test_distributions_are_normalised(path_run):
@@ -153,3 +155,89 @@ def test_points_carry_their_uncertainty():
     bare = [{ratio: 0.5 - spread}, {ratio: 0.5 + spread}]
     assert average(*bare) == pytest.approx((0.5, 0.04))
     assert np.isnan(average(bare[0])[1]).all()
+
+
+def inside(fig):
+    """Whether all that is written in a figure stands in it, and beside its curves."""
+    canvas = FigureCanvasAgg(fig)
+    canvas.draw()
+    box, page = fig.get_tightbbox(canvas.get_renderer()), fig.get_size_inches()
+    return box.x0 >= 0 and box.y0 >= 0 and box.x1 <= page[0] + 0.05 and box.y1 <= page[1]
+
+
+def covered(fig):
+    """Points of curves that lie under the legend."""
+    legend = fig.axes[0].get_legend()
+    if legend is None:
+        return 0
+    box = legend.get_window_extent(fig.canvas.get_renderer())
+    return sum(int(box.contains(x, y)) for line in fig.axes[0].lines if len(line.get_xdata()) > 2
+               for x, y in line.get_transform().transform(line.get_xydata()))
+
+
+@pytest.mark.parametrize("name", sorted(run_plots.OF_RUN))
+def test_labels_are_whole_and_legends_cover_nothing(path_run, name):
+    fig = style.make(lambda ax: run_plots.OF_RUN[name](path_run, ax))
+    if fig is None:
+        assert name == "friction"
+        return
+    assert inside(fig), f"{name}: {fig.get_tightbbox()}"
+
+
+def test_the_legend_of_the_energies_covers_no_curve(path_run):
+    """Also where the curves fill the frame."""
+    run = asperity.load(path_run.directory)
+    for i, name in enumerate(("interface_energy", "work", "damped")):
+        size = abs(path_run.series["interface_energy"]).max()
+        run.series._read[name] = size * np.sin(2.0 * np.pi * i / 3 + np.arange(len(run.series["time"])))
+    fig = style.make(lambda ax: run_plots.energy(run, ax))
+    assert inside(fig) and not covered(fig)
+
+
+def test_a_large_error_of_the_balance_has_a_whole_label(path_run):
+    run = asperity.load(path_run.directory)
+    run.series._read["balance_error"] = -1234.5 * np.ones(len(run.series["time"]))
+    assert inside(style.make(lambda ax: run_plots.balance(run, ax)))
+    run.series._read["balance_error"] = 0.0123 * np.ones(len(run.series["time"]))
+    ax = run.plot.balance(axes())
+    assert style.drawn(ax).curves[0].y == pytest.approx(12.3) and "10^{-3}" in ax.get_ylabel()
+
+
+def right_axis(ax):
+    return next(child for child in ax.child_axes if child.yaxis.get_label_position() == "right")
+
+
+def test_energies_over_an_area_have_a_second_axis_in_millijoules(path_run, sphere_run):
+    for name, unit in (("energy", 16.02176634), ("roughness", 16.02176634 * path_run.delta_gamma)):
+        ax = getattr(path_run.plot, name)(axes())
+        FigureCanvasAgg(ax.figure).draw()
+        right = right_axis(ax)
+        assert "mJ/m²" in right.get_ylabel()
+        assert right.get_ylim() == pytest.approx([unit * y for y in ax.get_ylim()])
+        assert not sphere_run.plot.energy(axes()).child_axes  # eV
+
+
+def test_stresses_have_a_unit_of_their_size(path_run):
+    run = asperity.load(path_run.directory)
+    for factor, unit in ((1.0, "GPa"), (1e-3, "MPa"), (1e-6, "kPa")):
+        run.series._read["force"] = path_run.series["force"] * factor
+        ax = run.plot.separation(axes())
+        assert f"({unit})" in ax.get_ylabel()
+        assert 0.05 < max(abs(c.y).max() for c in style.drawn(ax).curves) < 1e3
+
+
+def test_what_the_captions_claim_is_true(path_run):
+    """∫F dz of a curve is the work of the interface; the area of a quasi-static loop is what is lost."""
+    run = asperity.run(SMALL, {"output.series": 2}, out=path_run.directory.with_name("dense"))
+    segment, force, height = (run.series[n] for n in ("segment", "force", "mean_height"))
+    for number, way in enumerate(("approach", "pull_off")):
+        here = segment == number
+        z, f = height[here], force[here]
+        work = np.sum(0.5 * (f[1:] + f[:-1]) * np.diff(z))
+        assert 1e3 * work / run.edge**2 == pytest.approx(run.work_of_interface[way], rel=0.03)
+    run = asperity.run({"name": "loop", "surface": {"sites": 32, "rms": 0.8}, "block": {"thickness": 128},
+                        "drive": {"mode": "quasistatic", "displacement_step": 0.1}},
+                       out=path_run.directory.with_name("loop"))
+    x, y = run.series["top_displacement"], run.series["top_force"]
+    loop = np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(x))
+    assert abs(1e3 * loop / run.edge**2) == pytest.approx(run.lost.cycle, rel=0.03) and run.lost.cycle > 1.0

@@ -126,7 +126,7 @@ def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     state, _, theory = sentences.results(run)
     first = "Without external force" if at == "at zero load" else "U" + at[1:]
     assert state.startswith(first + " the solids are bound") and theory.startswith(f"Persson’s theory{under} gives")
-    assert theory.endswith(" meV/Å²" + f" {at}" * bool(under) + ".")
+    assert theory.endswith(" mJ/m²)" + f" {at}" * bool(under) + ".")
     assert sentences.state_in_words(run, "relaxed") == at
 
 
@@ -135,18 +135,21 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     numbers = {n.name: n for n in sentences.key_numbers(run)}
     assert numbers["Persson’s theory"].value == "0.500" and numbers["renormalised theory"].value == "0.750"
     assert numbers["binding energy at zero load"].value == "0.500"
-    assert "(50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in sentences.results(run)[2]
-    assert "(75.0\u00a0% of Δγ)" in sentences.results(run)[2]
-    assert numbers["work that the drive takes up, approach"].note == "30.00 meV/Å²; solver converged to 3"
-    assert numbers["work that the drive gives, pull-off"].note == "50.00 meV/Å²; solver converged to 0.25"
-    assert numbers["work against the interface, pull-off"].note == "44.00 meV/Å²"
-    assert numbers["lost in a cycle (hysteresis)"].value == "20"
+    assert "50.00 meV/Å² (801 mJ/m²; 50.0\u00a0% of its Δγ, 100.00 meV/Å²)" in sentences.results(run)[2]
+    assert "60.00 meV/Å² (961 mJ/m²; 75.0\u00a0% of Δγ)" in sentences.results(run)[2]
+    assert numbers["work that the drive takes up, approach"].note == "30.00 meV/Å² (481 mJ/m²); solver converged to 3 meV/Å²"
+    assert numbers["work that the drive gives, pull-off"].note == "50.00 meV/Å² (801 mJ/m²); solver converged to 0.25 meV/Å²"
+    assert numbers["work against the interface, pull-off"].note == "44.00 meV/Å² (705 mJ/m²)"
+    lost = numbers["lost in a cycle (hysteresis)"]
+    assert lost.value == "20" and lost.note.startswith("320 mJ/m²; ")
     cycle = sentences.results(run)[1]
-    assert "takes up 30.00 meV/Å²" in cycle and "gives 50.00 meV/Å²" in cycle and "20.00 meV/Å², is lost" in cycle
-    assert "interface’s force on the mean height is 36.00 meV/Å² and −44.00 meV/Å²" in cycle
+    assert "takes up 30.00 meV/Å² (" in cycle and "gives 50.00 meV/Å² (" in cycle
+    assert "20.00 meV/Å² (320 mJ/m²), is lost" in cycle
+    assert "work 36.00 meV/Å² (577 mJ/m²) on the approach and −44.00 meV/Å² (−705 mJ/m²) on the pull-off" in cycle
     rows = re.findall(r"<tr>(.*?)</tr>", (tmp_path / "report.html").read_text() if page(tmp_path) else "", re.S)
     rows = [re.findall(r"<td.*?>(.*?)</td>", row) for row in rows]
-    over = {cells[0].split(":")[0]: cells[-1] for cells in rows if len(cells) == 4}
+    over, joules = ({cells[0].split(":")[0]: cells[i] for cells in rows if len(cells) == 5} for i in (-1, -2))
+    assert joules["binding_energy"] == "641" and joules["contact_fraction"] == ""
     assert over["theory.persson.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
 
 
@@ -250,7 +253,7 @@ def test_a_measured_surface_says_whose_it_is(tmp_path):
     assert "L. Pastewka, CC BY 4.0" in found.text and "a measured substrate" in found.text
     assert "with the map beside it" in found.text
     labels = [label for d in found.data for label, _ in d.get("curves", [])]
-    assert "theory" in labels  # over the stored surface
+    assert "Persson’s theory" in labels  # over the stored surface
 
 
 def test_the_page_of_a_sweep(tmp_path):
@@ -316,7 +319,7 @@ def test_the_page_of_a_sweep_of_the_theory(tmp_path):
     for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "full theory"):
         assert text in found.text, text
     labels = [label for d in found.data for label, _ in d["curves"]]
-    assert "theory, load = 100 MPa" in labels
+    assert "Persson’s theory, load = 100 MPa" in labels
 
 
 def test_what_is_no_result_is_a_message(tmp_path):

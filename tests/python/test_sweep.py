@@ -197,7 +197,7 @@ def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
     assert "state at zero load: γeff / Δγ, deviation over seeds and convergence of a run, added in squares" in head
     here = curves(sweep)
     assert here == curves(load_sweep(tmp_path))
-    assert [label for label, _, _ in here] == ["theory", "renormalised theory", "state at zero load"]
+    assert [label for label, _, _ in here] == ["Persson’s theory", "renormalised theory", "state at zero load"]
     assert here[2][2][0] == pytest.approx(41.375 / 150)
     assert not plots.plot([sweep], "hysteresis", Figure().add_subplot())  # no cycle
     assert not plots.plot([sweep], "works", Figure().add_subplot())  # no path
@@ -213,17 +213,17 @@ def labels(sweeps, name="gamma"):
 def test_plots_tell_which_load_states_and_theory_have():
     sweep = nine_points()
     for path, load, theory, state in (
-            (["relax"], 100.0, "theory under a load of 100 MPa", "state under a load of 100 MPa"),
-            (["approach"], 100.0, "theory under a load of 100 MPa", "state at zero load"),
-            (["relax"], 0.0, "theory", "state at zero load")):
+            (["relax"], 100.0, "Persson’s theory under a load of 100 MPa", "state under a load of 100 MPa"),
+            (["approach"], 100.0, "Persson’s theory under a load of 100 MPa", "state at zero load"),
+            (["relax"], 0.0, "Persson’s theory", "state at zero load")):
         sweep.scene["drive"] = {"path": path, "load": load}
-        assert labels([sweep])[0] == [theory, f"renormalised {theory}", state]
+        assert labels([sweep])[0] == [theory, theory.replace("Persson’s", "renormalised"), state]
     for point in sweep.points:  # now over the load
         point["set"] = {"drive.load": point["set"]["surface.rms"], "surface.seed": point["set"]["surface.seed"]}
     sweep.axes = ["drive.load", "surface.seed"]
-    assert labels([sweep])[0] == ["theory", "renormalised theory", "state under the load"]
+    assert labels([sweep])[0] == ["Persson’s theory", "renormalised theory", "state under the load"]
     sweep.scene["drive"]["path"] = ["approach"]
-    assert labels([sweep])[0] == ["theory", "renormalised theory", "state at zero load"]
+    assert labels([sweep])[0] == ["Persson’s theory", "renormalised theory", "state at zero load"]
 
 
 def named(name, factor=1.0, shift=0.0):
@@ -238,19 +238,19 @@ def named(name, factor=1.0, shift=0.0):
 
 def test_scenes_in_one_plot_have_their_own_theory():
     states = ["a: state at zero load", "b: state at zero load"]
-    assert labels([named("a"), named("b")])[0] == ["theory", "renormalised theory", *states]  # equal: once
+    assert labels([named("a"), named("b")])[0] == ["Persson’s theory", "renormalised theory", *states]  # equal: once
     ax = Figure().add_subplot()
     assert plots.plot([named("a"), named("b", 0.9)], "gamma", ax)
-    told = ["a: theory", "b: theory", "renormalised theory", *states]
+    told = ["a: Persson’s theory", "b: Persson’s theory", "renormalised theory", *states]
     assert [c.label for c in drawn(ax).curves] == [t.get_text() for t in ax.get_legend().get_texts()] == told
     assert len({line.get_color() for line in ax.lines[:3]}) == 3
     assert len({line._unscaled_dash_pattern for line in ax.lines[:3]}) == 3
     # Where nothing tells that they are equal, both are drawn, each its own.
-    assert labels([named("a"), named("b", shift=0.25)])[0][:2] == ["a: theory", "b: theory"]
+    assert labels([named("a"), named("b", shift=0.25)])[0][:2] == ["a: Persson’s theory", "b: Persson’s theory"]
     near = named("b")
     for point in near.points[3:]:
         point["set"]["surface.rms"] += 0.25
-    assert labels([named("a"), near])[0][:2] == ["a: theory", "b: theory"]  # one point is too little
+    assert labels([named("a"), near])[0][:2] == ["a: Persson’s theory", "b: Persson’s theory"]  # one point is too little
     # Of other points with some in common, one curve leads through all.
     wide = named("b")
     for point in wide.points:
@@ -258,16 +258,16 @@ def test_scenes_in_one_plot_have_their_own_theory():
             point["set"]["surface.rms"] = 5.0
     ax = Figure().add_subplot()
     assert plots.plot([named("a"), wide], "gamma", ax)
-    assert drawn(ax).curves[0].label == "theory" and list(drawn(ax).curves[0].x) == [1, 2, 3.5, 5]
+    assert drawn(ax).curves[0].label == "Persson’s theory" and list(drawn(ax).curves[0].x) == [1, 2, 3.5, 5]
     # Of the theory alone.
     alone = [named("a"), named("b", 0.9)]
     for sweep in alone:
         sweep.simulated = False
-    assert labels(alone)[0] == ["a: theory", "b: theory", "renormalised theory"]
+    assert labels(alone)[0] == ["a: Persson’s theory", "b: Persson’s theory", "renormalised theory"]
     # One without a theory: the curve is not its.
     for point in alone[0].points:
         point["theory"] = {}
-    assert labels(alone)[0] == ["b: theory", "b: renormalised theory"]
+    assert labels(alone)[0] == ["b: Persson’s theory", "b: renormalised theory"]
 
 
 def test_colours_are_told_whatever_is_drawn_first():
@@ -276,7 +276,7 @@ def test_colours_are_told_whatever_is_drawn_first():
     for point in sweep.points:
         point["set"]["drive.load"] = 100.0 * point["set"].pop("surface.seed")
     words = [f"load = {load} MPa" for load in (100, 200, 300)]
-    assert labels([sweep])[1] == [*words, "theory", "renormalised theory", "state at zero load"]
+    assert labels([sweep])[1] == [*words, "Persson’s theory", "renormalised theory", "state at zero load"]
     for i, point in enumerate(sweep.points):
         del point["theory"]["persson"]["gamma_eff"]
         if i % 3:
@@ -573,7 +573,8 @@ def test_numbers_keep_three_digits():
             point["result"][name] *= 1e-5
     cells = [cell for row in text_of(sweep.table)[1] for cell in row]
     assert "2.76e-06 ± 7.89e-07" in cells, cells
-    assert sentences.energy(3.21e-5) == "3.21e-05 meV/Å²" and sentences.energy(55.6251) == "55.63 meV/Å²"
+    assert sentences.energy(3.21e-5) == "3.21e-05 meV/Å² (5.14e-04 mJ/m²)"
+    assert sentences.energy(-55.6251) == "−55.63 meV/Å² (−891 mJ/m²)"
     assert sentences.percent(1.234e-5) == "0.00123\u00a0%" and sentences.percent(0.4567) == "45.7\u00a0%"
 
 

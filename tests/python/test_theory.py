@@ -23,7 +23,7 @@ def place(place):
 def test_the_numbers_of_the_paper(place):
     """More of them: tests/engine/theory_case_test.cpp."""
     command("theory", PAPER, "--set", "surface.rms=5", "--out", "paper",
-            says=["critical rms   6.972", "hold together without any load"])
+            says=["critical rms   6.972", "the surfaces adhere without load"])
     result = asperity.load("paper")
     assert result.theory.persson.gamma_eff == pytest.approx(15.159, abs=result.theory.persson.gamma_eff_error + 5e-4)
     assert result.theory.persson.contact_fraction == pytest.approx(0.66628, abs=result.theory.persson.contact_fraction_error)
@@ -37,7 +37,7 @@ def test_the_numbers_of_the_paper(place):
 
 @pytest.mark.parametrize("given, says", [
     ("surface.rms=0.5 surface.q_max=512", "ends at Nyquist"), ("theory.spectrum=realised surface.rms=1", "the surface itself"),
-    ("drive.load=3000", "the load alone"),
+    ("drive.load=3000", "only the load"),
     ("surface.rms=1", ["renormalised   γ_eff 0.7", " ± ", "19 of 20 simulated surfaces"]),
     ("surface.rms=0 surface.radius=4410 theory.delta_gamma=100", ["JKR pull-off   2078.", "Maugis' λ 3.2"])])
 def test_what_it_says(place, given, says):
@@ -46,7 +46,7 @@ def test_what_it_says(place, given, says):
 
 
 def test_limits_without_numbers(place):
-    command("theory", "rough.toml", "--out", "rough", says="there is no adhesive solution")
+    command("theory", "rough.toml", "--out", "rough", says="the theory has no adhesive solution")
     assert asperity.load("rough").theory.persson.gamma_eff == asperity.load("rough").theory.persson.contact_fraction == 0
     command("theory", "rough.toml", "--out", "rough", expect=2, says="already holds a result")
     command("theory", "rough.toml", "--set", "surface.kind=flat", "--out", "flat")

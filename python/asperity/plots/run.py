@@ -13,12 +13,13 @@ from matplotlib.axes import Axes
 from .. import theories
 from ..errors import InputOutputError
 from ..result import Result, State, Values
-from ..units import GIGAPASCAL, NANONEWTON
+from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into,
-                    finish, image)
+                    finish, image, millijoules)
 
 WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
 OTHERS = (GREEN, PINK, SKY, YELLOW)
+BY_HAND = "led by the script"
 TOP = "displacement of the top plane (Å)"
 
 
@@ -29,23 +30,28 @@ def _columns(run: Result, *names: str) -> list[np.ndarray]:
 
 
 def force_unit(run: Result) -> tuple[float, str]:
-    """What forces are divided by (eV/Å) and the axis label: nN, or GPa where the area means something."""
+    """What forces are divided by (eV/Å) and the axis label: nN, or GPa, MPa, kPa where the area means something."""
     if run.curved or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
-    return run.edge**2 * GIGAPASCAL, "mean stress $F/A_0$ (GPa)"
+    area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
+    largest = np.abs(force[np.isfinite(force)]).max(initial=0.0) / area
+    scale, name = next(((s, n) for s, n in ((1.0, "GPa"), (1e-3, "MPa")) if largest >= 0.1 * s), (1e-6, "kPa"))
+    scale, name = (scale, name) if largest > 0.0 else (1.0, "GPa")
+    return area * scale, f"mean stress $F/A_0$ ({name})"
 
 
 def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
-    """A curve for each segment of the path."""
+    """A curve for each segment of the path, and one of what a script led."""
     labels: set[str] = set()
     others = 0
-    for number, words in enumerate(run.segment_names):
+    for number, words in enumerate((BY_HAND, *run.segment_names), -1):
         here = run.series["segment"] == number
-        if words not in WAYS:
+        if words not in WAYS and number >= 0:
             others += 1
         if here.sum() > 1:
             curve(ax, x[here], y[here], "" if words in labels else words + name,
-                  colour=WAYS.get(words, OTHERS[others % len(OTHERS)]), line=lines[words == "pull-off"])
+                  colour=WAYS.get(words, OTHERS[others % len(OTHERS)]) if number >= 0 else GREY,
+                  line=lines[words == "pull-off"])
             labels.add(words)
     return bool(labels)
 
@@ -95,7 +101,7 @@ def contact(run: Result, ax: Axes) -> bool:
 
 def friction(run: Result, ax: Axes) -> bool:
     """Force against each slide of the path, over its distance."""
-    unit, _ = force_unit(run)
+    unit, label = force_unit(run)
     drawn = False
     for number, words in enumerate(run.segment_names):
         word, *rest = words.split()
@@ -108,7 +114,7 @@ def friction(run: Result, ax: Axes) -> bool:
             curve(ax, np.abs(place - place[0]), -sign * force / unit, words, colour=OTHERS[number % len(OTHERS)])
             drawn = True
     return drawn and finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.curved else
-                            "shear stress against it (GPa)", zero=True)
+                            "shear stress against it " + label[label.rindex("("):], zero=True)
 
 
 def energy(run: Result, ax: Axes) -> bool:
@@ -126,6 +132,8 @@ def energy(run: Result, ax: Axes) -> bool:
             ("dissipated_in_block", "dissipated in the block", GREEN, DASHES[3])):
         if name in run.series:
             curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
+    if not run.curved:
+        millijoules(ax, MILLIJOULE, "mJ/m²")
     return finish(ax, "time (ps)" if timed else "point of the path",
                   "energy (eV)" if run.curved else "energy per area (meV/Å²)", legend="above")
 
@@ -134,8 +142,10 @@ def balance(run: Result, ax: Axes) -> bool:
     """The error of the energy balance over time."""
     if not (columns := _columns(run, "time", "balance_error")):
         return False
-    curve(ax, columns[0], columns[1] * 1e6)
-    return finish(ax, "time (ps)", "balance error ($10^{-6}$)")
+    largest = np.abs(columns[1][np.isfinite(columns[1])]).max(initial=0.0)
+    power = int(np.clip(3 * np.floor(np.log10(largest) / 3), -15, 0)) if largest > 0 else 0
+    curve(ax, columns[0], columns[1] * 10.0**-power)
+    return finish(ax, "time (ps)", "energy balance error" + f" ($10^{{{power}}}$)" * (power < 0))
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
@@ -159,11 +169,11 @@ def roughness(run: Result, ax: Axes) -> bool:
     for words, x, y, line in theory_over_roughness(run, rms):
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.approach_averaged", "approach, by JKR", BLUE, "o"), ("jkr.pull_off", "pull-off, by JKR", RED, "s")) \
-        if run.curved else (("work_of_interface.approach", "interface, approach", BLUE, "o"),
-                            ("-work_of_interface.pull_off", "interface, pull-off", RED, "s"),
-                            ("-work_of_drive.approach", "drive, approach", SKY, "<"),
-                            ("work_of_drive.pull_off", "drive, pull-off", YELLOW, ">"),
-                            ("binding_energy", f"state {at}", GREEN, "^"))
+        if run.curved else (("work_of_interface.approach", "work of the interface, approach", BLUE, "o"),
+                            ("-work_of_interface.pull_off", "work of the interface, pull-off", RED, "s"),
+                            ("-work_of_drive.approach", "work of the drive, approach", SKY, "<"),
+                            ("work_of_drive.pull_off", "work of the drive, pull-off", YELLOW, ">"),
+                            ("binding_energy", f"binding energy {at}", GREEN, "^"))
     for key, label, colour, marker in names:
         if (value := run.number(key.lstrip("-"))) is not None:
             value *= -1 if key.startswith("-") else 1  # of works on the solids, the energy of separating them
@@ -171,6 +181,8 @@ def roughness(run: Result, ax: Axes) -> bool:
     ax.set_xlim(left=0)
     lowest = min([0.0] + [np.nanmin(c.get_ydata()) for c in ax.lines if np.isfinite(c.get_ydata()).any()])
     ax.set_ylim(bottom=1.1 * lowest)
+    if ax.lines and not run.curved and run.number("theory.persson.delta_gamma", flat) == flat:
+        millijoules(ax, flat * MILLIJOULE, "$γ_{\\mathrm{eff}}$ (mJ/m²)")
     return bool(ax.lines) and finish(ax, "rms roughness $h_{\\mathrm{rms}}$ (Å)", "$γ_{\\mathrm{eff}}$ / Δγ", zero=True)
 
 
@@ -183,7 +195,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     if not all("theory" in p for p in points):
         return []
     curves = []
-    for words, line, key, flat in (("theory", "-", "persson.gamma_eff", "theory.persson.delta_gamma"),
+    for words, line, key, flat in (("Persson’s theory", "-", "persson.gamma_eff", "theory.persson.delta_gamma"),
                                    ("renormalised theory", DASHES[3], "renormalised.gamma_eff", "delta_gamma")):
         found = [(value, gamma / point.number(flat)) for value, point in zip(values, points)
                  if (gamma := point.number("theory." + key)) is not None]
@@ -246,7 +258,8 @@ class RunPlots:
     """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
 
     Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, height.
-    Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed").
+    Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed"); without one the relaxed state, or
+    the first that there is.
     """
 
     def __init__(self, run: Result):
@@ -259,17 +272,19 @@ class RunPlots:
         if name in OF_RUN:
             return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
         if name in OF_STATE:
-            return lambda ax=None, state="relaxed": self._draw(name, ax, OF_STATE[name], self._state(state))
+            return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
         raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
 
-    def _state(self, name: str) -> State:
+    def _state(self, name: str | None) -> State:
+        if name is None:  # of what a script wrote, that of the last moment
+            name = next((n for n in ("relaxed", *self._run.fields) if n in self._run.fields), "relaxed")
         if name not in self._run.fields:
             raise InputOutputError(str(self._run.directory), f"has no state {name!r}",
                                    f"states: {', '.join(self._run.fields) or 'none'}", "see output.fields")
         return self._run.fields[name]
 
-    def map(self, name: str, ax: Axes | None = None, state: str = "relaxed") -> Axes:
-        """A map of a state: "gap", "pressure", "contact", ..."""
+    def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
+        """A map of a state: "gap", "pressure", "contact", ...; None: the relaxed state, or the first that there is."""
         return self._draw(name, ax, map_of, self._run, self._state(state), name)
 
     def __dir__(self) -> list[str]:

@@ -142,12 +142,26 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
     handles, labels = ax.get_legend_handles_labels()
     if legend == "above" and len(labels) > 0:
         low, high = ax.get_ylim()
-        ax.set_ylim(low, high + 0.22 * (high - low))
-        ax.legend(handles, labels, loc="upper center", ncols=3, fontsize=6.5)
+        columns = 3 if max(map(len, labels)) < 24 else 2
+        rows = -(-len(labels) // columns)
+        ax.set_ylim(low, high + (0.02 + 0.1 * rows if rows < 3 else 0.09 * rows) * (high - low))
+        ax.legend(handles, labels, loc="upper center", ncols=columns, fontsize=6.5, columnspacing=0.9, handlelength=2.0,
+                  handletextpad=0.5)
     elif legend and len(labels) > 0:
         ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
                   fontsize=7.5 if len(labels) < 5 else 6.5)
     return True
+
+
+def millijoules(ax: Axes, factor: float, label: str) -> None:
+    """A second axis in mJ/m², on the right; factor: of the axis on the left."""
+    right = ax.secondary_yaxis("right", functions=(lambda y: y * factor, lambda y: y / factor))
+    right.set_ylabel(label)
+    right.yaxis.set_minor_locator(ticker.AutoMinorLocator())
+    ax.tick_params(axis="y", which="both", right=False)
+    if ax.figure.axes == [ax] and getattr(ax, "get_subplotspec", lambda: None)() is None:
+        box = ax.get_position()
+        ax.set_position((box.x0, box.y0, 0.845 - box.x0, box.height))
 
 
 def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: float | None = None,

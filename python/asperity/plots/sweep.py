@@ -19,13 +19,13 @@ from matplotlib.axes import Axes
 
 from .. import files, program
 from ..grid import shown
-from ..result import load_words
+from ..result import Values, load_words
 from ..sweeps import Sweep
 from ..tables import Table
-from ..units import NANONEWTON
+from ..units import MILLIJOULE, NANONEWTON
 from ..units import shown as shown_unit
 from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish, make,
-                    save)
+                    millijoules, save)
 
 MOST_CURVES = len(COLOURS)
 
@@ -59,24 +59,24 @@ class Trace:
         return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
 
 
-THEORY = Trace("theory{under}", "theory.persson.gamma_eff_ratio", GREY, "-")
-FULL = Trace("theory{under}, assuming full contact", "theory.persson.gamma_full_contact_ratio", GREEN, DASHES[1])
+THEORY = Trace("Persson’s theory{under}", "theory.persson.gamma_eff_ratio", GREY, "-")
+FULL = Trace("Persson’s theory{under}, assuming full contact", "theory.persson.gamma_full_contact_ratio", GREEN, DASHES[1])
 RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
 SPHERE = Trace("curved, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
-AREA = [Trace("theory{under}", "theory.persson.contact_fraction", GREY, "-"),
+AREA = [Trace("Persson’s theory{under}", "theory.persson.contact_fraction", GREY, "-"),
         Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
-GAMMA, CONTACT = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$"
+GAMMA, CONTACT, LOST = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$", "energy lost per nominal area (meV/Å²)"
 Spec = tuple[str, list[Trace], list[Trace]]
 
 SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, SPHERE], [
-        Trace("interface, approach", "work_of_interface.approach_ratio", BLUE, "", "o",
+        Trace("work of the interface, approach", "work_of_interface.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_interface.uncertainty.approach"),
-        Trace("interface, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False,
+        Trace("work of the interface, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_interface.uncertainty.pull_off"),
-        Trace("drive, approach", "-work_of_drive.approach_ratio", SKY, "", "<",
+        Trace("work of the drive, approach", "-work_of_drive.approach_ratio", SKY, "", "<",
               uncertainty="work_of_drive.uncertainty.approach"),
-        Trace("drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
+        Trace("work of the drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
               uncertainty="work_of_drive.uncertainty.pull_off"),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
@@ -97,7 +97,7 @@ SIMULATED: dict[str, Spec] = {
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
     "pull-off": ("largest attraction on the way out (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
-    "hysteresis": ("energy lost (meV/Å² of the nominal area)", [], [
+    "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
         Trace("cycle", "lost.cycle", PINK, "", "D")])}
@@ -203,6 +203,15 @@ def names(sweeps: Sequence[Sweep]) -> list[str]:
     return list(SIMULATED if any(s.simulated for s in sweeps) else OF_THEORY)
 
 
+def _flat(sweeps: Sequence[Sweep]) -> float:
+    """The Δγ that all points are over, also those of the theory; 0: none, they differ, or mean a sphere."""
+    points = [point for sweep in sweeps for point in (*sweep.points, *sweep.theory)]
+    found = {round(flat, 9) for point in points for name in ("delta_gamma", "theory.persson.delta_gamma")
+             if (flat := Values(point).number(name))}
+    sphere = any("contact_radius.relaxed" in sweep.table for sweep in sweeps)
+    return found.pop() if len(found) == 1 and not sphere else 0.0
+
+
 def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     """Draws one of `names(sweeps)`; False if there is nothing to draw."""
     shared, x, _ = parts_of(sweeps)
@@ -252,11 +261,15 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     ax.set_ylim(bottom=low - 0.02 * (max(ys) - low))  # markers at zero stay whole
     if y in (GAMMA, CONTACT) and max(ys) <= 1.02:
         ax.set_ylim(top=1.02)
+    if y == LOST:
+        millijoules(ax, MILLIJOULE, "mJ/m²")
+    elif y == GAMMA and (flat := _flat(shared)):
+        millijoules(ax, flat * MILLIJOULE, "$γ_{\\mathrm{eff}}$ (mJ/m²)")
     if low < 0:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     if x == "surface.rms":
         ax.set_xlim(left=0)
-    return finish(ax, _label_of(x), y)
+    return finish(ax, _label_of(x), y, legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True)
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:

@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Asperity at the prompt of Python: what can be asked, written, shown and plotted there, and what it says."""
+
+import io
+import re
+import sys
+from pathlib import Path
+
+import numpy
+import pytest
+from conftest import SMALL
+from matplotlib.figure import Figure
+
+import asperity
+from asperity import terminal
+from asperity.plots import style
+
+TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
+STATIC = {"name": "static", "surface": {"sites": 16, "rms": 0.3}, "drive": {"mode": "quasistatic"}}
+EDGE = 16 * 2.6
+MPA = 160217.66208  # in an eV/Å³
+
+
+def axes():
+    return Figure().add_subplot()
+
+
+def curves(ax):
+    return {curve.label: curve for curve in style.drawn(ax).curves}
+
+
+def test_what_there_is():
+    assert {"run", "load", "sweep", "Simulation", "Statics", "states", "SceneError", "__version__"} <= set(dir(asperity))
+    assert re.fullmatch(r"\d+\.\d+.*", asperity.__version__)
+    for name in ("run", "sweep", "Simulation", "Statics", "Result", "Sweep"):
+        assert getattr(asperity, name).__doc__
+
+
+def test_objects_show_themselves_in_two_lines(path_run, tmp_path):
+    sweep = asperity.Sweep("t", {}, ["surface.rms"], [])
+    sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
+    for thing in (path_run, path_run.series, path_run.fields["relaxed"], sweep, sim, statics, sim.energy, statics.now):
+        shown = repr(thing)
+        assert len(shown.splitlines()) <= 2 and len(shown) < 400 and " object at 0x" not in shown, shown
+    assert "MPa" in repr(sim) and "MPa" in repr(statics) and "tiny" in repr(sim)
+
+
+def test_geometry_and_stress():
+    sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
+    for solids in (sim, statics):
+        assert solids.spacing == pytest.approx(2.6) and solids.edge == pytest.approx(EDGE)
+        assert solids.area == pytest.approx(EDGE**2) and solids.substrate.edge == pytest.approx(EDGE)
+        height = solids.substrate.height
+        assert height.shape == (16, 16) and abs(height.mean()) < 1e-9 and not height.flags.writeable
+    assert statics.substrate.height.std() == pytest.approx(0.3)
+    statics.load = "100 MPa"
+    force = statics.relax().force
+    assert statics.stress == pytest.approx(100.0, rel=1e-3) == force / EDGE**2 * MPA
+    sim.step(400)
+    assert sim.stress == pytest.approx(sim.force / EDGE**2 * MPA) and sim.stress != 0.0
+
+
+def test_the_heights_keep_the_solids_alive():
+    height = asperity.Statics(STATIC).substrate.height
+    assert height.std() == pytest.approx(0.3)
+
+
+def test_the_top_takes_a_velocity_in_words():
+    sim = asperity.Simulation(TINY)
+    sim.top.velocity = "-2 m/s"
+    assert sim.top.velocity == pytest.approx(-2.0)
+    start = sim.top.position
+    sim.step(50)
+    assert sim.top.position - start == pytest.approx(-2.0 * 50 * 20e-15 * 1e10)  # m/s, steps, fs, Å
+    sim.top.velocity = 3
+    assert sim.top.velocity == 3.0
+    with pytest.raises(asperity.SceneError, match="is no velocity"):
+        sim.top.velocity = "2 furlongs"
+    with pytest.raises(AttributeError, match="speed"):
+        sim.top.speed = 1.0
+
+
+def test_what_a_script_wrote_can_be_plotted(tmp_path):
+    sim = asperity.Simulation(TINY)
+    sim.every(20, lambda s: s.maps().gap.min(), "smallest_gap")
+    while not sim.done:
+        sim.step(100)
+    result = asperity.load(sim.write(tmp_path / "mine"))
+    for name in ("separation", "contact", "energy", "loading", "balance", "height"):
+        assert getattr(result.plot, name)(axes()).has_data(), name
+    assert result.plot.map("gap", axes()).images and result.plot.pressures(axes(), state="now").lines
+    run = asperity.run(TINY, {"output.series": 20}, out=tmp_path / "run")
+    for name in ("separation", "contact"):
+        mine, theirs = curves(getattr(result.plot, name)(axes())), curves(getattr(run.plot, name)(axes()))
+        assert mine.keys() == theirs.keys() and "approach" in next(iter(mine))
+    for name in ("segment", "top_displacement", "mean_height", "force"):
+        steps, at, of = numpy.intersect1d(run.series["step"], result.series["step"], return_indices=True)
+        assert len(steps) > 40 and numpy.array_equal(run.series[name][at], result.series[name][of]), name
+    assert result.report().exists()
+    with pytest.raises(asperity.InputOutputError, match="states: now"):
+        result.plot.map("gap", axes(), state="relaxed")
+
+
+def test_a_path_led_by_hand_is_called_so(tmp_path):
+    sim = asperity.Simulation(TINY)
+    sim.every(10, lambda s: s.force, "again")
+    sim.step(100)
+    sim.top.velocity = "-50 m/s"
+    sim.step(200)
+    result = asperity.load(sim.write(tmp_path / "led"))
+    found = curves(result.plot.loading(axes()))
+    assert set(found) == {"approach", "led by the script"}
+    assert len(found["approach"].x) == 10 and len(found["led by the script"].x) == 20
+
+
+def test_calls_of_the_pages(path_run, results):
+    """Plots and attributes that docs/howto/results.md names."""
+    page = (Path(__file__).resolve().parents[2] / "docs/howto/results.md").read_text(encoding="utf-8")
+    said = re.search(r"^`plot` has(.*?)\n\n|^`plot` has(.*?)\n`asperity", page, re.M | re.S)[0]
+    named = set(re.findall(r"`(\w+)`", said)) - {"plot"}
+    assert named == set(dir(path_run.plot)), named ^ set(dir(path_run.plot))
+    for segment, name in zip(path_run.segments, path_run.segment_names):
+        assert segment.name == name and isinstance(segment.work_of_drive, float)
+    slid = asperity.run(SMALL, {"drive": {"path": ["height 3.0", "slide x 2", "pull-off"], "control": "mean-height",
+                                          "mode": "quasistatic"}, "surface.sites": 16}, out=results / "slid")
+    assert list(curves(slid.plot.friction(axes()))) == ["slide x 2"]
+    assert any("friction" in segment for segment in slid.segments)
+
+
+def test_errors_name_the_script():
+    for call in (lambda: asperity.run({"surface": {"sitse": 16}}), lambda: asperity.Simulation({"surface": {"sitse": 16}}),
+                 lambda: asperity.Statics({"surface": {"sitse": 16}}),
+                 lambda: asperity.sweep({"surface": {"sitse": 16}}, {"surface.rms": [0.1]}),
+                 lambda: asperity.estimate({"surface": {"sitse": 16}})):
+        with pytest.raises(asperity.SceneError) as error:
+            call()
+        assert "test_prompt.py:" in str(error.value) and "/tmp" not in str(error.value), error.value
+        assert "sites" in str(error.value)
+
+
+def test_overrides_may_be_nested(tmp_path):
+    nested = {"surface": {"rms": 0.2, "seed": 7}, "drive": {"path": ["relax"]}}
+    flat = {"surface.rms": 0.2, "surface.seed": 7, "drive.path": ["relax"]}
+    one, two = (asperity.run(TINY, given, out=tmp_path / name) for name, given in (("a", nested), ("b", flat)))
+    assert one.scene.surface.seed == 7 and one.binding_energy == two.binding_energy
+    assert asperity.Simulation(TINY, {"surface": {"sites": 24}}).edge == pytest.approx(24 * 2.6)
+    assert asperity.Statics(STATIC, {"surface": {"sites": 24}}).edge == pytest.approx(24 * 2.6)
+
+
+class Screen(io.StringIO):
+    def isatty(self):
+        return True
+
+
+class Notebook(io.StringIO):
+    """As a kernel's stream."""
+
+
+Notebook.__module__ = "ipykernel.iostream"
+
+
+@pytest.mark.parametrize("stream, shown", [(Screen, True), (Notebook, True), (io.StringIO, False)])
+def test_progress_is_shown_where_somebody_looks(tmp_path, monkeypatch, stream, shown):
+    monkeypatch.setattr(sys, "stderr", there := stream())
+    assert terminal.progress_shown(None) == shown
+    assert terminal.progress_shown(True) and not terminal.progress_shown(False)
+    scene = {**TINY, "drive": {"path": ["relax"]}}
+    asperity.sweep(scene, {"surface.rms": [0.1, 0.2]}, out=tmp_path / "sweep")
+    assert ("done in" in there.getvalue()) == shown, there.getvalue()
+    asperity.sweep(scene, {"surface.rms": [0.1, 0.2]}, out=tmp_path / "quiet", progress=False)
+    assert there.getvalue().count("done in") == 2 * shown
+
+
+def test_run_says_how_far_it_is(tmp_path, capfd):
+    slow = {"surface": {"sites": 128, "rms": 0.5}, "drive": {"velocity": 20.0}}  # some seconds
+    asperity.run({**TINY, **slow}, {"drive.max_steps": 12000}, out=tmp_path / "told", progress=True)
+    assert re.search(r"%.*MPa, contact", capfd.readouterr().err)
+    asperity.run({**TINY, **slow}, {"drive.max_steps": 12000}, out=tmp_path / "silent")  # no terminal, no notebook
+    assert capfd.readouterr().err == ""
