@@ -24,7 +24,7 @@ void treat_missing(HeightMap& map, bool fill) {
         refuse(map.first_missing,
                fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
                            at % map.columns + 1, map.first_missing_text),
-               fmt::format("an atom needs a place; {} of {} points have none", map.missing,
+               fmt::format("every atom needs a height; {} of {} points have none", map.missing,
                            map.heights.size()),
                "fill the holes of the map before, or let them be filled with "
                "surface.file_missing = \"fill\"");

@@ -42,8 +42,8 @@ inline constexpr Quantity result_quantities[] = {
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
-     "convergence of its solver, not its error (asperity estimate): what forces of the size of "
-     "drive.tolerance can stand for"},
+     "convergence of its solver, not its error (asperity estimate): the energy that residual "
+     "forces of the size of drive.tolerance stand for"},
     {"work_of_interface.approach", "meV/Å^2", per::area,
      "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, positive "
      "where the solids attract each other on the way in; of dynamic paths, and of quasi-static "
@@ -77,12 +77,12 @@ inline constexpr Quantity result_quantities[] = {
      "the last"},
     {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.cycle", "meV/Å^2", per::area,
-     "lost over a whole cycle, from and to rest beyond the interaction range, and "
-     "kinetic.pull_off, which nothing gives back: of "
-     "an approach and a pull-off alone, work_of_drive.approach + work_of_drive.pull_off"},
+     "energy lost over a whole cycle, from and to rest beyond the interaction range, with "
+     "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
+     "+ work_of_drive.pull_off"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "what still moves at the end of the approach (dynamic, at T = 0, without a load): kinetic "
-     "energy, and that of vibrations, above the state at zero load"},
+     "energy that still moves at the end of the approach (dynamic, at T = 0, without a load): "
+     "kinetic energy and that of vibrations, above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
@@ -130,10 +130,12 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
      "what a block that relaxes has dissipated by that, beside lost"},
     {"segments[].kinetic", "meV/Å^2", per::area,
-     "what still moves at the end of an approach or a pull-off of a dynamic path at T = 0, as "
+     "energy that still moves at the end of an approach or a pull-off of a dynamic path at T = 0, "
+     "as "
      "kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "of work and lost, of quasi-static paths, for the sequence of instabilities taken"},
+     "convergence of work_of_drive and lost (quasi-static), for the sequence of instabilities that "
+     "the path takes"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
     {"segments[].friction", "eV/Å", per::block,
      "force against a slide: the work of what moves the block sideways, over the distance"},
@@ -191,13 +193,15 @@ inline constexpr Quantity result_quantities[] = {
      "following)"},
     {"theory.renormalised.gamma_eff_ratio", "1", "flat reference", "gamma_eff over Δγ"},
     {"theory.renormalised.contact_fraction", "1", per::area, "sites in contact"},
-    {"theory.renormalised.separation", "Å", "", "mean separation; left out where nothing binds"},
+    {"theory.renormalised.separation", "Å", "",
+     "mean separation; left out where the surfaces do not adhere"},
     {"theory.renormalised.tension", "GPa", "", "largest tension of the renormalised potential"},
     {"theory.renormalised.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
     {"theory.renormalised.contact_fraction_error", "1", per::area,
      "numerical error of contact_fraction"},
     {"theory.renormalised.gamma_eff_expected_error", "meV/Å^2", per::area,
-     "19 of 20 simulated surfaces lie within it of gamma_eff at zero load; left out under a load"},
+     "expected error: at zero load 19 of 20 simulated surfaces differ by less from gamma_eff; left "
+     "out under a load"},
     {"theory.renormalised.contact_fraction_expected_error", "1", per::area,
      "the same of contact_fraction"},
     {"theory.renormalised.note", "", "", "why there is no solution, or its error is large"},
@@ -240,7 +244,7 @@ inline constexpr Quantity result_quantities[] = {
     {"surface.min", "Å", "", "lowest height of the substrate"},
     {"surface.max", "Å", "", "its highest"},
     {"surface.atoms", "1", "", "number of atoms of a substrate of atoms anywhere"},
-    {"surface.origin", "", "", "whose measurement a map is, where its file says so"},
+    {"surface.origin", "", "", "who measured the map, where its file says so"},
     {"surface.file_digest", "", "",
      "digest of what was read from surface.file: heights and width of a map, positions and types "
      "of atoms. A sweep takes a result again only if the file still holds the same"},
@@ -265,7 +269,7 @@ inline constexpr Quantity result_quantities[] = {
     {"run.phases.*.calls", "1", per::rank, "how often the phase was entered"},
     {"run.effects.*.on", "", "", "whether the scene switches this effect on"},
     {"run.effects.*.why", "", "", "the key that decides it"},
-    {"run.device", "", "", "what took the steps: \"none\" for the processor"},
+    {"run.device", "", "", "the device that made the steps; \"none\": the processor"},
     {"run.kernels", "", "", "instruction set of the kernels used: \"v2\", \"v3\", \"v4\""},
     {"run.version", "", "", "version of Asperity"},
     {"run.git", "", "", "commit that it was built from"},

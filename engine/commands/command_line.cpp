@@ -71,7 +71,7 @@ RunOptions run_options(const Arguments& given) {
     io::Problems problems;
     if (options.restart && options.resuming())
         problems.add(io::Problem{"--restart", "and --resume exclude each other",
-                                 "one throws an unfinished run away, the other goes on with it",
+                                 "--restart deletes an unfinished run, --resume continues it",
                                  "give one of them"});
     if (!given.wall_limit.empty()) {
         options.wall_limit = io::parse_duration(given.wall_limit);

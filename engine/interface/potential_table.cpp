@@ -110,8 +110,7 @@ void require_enough_rows(std::span<const double> x, std::span<const double> y, d
     throw std::invalid_argument(fmt::format(
         "its {} rows are too far apart: the curve through them is {:.3g} eV deep, the lowest row "
         "{:.3g} eV, and without every second row it differs by {:.2g} times that; about {:.0f} "
-        "rows, "
-        "placed alike, would do",
+        "rows with the same relative distances are enough",
         x.size(), deepest, depth, 16.0 * error, std::max(64.0, std::ceil(enough))));
 }
 
@@ -131,8 +130,7 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     const std::size_t n = distance.size();
     if (n < 8 || energy.size() != n)
         throw std::invalid_argument(
-            fmt::format("a table of a potential needs 8 pairs of numbers at least, and {} stand "
-                        "there",
+            fmt::format("a table of a potential needs 8 pairs of numbers at least, and it has {}",
                         std::min(n, energy.size())));
     for (std::size_t i = 0; i < n; ++i) {
         if (!std::isfinite(distance[i]) || !std::isfinite(energy[i]))
@@ -152,7 +150,8 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     if (!(energy[0] > -10.0 * energy[least]))
         throw std::invalid_argument(fmt::format(
             "the table begins at {:.6g} Å with {:.6g} eV, less than ten times the depth of its "
-            "well, {:.6g} eV: atoms pressed together would leave it; begin it nearer",
+            "well, {:.6g} eV: atoms that are pressed together would come closer than its first "
+            "row; begin it at a smaller distance",
             distance[0], energy[0], -energy[least]));
 
     const std::vector<double> slope = spline_slopes(distance, energy);

@@ -95,8 +95,8 @@ io::Schema bind(Scene& scene) {
                                 {"self-affine", SurfaceKind::self_affine},
                                 {"file", SurfaceKind::file},
                                 {"atoms", SurfaceKind::atoms}},
-                               "what the substrate is: one layer of atoms with heights, made or "
-                               "from a map; \"atoms\": those of a file, anywhere");
+                               "the substrate: one layer of atoms with heights, made or from a "
+                               "map; \"atoms\": the atoms of a file, at any positions");
     schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
                            "N; the periodic box is N spacings wide; a length (\"133 nm\") is "
                            "rounded to whole spacings");
@@ -121,7 +121,7 @@ io::Schema bind(Scene& scene) {
                               {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
                               "random amplitudes and phases, or random phases alone");
     schema.integer("seed", surface.seed, at_least(0),
-                   "of the surface: same seed, bitwise identical surface");
+                   "seed of the surface: the same seed makes a bitwise identical surface");
     schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
     schema.key(
         "file", surface.file,
@@ -132,7 +132,7 @@ io::Schema bind(Scene& scene) {
     schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
                      "edge of the map; \"auto\": what the file says, else the box");
     schema.key("file_unit", surface.file_unit,
-               "of the map's heights; \"auto\": what the file says, else Å");
+               "unit of the map's heights; \"auto\": what the file says, else Å");
     schema.choice<Detrend>(
         "detrend", surface.detrend,
         {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
@@ -194,22 +194,24 @@ io::Schema bind(Scene& scene) {
     each_potential(interface.potentials,
                    [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
     schema.choice<int>("potential", interface.potential, names,
-                       "of the pairs, or of the atoms of a wall that are smeared over it");
+                       "potential of the pairs, or of the atoms for which a smeared wall stands");
     each_potential(interface.potentials, [&](auto& p) { bind_potential(schema, p); });
-    schema.key("table", interface.table,
-               "of potential = \"table\": a text file of two columns, distances in Å and energies "
-               "in eV; looked for beside the scene, then in the working directory");
-    schema.number_or(
-        "cutoff", interface.cutoff, "4 r0", "Å", positive(),
-        "no interaction beyond; half the box at most. \"4 r0\": four times the distance "
-        "at which the potential is zero, with interface.pairs that of each type; of a "
-        "table its last distance, if that is less");
+    schema.key(
+        "table", interface.table,
+        "file of potential = \"table\": a text file of two columns, distances in Å and energies "
+        "in eV; looked for beside the scene, then in the working directory");
+    schema.number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
+                     "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
+                     "four times the distance "
+                     "at which the potential is zero, with interface.pairs that of each type; of a "
+                     "table its last distance, if that is less");
     schema.removed({"interface.morse_r0", "",
                     "it is the place of the minimum, and interface.r0 where the energy is zero",
                     "write interface.morse_r_min with the same number"});
     schema.list(
         "pairs", interface.pairs, {},
-        "of a substrate of atoms from a file, by type: [\"Au 0.1 3.28\", \"C morse 0.02 1.5 3.9 "
+        "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C morse "
+        "0.02 1.5 3.9 "
         "10\"] with the potential's name and the cutoff, if they are not those above, and its "
         "parameters in the order above; units may follow. []: the potential above, for atoms of "
         "one "
@@ -220,7 +222,7 @@ io::Schema bind(Scene& scene) {
     schema.choice<WallLawKind>(
         "law", interface.law,
         {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
-        "of a wall: an attraction exp(-gap/range) over a linear repulsion, or the substrate's "
+        "law of a wall: an attraction exp(-gap/range) over a linear repulsion, or the substrate's "
         "atoms smeared over their layer (potential, cutoff, tail)");
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
@@ -230,42 +232,44 @@ io::Schema bind(Scene& scene) {
         "adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
         "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction");
     schema.number("range", interface.range, "Å", positive(), "of the exponential law");
-    schema.number_or(
-        "stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-        "of the exponential law's repulsion; \"auto\": nearly a hard wall, a thousand times that "
-        "of the block for its shortest wave, 500 π E* / spacing, and at least 50 adhesion / "
-        "range²");
+    schema.number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
+                     "stiffness of the exponential law's repulsion; \"auto\": nearly a hard wall, "
+                     "a thousand times the stiffness of the block for its shortest wave, 500 π E* "
+                     "/ spacing, and at least 50 adhesion / "
+                     "range²");
 
     schema.choice<EdgePinning>(
         "edge_pinning", interface.edge_pinning,
         {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
-        "pull-off of a sphere whose force is more than 1.3 times too large because rows of sites "
-        "hold the edge of the contact: a range that the spacing does not resolve");
+        "whether a pull-off of a sphere runs although its force is more than 1.3 times too large: "
+        "the spacing does not resolve the range, and rows of sites hold the edge of the contact");
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");
     schema.choice<DriveMode>(
         "mode", drive.mode,
         {{"dynamic", DriveMode::dynamic}, {"quasistatic", DriveMode::quasistatic}},
-        "velocity Verlet, or force balance at each top position");
+        "steps in time by velocity Verlet, or force balance at each position");
     schema.list("path", drive.path, {},
                 "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
                 "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
                 "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
                 "where that is controlled), \"slide x 5 Å\" (or y, at the same height), \"hold 20 "
                 "ps\" (dynamic, or with block.prony)");
-    schema.number("velocity", drive.velocity, "m/s", positive(),
-                  "of the top plane (dynamic), or of what is controlled (with block.prony)");
+    schema.number(
+        "velocity", drive.velocity, "m/s", positive(),
+        "speed of the top plane (dynamic), or of what drive.control prescribes (with block.prony)");
     schema.choice<Control>(
         "control", drive.control, {{"top", Control::top}, {"mean-height", Control::mean_height}},
-        "what is moved from point to point (quasistatic): the top plane, or the lowest layer's "
-        "mean height, at which the block never jumps as a whole");
+        "what a quasi-static path prescribes: the height of the top plane, or the mean height of "
+        "the lowest layer, with which the block never jumps as a whole");
     schema.removed({"drive.hold", "", "it is called drive.control",
                     "write control = \"top\" or \"mean-height\""});
     schema.removed({"drive.states", "", "a run reports one state at zero load",
                     "leave it out; `asperity states SCENE` searches for further states"});
     schema.number("displacement_step", drive.displacement_step, "Å", positive(),
-                  "largest displacement of what is controlled, from point to point (quasistatic)");
+                  "largest displacement from point to point of a quasi-static path, of what "
+                  "drive.control prescribes");
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
@@ -310,21 +314,21 @@ io::Schema bind(Scene& scene) {
     schema.choice<TheorySpectrum>(
         "spectrum", theory.spectrum,
         {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
-        "the spectrum asked for, or that of the surface made");
+        "spectrum of the theory: that which the scene asks for, or that of the surface itself");
     schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
     schema.removed({"theory.renormalised", "", "the renormalised theory is no part of a run",
                     "leave it out; `asperity theory`, sweeps and reports compute it"});
 
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");
-    schema.choice<Precision>(
-        "precision", numerics.precision,
-        {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
-        "of the pairs across the interface: \"mixed\" works them out in single precision, over a "
-        "substrate of the block's lattice");
+    schema.choice<Precision>("precision", numerics.precision,
+                             {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
+                             "precision of the pairs across the interface; \"mixed\": they are "
+                             "computed in single precision, over a "
+                             "substrate of the block's lattice");
     schema.removed(
         {"numerics.accuracy", "",
-         "it knew the errors of one material; they are measured on the scene itself now",
+         "it held for one material; `asperity cost` measures the errors of the scene itself",
          "leave it out; `asperity cost SCENE --target 1%` prints the cheapest --set that "
          "keeps an error"});
     using Device = DeviceChoice::Kind;
@@ -335,7 +339,8 @@ io::Schema bind(Scene& scene) {
     schema
         .choice<DeviceChoice>(
             "device", numerics.device, devices,
-            "that takes the time steps: a CUDA device by its number (further ranks of "
+            "what makes the time steps: the processor (\"none\"), or a CUDA device by its number "
+            "(further ranks of "
             "a machine take the next ones in turn); \"auto\": one if there is one; "
             "\"emulated\": on the processor, for tests")
         .numerals = true;
@@ -344,7 +349,8 @@ io::Schema bind(Scene& scene) {
     schema.section("output", "What is written.");
     schema.number_or("trajectory", output.trajectory, "none", "", at_least(1),
                      "steps between frames of the lowest layer (H5MD, in run.h5)");
-    schema.key("velocities", output.velocities, "in the frames of the trajectory too");
+    schema.key("velocities", output.velocities,
+               "whether the frames of the trajectory hold velocities too");
     schema.list(
         "fields", output.fields,
         {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},

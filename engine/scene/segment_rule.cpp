@@ -47,9 +47,9 @@ double SegmentRule::aim() const { return !down_ || attracted_ ? load_ : std::max
 void SegmentRule::refuse() const {
     const double to_megapascal = 1.0 / (area_ * units::megapascal);
     throw io::PhysicsError(
-        fmt::format("no attraction was as large as the pull of {:.6g} MPa that \"{}\" is to end at",
+        fmt::format("the attraction did not reach the pull of {:.6g} MPa at which \"{}\" ends",
                     -load_ * to_megapascal, word(kind_)),
-        fmt::format("the largest on this way was {:.4g} MPa", strongest_ * to_megapascal),
+        fmt::format("the largest attraction on the way was {:.4g} MPa", strongest_ * to_megapascal),
         "take a smaller pull (drive.load, or the load of the segment)");
 }
 

@@ -265,7 +265,7 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
         s.notes.push_back(fmt::format(
             "the map does not repeat: over the box's edges heights jump by {:.3g} Å (rms), between "
             "neighbours inside by {:.3g} Å. The surface keeps this cliff; "
-            "surface.detrend = \"periodic\" takes it off",
+            "surface.detrend = \"periodic\" removes it",
             seam, inside));
     s.height = std::move(h);
     return finish(o, std::move(s));

@@ -80,7 +80,7 @@ void LedPath::set_load(const std::string& pressure) {
 void LedPath::set_hold(double time) {
     if (!case_.effects.branches)
         refuse("hold", "of a block that does not relax",
-               "equilibria do not change while they are held",
+               "without a block that relaxes, force balance does not change with time",
                "give the block branches (block.prony)");
     if (!(time > 0.0) || !std::isfinite(time))
         refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");

@@ -224,11 +224,10 @@ void check_keys(const Case& c, io::Problems& problems) {
 
     check_path(c, problems);
     if (drive.control == Control::mean_height && c.in_time)
-        problems.add(
-            "drive.control", "= \"mean-height\" on a dynamic path",
-            "a dynamic path drives the top plane, and the lowest layer's mean height is what "
-            "the waves in the block make of it",
-            "take drive.mode = \"quasistatic\", or control = \"top\"");
+        problems.add("drive.control", "= \"mean-height\" on a dynamic path",
+                     "a dynamic path prescribes the top plane; the mean height of the lowest layer "
+                     "follows from the motion of the block",
+                     "take drive.mode = \"quasistatic\", or control = \"top\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
@@ -241,7 +240,7 @@ void check_keys(const Case& c, io::Problems& problems) {
     const auto& prony = scene.block.prony;
     if (!prony.empty() && c.in_time)
         problems.add("block.prony", "= [...] on a dynamic path",
-                     "the waves in the block of a dynamic path have no memory",
+                     "only the block of a quasi-static path can relax",
                      "take drive.mode = \"quasistatic\", or leave prony out");
     for (std::size_t i = 1; i < prony.size(); ++i)
         if (prony[i].second <= prony[i - 1].second)
@@ -276,7 +275,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "add it to drive.path or take it out of output.fields");
     if (scene.output.trajectory && !c.in_time)
         problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
-                     "frames are taken over time, and this path has none",
+                     "frames are taken from time steps, and a quasi-static path has none",
                      "leave it out: the maps of output.fields hold the states");
 }
 

@@ -96,9 +96,8 @@ Effects effects_of(const Case& c) {
                              : "a copy of the lowest layer is relaxed where the approach ends"};
     e.observation = {follows_path,
                      !follows_path ? no_time
-                     : in_time
-                         ? fmt::format("output.series = {}: every so many steps", s.output.series)
-                         : "always: at every point of a quasi-static path"};
+                     : in_time     ? fmt::format("every {} steps (output.series)", s.output.series)
+                                   : "always: at every point of a quasi-static path"};
     const MapTimes& m = c.maps;
     e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||
                 !m.after_approach.empty();
@@ -112,7 +111,7 @@ Effects effects_of(const Case& c) {
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const bool atoms = s.surface.kind == SurfaceKind::atoms;
     e.theory = {!atoms, atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
-                              : "always: one solution for each result"};
+                              : "always: Persson's theory of this scene"};
     e.device = device_effect(c);
     return e;
 }

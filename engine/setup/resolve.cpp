@@ -220,8 +220,9 @@ void limit_steps(Case& c, io::Problems& refused) {
         if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
             refused.add(
                 "drive.load",
-                fmt::format("= {:.6g} MPa pulls harder than anything binds", scene.drive.load),
-                fmt::format("the largest tension of flat on flat is {:.4g} MPa",
+                fmt::format("= {:.6g} MPa is a larger pull than any attraction of this scene",
+                            scene.drive.load),
+                fmt::format("the largest tension of two flat surfaces is {:.4g} MPa",
                             tension / units::megapascal),
                 "take a smaller pull");
     }

@@ -52,7 +52,7 @@ void find_scales(Case& c, double smallest_tension) {
         c.force_scale = "the largest attraction of a site";
         if (bends < scales.force) {
             scales.force = bends;
-            c.force_scale = "the block is soft beside the attraction";
+            c.force_scale = "the block is soft compared with the attraction";
         }
     } else {
         const double load = smallest_load(c);

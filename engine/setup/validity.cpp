@@ -75,9 +75,10 @@ std::vector<std::string> notes_on_validity(const Case& c) {
     }
     if (!c.in_time) return notes;
     if (scene.drive.velocity > fastest)
-        notes.push_back(fmt::format("drive.velocity = {:.4g} m/s is above {:.4g} m/s: sound that "
-                                    "the drive makes, not adhesion, decides works and losses",
-                                    scene.drive.velocity, fastest));
+        notes.push_back(
+            fmt::format("drive.velocity = {:.4g} m/s is above {:.4g} m/s: the sound that the drive "
+                        "makes changes works and losses more than adhesion does",
+                        scene.drive.velocity, fastest));
     const double usable = usable_timestep(c.longest_timestep);
     if (scene.drive.timestep > usable)
         notes.push_back(fmt::format("drive.timestep = {:.4g} fs is above {:.2g} fs, the longest "
