@@ -424,7 +424,7 @@ class Statics(_engine.Statics):
         Reached where the force comes to it: from below on the way in, from above on the way out. Read
         point.force.
         """
-        raise AttributeError("a load is written, not read: the force of a point is point.force, eV/Å")
+        raise AttributeError("a load can be written, not read: the force of a point is point.force, eV/Å")
 
     @load.setter
     def load(self, pressure: float | str) -> None:

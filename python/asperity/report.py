@@ -35,8 +35,8 @@ FIGURES = {
     "energies": ("Energies", (
         ("energy", "Energies",
          "{energy}"),
-        ("balance", "Energy balance", "Work done minus energy gained minus energy damped, over the largest "
-         "of these terms so far."),
+        ("balance", "Energy balance", "Error of the energy balance: work of the drive minus the change of all energies minus energy "
+         "damped, over the largest of these so far. Below 1e-3 is good."),
         ("loading", "Force and displacement of the top plane", "Elastic force on the driven top plane over its "
          "displacement (negative towards the substrate): what a testing machine would record. {loading}"),
         ("friction", "Force against the slides", "Lateral force of the substrate on the lowest layer against each "
@@ -46,8 +46,8 @@ PATH_CAPTIONS = {
     False: "Force of the substrate on the block, over the nominal area; negative is attraction. The mean separation is "
            "the mean height of the lowest layer above the substrate’s mean plane. ",
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
-          "attraction. Beside it what a smooth sphere would do: JKR alone, and JKR and Maugis-Dugdale with the "
-          "sphere’s periodic images."}
+          "attraction. Other curves: a smooth sphere by JKR, and by JKR and Maugis-Dugdale with the periodic "
+          "images of the sphere."}
 MAPS = (("gap", "Gap", "Height of each site above the substrate below it. The colour bar {bar}."),
         ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
@@ -95,8 +95,8 @@ def _top(page: Page, run: Result) -> None:
     if run.failure_text:
         page.notices.append(("This run failed", run.failure_text))
     if run.stopped:
-        page.notices.append(("This run was stopped early", f"Reason: {run.stopped}. The path is not complete; what is "
-                             "shown is what had been reached."))
+        page.notices.append(("This run was stopped early", f"Reason: {run.stopped}. The path is not complete; the page "
+                             "shows the part before the stop."))
     page.notices += [("Some of the files cannot be read", note) for note in run.notes]
     page.unread += run.notes
     page.add("numbers", sentences.key_numbers(run))

@@ -105,7 +105,7 @@ def tables_of(estimate: Estimate) -> list[list[Number]]:
 
 def text_of(estimate: Estimate) -> str:
     """For the terminal."""
-    parts = ["\nShift: what the scene as it is lacks. ±: one standard error of the shift, or of the mean over surfaces.\n"]
+    parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
     for columns in tables_of(estimate):
         parts += [terminal.table(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2)), ""]
     parts += ["To quote:", *(f"  {quote(n)}" for n in estimate.numbers.values())]
@@ -150,7 +150,7 @@ def page_of(estimate: Estimate) -> Page:
     page.section("budget", "Budget")
     for columns in tables_of(estimate):
         page.table(heads_of(columns), [row for row in rows_of(estimate, columns) if row])
-    page.figure("budget", "Budget of " + estimate.first.name, "Bars: what each part shifts; whiskers: its standard error.",
+    page.figure("budget", "Budget of " + estimate.first.name, "Bars: shift by each part of the error; whiskers: standard error of the shift.",
                 lambda ax: chart(estimate, ax))
     page.section("left-out", "What is not in the error")
     page.add("lists", [("", [*estimate.unseen, *LEFT_OUT])])

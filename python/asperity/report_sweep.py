@@ -36,19 +36,19 @@ MOST_CURVES = 6
 
 FIGURES = {
     "gamma": ("Binding energy",
-              "Binding energy and works over the binding energy of two flat surfaces: theory, and what was simulated. "
+              "Binding energy and works of theory and simulation, over the binding energy Δγ of two flat surfaces. "
               "Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: standard "
               "deviation over seeds and convergence of a run, added in squares."),
     "area": ("Contact area", "Projected contact area over the nominal area."),
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
-    "pull-off": ("Pull-off force", "What it takes to pull the block off."),
-    "hysteresis": ("Energy lost in the cycle", "Energy that approach, pull-off and both lose."),
+    "pull-off": ("Pull-off force", "Largest attraction of the substrate on the block during the pull-off."),
+    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle."),
     "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
                  "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
                  "energy."),
     "full-contact": ("Binding energy, theory and full contact",
-                     "The full theory, and what it would be if contact were full.")}
+                     "Persson’s theory, and the same if the whole area were in contact.")}
 """Of each plot its heading and caption."""
 
 
@@ -201,7 +201,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         page.figure(name, *FIGURES[name], partial(plots.plot, sweeps, name))
     for sweep, some in zip(sweeps, points):
         page.figure("curves" + f"-{file_name(sweep.name)}" * (len(sweeps) > 1), "Force and separation",
-                    "Force over the mean separation at some of the points: pull-off drawn through, approach dotted.",
+                    "Force over the mean separation at some of the points: full lines: pull-off, dotted lines: approach.",
                     partial(_force_curves, some))
     note = plots.parts_of(sweeps)[2]
     if note:
@@ -214,7 +214,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         page.add("preformatted", toml_of(sweep.scene).strip())
     end(page, Values({"run": sweeps[0].run}),
         f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
-        "Every key with its value; the swept ones with their first.")
+        "Every key with its value; a swept key has the first of its values.")
     page.write()
     return page
 

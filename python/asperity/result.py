@@ -134,7 +134,7 @@ def read_json(path: Path) -> Values:
     if not isinstance(value, dict):
         return Values()
     if "digest" in value and not files.json_is_whole(content):
-        raise refuse("its content is not what its digest was made of: it was damaged or changed",
+        raise refuse("its content does not match its digest: it was damaged or changed",
                      "take a copy that is whole; of a file changed on purpose, remove the member \"digest\"")
     return value
 
@@ -176,7 +176,7 @@ class RunFile:
                                    "the theory alone and a run that failed early have none")
         try:
             if self._whole is False:
-                raise ValueError("its bytes are not those its digest was made of")
+                raise ValueError("its content does not match its digest")
             with h5py.File(self.path, "r") as file:
                 if self._whole is None and "asperity_digest" in file.attrs:
                     raise ValueError("the digest at its end is missing")

@@ -98,7 +98,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
         gamma("jkr.pull_off", "from the pull-off force, by JKR", "Δγ")
-        gamma("jkr.approach_averaged", "from the attraction on the way in, by JKR, averaged over 2 ps")
+        gamma("jkr.approach_averaged", "from the attraction on the approach, by JKR, averaged over 2 ps")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
                            for k in ("delta_gamma", "theory.sphere.maugis_images"))
@@ -114,7 +114,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
         if force is not None and run.edge:
             add(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
-                "pull-off stress, the largest attraction on the way out", f"{force / NANONEWTON:.4g} nN in all")
+                "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
     if (lost := run.number("lost.cycle")) is not None:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
             "lost in a cycle (hysteresis)", _loss(run) if run.curved else f"{millijoules(lost)} mJ/m²; {_loss(run)}")
@@ -193,8 +193,8 @@ def results(run: Result) -> list[str]:
     if into is not None and out is not None and flat > 0 and set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         text.append(_cycle_sentence(run, into, out, flat))
     if (pinning := run.number("jkr.edge_pinning")) is not None:
-        text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion that JKR "
-                    f"makes of it, are about {pinning:.3g} times too large.")
+        text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion by "
+                    f"JKR from it, are about {pinning:.3g} times too large.")
     theory = run.number("theory.persson.gamma_eff")
     if theory is not None and flat > 0:
         (at, pressed), given = run.load_words, reference(run, "theory.persson.gamma_eff")
@@ -218,8 +218,8 @@ def results(run: Result) -> list[str]:
     return [t for t in text if t]
 
 
-CONVERGED = ("“Solver converged to” is what an exact solver could change, not the error of the number. What cutoff, "
-             "spacing, thickness, width, velocity and the choice of the surface change is measured by `asperity estimate`.")
+CONVERGED = ("“Solver converged to” says by how much an exact solver could change a number. It is not the error of the number: "
+             "`asperity estimate` measures the effect of cutoff, spacing, thickness, width, velocity and surface.")
 ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout",
                    "edges: the box is periodic sideways")
 

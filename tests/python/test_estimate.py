@@ -174,7 +174,7 @@ def test_what_a_solver_leaves_is_no_error_of_a_number(place):
                    says=["convergence, meV/Å²", "not in it: asperity estimate"])
     assert "±" not in said and "uncertainty" not in said
     page = asperity.load("run").report().read_text()
-    assert "solver converged to" in page and "what cutoff, spacing" in page.lower() and "±" not in page
+    assert "solver converged to" in page and "effect of cutoff, spacing" in page and "±" not in page
 
 
 def test_what_cannot_be_asked_for_is_refused(place):

@@ -62,7 +62,7 @@ class Trace:
 THEORY = Trace("Persson’s theory{under}", "theory.persson.gamma_eff_ratio", GREY, "-")
 FULL = Trace("Persson’s theory{under}, assuming full contact", "theory.persson.gamma_full_contact_ratio", GREEN, DASHES[1])
 RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_eff_ratio", PINK, DASHES[3])
-SPHERE = Trace("curved, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
+SPHERE = Trace("sphere, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
 AREA = [Trace("Persson’s theory{under}", "theory.persson.contact_fraction", GREY, "-"),
         Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
 GAMMA, CONTACT, LOST = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$", "energy lost per nominal area (meV/Å²)"
@@ -80,9 +80,9 @@ SIMULATED: dict[str, Spec] = {
               uncertainty="work_of_drive.uncertainty.pull_off"),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^",
               uncertainty="binding_energy_uncertainty"),
-        Trace("curved, in", "jkr.approach_ratio", SKY, "", "D"),
-        Trace("curved, out", "jkr.pull_off_ratio", YELLOW, "", "v", False),
-        Trace("curved, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
+        Trace("by JKR, approach", "jkr.approach_ratio", SKY, "", "D"),
+        Trace("by JKR, pull-off", "jkr.pull_off_ratio", YELLOW, "", "v", False),
+        Trace("by JKR, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
     "works": (GAMMA, [THEORY, RENORMALISED], [
         Trace("∫F dz, approach", "work_of_interface.approach_ratio", BLUE, "", "o"),
         Trace("∫F dz, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False),
@@ -95,7 +95,7 @@ SIMULATED: dict[str, Spec] = {
     "radius": ("√(contact area / π) (Å)", [], [
         Trace("{at}", "contact_radius.relaxed", GREEN, "", "^"),
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
-    "pull-off": ("largest attraction on the way out (nN)", [],
+    "pull-off": ("largest attraction of the pull-off (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
     "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
