@@ -37,6 +37,9 @@ made $gallery/theory-fig2a.svg $gallery/theory-fig2b.svg $gallery/theory-fig3.sv
 "$python" $gallery/plot.py $place/first-contact $gallery/first-contact.png
 made $gallery/first-contact.png
 
+"$python" $gallery/examples.py
+made $gallery/examples-*.svg
+
 ./asperity sweep scenes/paper/small/fig6.toml --out $place/fig6 >$place/log.txt
 "$python" $gallery/contact_regions.py $place/fig6 $gallery/small-fig6.png
 made $gallery/small-fig6.png

@@ -249,7 +249,7 @@ io::Schema bind(Scene& scene) {
     schema.choice<DriveMode>(
         "mode", drive.mode,
         {{"dynamic", DriveMode::dynamic}, {"quasistatic", DriveMode::quasistatic}},
-        "steps in time by velocity Verlet, or force balance at each position");
+        "time steps (velocity Verlet), or force balance at each position");
     schema.list("path", drive.path, {},
                 "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
                 "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "

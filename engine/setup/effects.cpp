@@ -47,7 +47,7 @@ Effects effects_of(const Case& c) {
     });
     const std::string rest =
         c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
-    const std::string no_time = "no time passes: " + rest;
+    const std::string no_time = "a state of force balance: " + rest;
     const auto timed = [&](bool on, std::string why) {
         return in_time ? Effect{on, std::move(why)} : Effect{false, no_time};
     };

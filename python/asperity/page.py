@@ -32,6 +32,7 @@ def minus(text: str) -> str:
 def _set(text: Any) -> Markup:
     """Escaped, with its subscripts γ_{eff} and `commands`, and units that stay with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))
+    out = re.sub(r"(?<=\d)e-(?=\d)", "e\u2011", out)  # no line ends in a number
     out = re.sub(r"`([^`]*)`", r"<code>\1</code>", out)
     return Markup(out.replace(" meV/Å", "\u00a0meV/\u2060Å").replace(" mJ/m", "\u00a0mJ/\u2060m"))
 

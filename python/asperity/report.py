@@ -137,7 +137,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) 
     """Numbers by the names of columns."""
     def cell(line: Values, name: str, head: str) -> str:
         text, value = line.text(name) or minus(sentences.general(line.find(name), digits)), line.number(name)
-        return text + f" ({minus(terminal.millijoules(value))})" * (head.endswith(BOTH) and value is not None)
+        return f"{text} ({minus(terminal.millijoules(value))})" if head.endswith(BOTH) and value is not None else text
 
     page.table([*heads.values()], [[cell(line, *head) for head in heads.items()] for line in lines])
 

@@ -49,8 +49,20 @@ def state_in_words(run: Result, name: str) -> str:
     return f"“{name}”"
 
 
+def _path(run: Result) -> str:
+    """" Dynamic path at 5 m/s: approach, pull-off."; "" of a result of the theory alone."""
+    if not run.segment_names or not (run.series or run.fields):
+        return ""
+    if run.segment_names == ["relax"]:
+        return f" Its relaxed state {run.load_words[0]}."
+    kind = "Quasi-static path" if run.key("drive.mode") == "quasistatic" else \
+        f"Dynamic path at {general(run.key('drive.velocity'))} m/s"
+    held = ", mean height prescribed" * (run.key("drive.control") == "mean-height")
+    return f" {kind}{held}: {', '.join(run.segment_names)}."
+
+
 def lead(run: Result) -> str:
-    """One sentence about the scene."""
+    """What was simulated, in two sentences."""
     sites = run.number("scene.surface.sites")
     if not sites:
         return ""
@@ -63,7 +75,15 @@ def lead(run: Result) -> str:
     if run.radius:
         surface += f" on a sphere of R = {0.1 * run.radius:.4g} nm"
     return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {number(0.1 * run.edge, 1)} nm wide, "
-            f"{general(run.key('block.thickness'))} layers thick.")
+            f"{general(run.key('block.thickness'))} layers thick.{_path(run)}")
+
+
+def _stress(gigapascal: float) -> tuple[str, str]:
+    """In a unit of its size."""
+    for scale, unit in ((1.0, "GPa"), (1e-3, "MPa")):
+        if abs(gigapascal) >= 0.1 * scale:
+            return f"{gigapascal / scale:.3g}", unit
+    return f"{gigapascal / 1e-6:.3g}", "kPa"
 
 
 def smooth_pull_off(run: Result, gamma: float) -> float:
@@ -113,11 +133,15 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             add(percent(contact), "", f"of the sites in contact {at}",
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
         if force is not None and run.edge:
-            add(f"{force / run.edge**2 / GIGAPASCAL:.3g}", "GPa",
+            add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
     if (lost := run.number("lost.cycle")) is not None:
         add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
+            "lost at instabilities in a cycle" if run.number("dissipated_in_block.cycle") is not None else
             "lost in a cycle (hysteresis)", _loss(run) if run.curved else f"{millijoules(lost)} mJ/m²; {_loss(run)}")
+    if (relaxed := run.number("dissipated_in_block.cycle")) is not None and not run.curved:
+        add(f"{relaxed:.4g}", "meV/Å²", "dissipated in the block in a cycle",
+            f"{millijoules(relaxed)} mJ/m²; as the block relaxes (block.prony)")
     if not run.curved:
         gamma("work_of_interface.approach", "work of the interface, approach")
         gamma("-work_of_interface.pull_off", "work against the interface, pull-off")

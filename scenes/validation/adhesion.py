@@ -115,15 +115,17 @@ def sphere(runs: Runs) -> list[dict]:
 
 def picture(rows: list[dict], file: pathlib.Path) -> None:
     """Force against height of the spheres' pull-off, the program's points on the lines of the rings."""
+    from asperity.plots.style import COLOURS, style
     from matplotlib.figure import Figure
-    axes = (figure := Figure(figsize=(6, 4), layout="constrained")).subplots()
-    for number, row in enumerate(rows):
-        axes.plot(*row["curve"], color=f"C{number}", lw=1)
-        every = 1 + len(row["path"][0]) // 100
-        axes.plot(*(values[::every] for values in row["path"]), ".", color=f"C{number}", ms=3, label=f"λ = {row['lambda']:.2f}")
-    axes.set(xlim=(-6, 6), ylim=(-1.05, 0.2), xlabel="mean height of the surface above the apex, ranges", ylabel="force, 2πwR")
-    axes.legend()
-    figure.savefig(file)
+    with style():
+        axes = (figure := Figure(figsize=(6, 4), layout="constrained")).subplots()
+        for colour, row in zip(COLOURS, rows):
+            axes.plot(*row["curve"], color=colour, lw=1)
+            every = 1 + len(row["path"][0]) // 100
+            axes.plot(*(values[::every] for values in row["path"]), ".", color=colour, ms=3, label=f"λ = {row['lambda']:.2f}")
+        axes.set(xlim=(-6, 6), ylim=(-1.05, 0.2), xlabel="mean height of the surface above the apex (ranges)", ylabel="force (2πwR)")
+        axes.legend()
+        figure.savefig(file, metadata={"Date": None} if file.suffix == ".svg" else None)
 
 
 def sticky(runs: Runs) -> list[dict]:

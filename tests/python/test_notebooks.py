@@ -43,7 +43,7 @@ def test_notebooks(tmp_path):
             patch.setenv("MPLBACKEND", "module://matplotlib_inline.backend_inline")
             nbclient.NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
         outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
-        assert [kind for output in outputs for kind in output.get("data", {})].count("image/png") == 2
+        assert [kind for output in outputs for kind in output.get("data", {})].count("image/png") == 3
         assert results(notebook) == kept and len(kept) == 3  # what a reader sees before it is run
         said = "".join(output.get("text", "") for output in outputs)
         assert "400/400" in said, said  # the bar

@@ -241,3 +241,22 @@ def test_what_the_captions_claim_is_true(path_run):
     x, y = run.series["top_displacement"], run.series["top_force"]
     loop = np.sum(0.5 * (y[1:] + y[:-1]) * np.diff(x))
     assert abs(1e3 * loop / run.edge**2) == pytest.approx(run.lost.cycle, rel=0.03) and run.lost.cycle > 1.0
+
+
+def test_times_have_a_unit_of_their_size(path_run):
+    run = asperity.load(path_run.directory)
+    for factor, unit in ((1.0, "ps"), (1e3, "ns"), (1e6, "µs")):
+        run.series._read["time"] = path_run.series["time"] * factor
+        for name in ("energy", "balance"):
+            ax = getattr(run.plot, name)(axes())
+            assert ax.get_xlabel() == f"time ({unit})"
+            assert style.drawn(ax).curves[0].x[-1] == pytest.approx(path_run.series["time"][-1])
+
+
+def test_the_way_through_empty_space_is_left_out_of_the_contact(path_run):
+    run = asperity.load(path_run.directory)
+    far = path_run.series["contact_fraction"] == 0
+    run.series._read["top_displacement"] = path_run.series["top_displacement"] + 1000.0 * far
+    low, high = run.plot.contact(axes()).get_xlim()
+    touching = run.series["top_displacement"][~far]
+    assert low < touching.min() and touching.max() < high < 900.0

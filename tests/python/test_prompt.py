@@ -126,6 +126,10 @@ def test_calls_of_the_pages(path_run, results):
                                           "mode": "quasistatic"}, "surface.sites": 16}, out=results / "slid")
     assert list(curves(slid.plot.friction(axes()))) == ["slide x 2"]
     assert any("friction" in segment for segment in slid.segments)
+    page = slid.report().read_text(encoding="utf-8").replace("\u2060", "").replace("\u00a0", " ")
+    assert "Segments of the path" in page and "work of the drive, meV/Å² (mJ/m²)" in page
+    work = slid.segments[-1].work_of_drive
+    assert f"<td>{work:.5g} ({asperity.terminal.millijoules(work)})</td>" in page
 
 
 def test_errors_name_the_script():

@@ -65,6 +65,7 @@ def test_the_page_of_a_path(path_run):
     # Numbers are those of the result, to the digits that are shown.
     assert f"{path_run.binding_energy / path_run.delta_gamma:.3f}" in found.text
     assert f"{-path_run.work_of_interface.pull_off:.2f} meV/Å²" in found.text
+    assert "Dynamic path at 100 m/s: approach, pull-off." in found.text
     # Nothing is fetched from anywhere.
     assert [v for v in found.links if not v.startswith(("#", "data:"))] == []
     assert found.tags.count("figure") == found.tags.count("svg") == len(found.data) == 13
@@ -153,6 +154,19 @@ def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
     assert over["theory.persson.gamma_full_contact"] == "0.2000" and over["theory.renormalised.gamma_eff"] == "0.7500"
 
 
+def test_soft_matter_that_relaxes_has_its_units_and_its_loss(tmp_path):
+    stored(tmp_path, ["approach", "pull-off"], 0.0)
+    file = json.loads((tmp_path / "result.json").read_text())
+    file["pull_off_force"] = 1e-3 * (32 * 2.6) ** 2 / 160.2176634  # 1 MPa in eV/Å
+    file["dissipated_in_block"] = {"approach": 1.0, "pull_off": 4.0, "cycle": 5.0}
+    (tmp_path / "result.json").write_text(json.dumps(file))
+    numbers = {n.name: n for n in sentences.key_numbers(asperity.load(tmp_path))}
+    stress = next(n for name, n in numbers.items() if name.startswith("pull-off stress"))
+    assert (stress.value, stress.unit) == ("1", "MPa")
+    assert numbers["lost at instabilities in a cycle"].value == "20"
+    assert numbers["dissipated in the block in a cycle"].value == "5"
+
+
 def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
     found = page(sphere_run.directory)
     for text in ("R = 100 Å", "Maugis-Dugdale with images", "by JKR", "pull-off force"):
@@ -234,7 +248,7 @@ def test_contact_is_what_the_interface_counts(state_run, tmp_path):
 
 def test_theory_and_states(state_run, tmp_path):
     found = page(state_run.directory)
-    assert "Gap" in found.text and "inertia: no time passes" in found.text
+    assert "Gap" in found.text and "inertia: a state of force balance" in found.text
     scene = tmp_path / "s.toml"
     scene.write_text("[surface]\nsites = 32\nrms = 0.5\n")
     command("theory", scene, "--out", tmp_path / "theory")

@@ -44,7 +44,7 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
     """A curve for each segment of the path, and one of what a script led."""
     labels: set[str] = set()
     others = 0
-    for number, words in enumerate((BY_HAND, *run.segment_names), -1):
+    for number, words in (*enumerate(run.segment_names), (-1, BY_HAND)):
         here = run.series["segment"] == number
         if words not in WAYS and number >= 0:
             others += 1
@@ -96,6 +96,10 @@ def contact(run: Result, ax: Axes) -> bool:
         return False
     _by_segment(ax, run, *columns[:3:2], ", repulsive", (DASHES[4], DASHES[2]))
     ax.set_ylim(bottom=0)
+    top, touching = columns[0], columns[0][columns[1] > 1e-3 * columns[1].max()]
+    if touching.size and np.ptp(touching) < 0.5 * np.ptp(top):  # most of the way is through empty space
+        room = max(0.15 * np.ptp(touching), 0.01 * np.ptp(top))
+        ax.set_xlim(touching.min() - room, touching.max() + room)
     return finish(ax, TOP, "fraction of the sites")
 
 
@@ -117,6 +121,14 @@ def friction(run: Result, ax: Axes) -> bool:
                             "shear stress against it " + label[label.rindex("("):], zero=True)
 
 
+def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
+    """Times in a unit of their size, and the label of the axis."""
+    for size, unit in ((1e6, "µs"), (1e3, "ns")):
+        if np.abs(picoseconds).max(initial=0.0) >= 3 * size:
+            return picoseconds / size, f"time ({unit})"
+    return picoseconds, "time (ps)"
+
+
 def energy(run: Result, ax: Axes) -> bool:
     """The energies along the path, per nominal area (meV/Å²) or, of a sphere, whole (eV)."""
     timed = "time" in run.series
@@ -124,18 +136,18 @@ def energy(run: Result, ax: Axes) -> bool:
     if not along or not run.edge:
         return False
     unit = 1.0 if run.curved else 1e3 / run.edge**2
-    for name, label, colour, line in (
+    x, label = _time(along[0]) if timed else (along[0], "point of the path")
+    for name, words, colour, line in (
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
             ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
             ("damped", "damped", PINK, DASHES[4]),
             ("dissipated", "dissipated", PINK, DASHES[4]),
             ("dissipated_in_block", "dissipated in the block", GREEN, DASHES[3])):
         if name in run.series:
-            curve(ax, along[0], run.series[name] * unit, label, colour=colour, line=line)
+            curve(ax, x, run.series[name] * unit, words, colour=colour, line=line)
     if not run.curved:
         millijoules(ax, MILLIJOULE, "mJ/m²")
-    return finish(ax, "time (ps)" if timed else "point of the path",
-                  "energy (eV)" if run.curved else "energy per area (meV/Å²)", legend="above")
+    return finish(ax, label, "energy (eV)" if run.curved else "energy per area (meV/Å²)", legend="above")
 
 
 def balance(run: Result, ax: Axes) -> bool:
@@ -144,8 +156,9 @@ def balance(run: Result, ax: Axes) -> bool:
         return False
     largest = np.abs(columns[1][np.isfinite(columns[1])]).max(initial=0.0)
     power = int(np.clip(3 * np.floor(np.log10(largest) / 3), -15, 0)) if largest > 0 else 0
-    curve(ax, columns[0], columns[1] * 10.0**-power)
-    return finish(ax, "time (ps)", "energy balance error" + f" ($10^{{{power}}}$)" * (power < 0))
+    x, label = _time(columns[0])
+    curve(ax, x, columns[1] * 10.0**-power)
+    return finish(ax, label, "energy balance error" + f" ($10^{{{power}}}$)" * (power < 0))
 
 
 def spectrum(run: Result, ax: Axes) -> bool:

@@ -142,7 +142,7 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
     handles, labels = ax.get_legend_handles_labels()
     if legend == "above" and len(labels) > 0:
         low, high = ax.get_ylim()
-        columns = 3 if max(map(len, labels)) < 24 else 2
+        columns = 3 if max(map(len, labels)) < 20 else 2
         rows = -(-len(labels) // columns)
         ax.set_ylim(low, high + (0.02 + 0.1 * rows if rows < 3 else 0.09 * rows) * (high - low))
         ax.legend(handles, labels, loc="upper center", ncols=columns, fontsize=6.5, columnspacing=0.9, handlelength=2.0,
