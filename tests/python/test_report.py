@@ -330,7 +330,7 @@ def test_the_page_of_a_sweep_of_the_theory(tmp_path):
     command("sweep", scene, "--theory-only", "--set", "surface.rms=0.2:1:0.2", "drive.load=0,100", "--out",
             tmp_path / "sweep")
     found = page(tmp_path / "sweep")
-    for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "full theory"):
+    for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "if the whole area were in contact"):
         assert text in found.text, text
     labels = [label for d in found.data for label, _ in d["curves"]]
     assert "Persson’s theory, load = 100 MPa" in labels
