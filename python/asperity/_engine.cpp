@@ -411,7 +411,10 @@ PYBIND11_MODULE(_engine, m) {
                 return py::array_t<double>({3, s.sites, s.sites}, s.u.data(), self);
             },
             "displacements of the lowest layer, Å, [component, y, x], to be read and written")
-        .def_readwrite("top", &State::top, "displacement of the top plane, Å");
+        .def_readwrite("top", &State::top, "displacement of the top plane, Å")
+        .def("__repr__", [](const State& s) {
+            return py::str("<State: {0} x {0} sites, top {1:.4g} Å>").format(s.sites, s.top);
+        });
 
     py::class_<LedPath, std::shared_ptr<LedPath>>(m, "Statics")
         .def(py::init([](const std::string& file, const std::vector<std::string>& overrides) {

@@ -88,6 +88,9 @@ class Top:
     def __init__(self, simulation: Simulation):
         self._simulation = simulation
 
+    def __repr__(self) -> str:
+        return f"<Top: position {self.position:.4g} Å, velocity {self.velocity:.4g} m/s>"
+
     @property
     def position(self) -> float:
         """Displacement since the start, Å. Written: the plane is there in the next step, without a way in between."""
@@ -216,7 +219,7 @@ class Simulation(_engine.Simulation):
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """A scene at the start of its path."""
-        with scene_file(scene) as file:
+        with scene_file(scene, overrides=overrides) as file:
             super().__init__(file, assignments(overrides), _number(comm))
         self._begin(comm)
 
@@ -414,7 +417,7 @@ class Statics(_engine.Statics):
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
         """The solids of a scene, beyond the interaction range of each other."""
-        with scene_file(scene) as file:
+        with scene_file(scene, overrides=overrides) as file:
             super().__init__(file, assignments(overrides))
 
     @property

@@ -32,9 +32,9 @@ def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
             curve(ax, [r.seconds for r in some], [100 * r.error[question] for r in some], label, colour=colour, line="",
                   marker=marker, filled=marker != "P")
     if front := sorted((r.seconds, 100 * r.error[question]) for r in rows if r.front[question]):
-        curve(ax, *zip(*front), "nothing is better in both", colour=GREY, line=DASHES[1], behind=True)
+        curve(ax, *zip(*front), "none is faster and more accurate", colour=GREY, line=DASHES[1], behind=True)
     finish(ax, "processor time (s)", "largest error of γ and contact (%)" if question == "state" else
-           "largest error of γ, contact, works and force (%)", log="xy")
+           "largest error of γ, contact, works and force (%)", log="xy", legend="above")
     return bool(rows)
 
 
@@ -65,8 +65,8 @@ def percent(error: float) -> str:
 
 def text_of(cost: Cost) -> str:
     """The tables on the terminal."""
-    parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks what nothing beats in both "
-             "time\nand error: first star the state at zero load (γ, contact), second the whole path.\n"]
+    parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks a setting if no "
+             "other is faster\nand more accurate: first star for the state at zero load (γ, contact), second for the whole path.\n"]
     rows: list[list[str]] = []
     last = ""
     for row in cost.rows:

@@ -59,7 +59,7 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     program.refuse_ranks()
     if isinstance(ranks, bool) or not isinstance(ranks, Integral) or ranks < 1:
         raise SceneError(f"ranks = {ranks!r}", "is no number of ranks", "a run has one or more", "leave it out for one")
-    with scene_file(scene) as file:
+    with scene_file(scene, overrides=overrides) as file:
         first = Path("results") / Path(file).stem
         place = files.numbered(first, Path.exists) if out is None else files.chosen(str(out), "")
         words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "lines" if progress_shown(progress) else "off",

@@ -67,8 +67,20 @@ def _caller() -> str:
 
 
 @contextlib.contextmanager
-def scene_file(scene: SceneLike, folder: str = "") -> Iterator[str]:
-    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if it is given."""
+def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
+    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if it is given.
+    overrides: those that a script gave; errors about them name the script."""
+    try:
+        with _file_of(scene, folder) as file:
+            yield file
+    except Error as error:
+        if overrides:
+            error.args = tuple(re.sub(r"(?m)^--set (?=[\w.]+=)", f"{_caller()}: ", str(a)) for a in error.args)
+        raise
+
+
+@contextlib.contextmanager
+def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
     if not isinstance(scene, Mapping):
         yield str(scene)
         return

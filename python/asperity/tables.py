@@ -88,6 +88,11 @@ class Average(NamedTuple):
 class Columns(UserDict):
     """Columns by name: numpy arrays of numbers (NaN: none) or, of keys that are words, lists of strings."""
 
+    def __repr__(self) -> str:
+        rows = len(next(iter(self.data.values()), ()))
+        some = ", ".join(list(self)[:6]) + ", ..." * (len(self) > 6)
+        return f"<{type(self).__name__}: {rows} rows, {len(self)} columns: {some}>"
+
     @property
     def units(self) -> dict[str, str]:
         return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}
@@ -184,7 +189,7 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
                  ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
-                 ("theory", "theory.persson.gamma_eff_ratio", 4), ("its contact", "theory.persson.contact_fraction", 4),
+                 ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
     ("γ_eff" + BOTH, "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),

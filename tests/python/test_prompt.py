@@ -40,7 +40,8 @@ def test_what_there_is():
 def test_objects_show_themselves_in_two_lines(path_run, tmp_path):
     sweep = asperity.Sweep("t", {}, ["surface.rms"], [])
     sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
-    for thing in (path_run, path_run.series, path_run.fields["relaxed"], sweep, sim, statics, sim.energy, statics.now):
+    for thing in (path_run, path_run.series, path_run.fields["relaxed"], sweep, sim, statics, sim.energy, statics.now,
+                  path_run.plot, sim.top, statics.copy(), sweep.table):
         shown = repr(thing)
         assert len(shown.splitlines()) <= 2 and len(shown) < 400 and " object at 0x" not in shown, shown
     assert "MPa" in repr(sim) and "MPa" in repr(statics) and "tiny" in repr(sim)
@@ -141,6 +142,10 @@ def test_errors_name_the_script():
             call()
         assert "test_prompt.py:" in str(error.value) and "/tmp" not in str(error.value), error.value
         assert "sites" in str(error.value)
+    for call in (asperity.run, asperity.Simulation, asperity.Statics):
+        with pytest.raises(asperity.SceneError) as error:
+            call(STATIC, {"surface": {"sitse": 16}})
+        assert str(error.value).startswith("test_prompt.py:") and "--set" not in str(error.value), error.value
 
 
 def test_overrides_may_be_nested(tmp_path):

@@ -278,6 +278,9 @@ class RunPlots:
     def __init__(self, run: Result):
         self._run = run
 
+    def __repr__(self) -> str:
+        return f"<plots of {self._run.directory}: {', '.join(dir(self))}>"
+
     def _draw(self, name: str, ax: Axes | None, draw: Callable[..., bool], *of: Any) -> Axes:
         return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data")
 

@@ -144,7 +144,8 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
         low, high = ax.get_ylim()
         columns = 3 if max(map(len, labels)) < 20 else 2
         rows = -(-len(labels) // columns)
-        ax.set_ylim(low, high + (0.02 + 0.1 * rows if rows < 3 else 0.09 * rows) * (high - low))
+        room = 0.02 + 0.1 * rows if rows < 3 else 0.09 * rows
+        ax.set_ylim(low, high * (high / low) ** room if "y" in log else high + room * (high - low))
         ax.legend(handles, labels, loc="upper center", ncols=columns, fontsize=6.5, columnspacing=0.9, handlelength=2.0,
                   handletextpad=0.5)
     elif legend and len(labels) > 0:
