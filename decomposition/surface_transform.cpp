@@ -8,6 +8,8 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -53,6 +55,10 @@ template <class T>
 Wave<T>* waves_in(T* row) {
     return reinterpret_cast<Wave<T>*>(row);
 }
+template <class T>
+const Wave<T>* waves_in(const T* row) {
+    return reinterpret_cast<const Wave<T>*>(row);
+}
 
 /// Of `count` things, the first that part `p` of `parts` has.
 int first_of(int count, int parts, int p) {
@@ -95,7 +101,7 @@ struct SurfaceTransform<T>::Parts {
     Slab slab;
     typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
     typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
-    /// Of each thread: columns of waves, [y][column], and their transforms; or a row of waves.
+    /// Of each thread: columns of waves, [y][column], and their transforms; or rows of sites.
     std::vector<AlignedArray<T>> own;
     /// Of several ranks: the waves of this rank's rows, and those of its columns, both by rank and
     /// column, and within a column by row.
@@ -103,7 +109,7 @@ struct SurfaceTransform<T>::Parts {
 
     explicit Parts(const Slab& of) : slab(of) {
         const std::size_t n = static_cast<std::size_t>(slab.sites);
-        const std::size_t room = 2 * transformed();
+        const std::size_t room = std::max(2 * transformed(), 3 * row_length());
         for (int t = 0; t < omp_get_max_threads(); ++t) {
             own.push_back(aligned_array<T>(room));
             std::fill_n(own.back().get(), room, T(0));
@@ -139,6 +145,11 @@ struct SurfaceTransform<T>::Parts {
     int threads() const { return std::min(omp_get_max_threads(), static_cast<int>(own.size())); }
     /// Numbers before the transforms of some columns.
     std::size_t transformed() const { return 2 * at_once * static_cast<std::size_t>(slab.sites); }
+    /// From the start of one row of a thread's own arrays to that of the next.
+    std::size_t row_length() const {
+        constexpr std::size_t line = 64 / sizeof(T);
+        return (static_cast<std::size_t>(slab.sites) + line - 1) / line * line;
+    }
     T* mine() { return own[static_cast<std::size_t>(omp_get_thread_num())].get(); }
 
     int first_column(int rank) const { return first_of(slab.columns(), slab.ranks.size(), rank); }
@@ -155,25 +166,49 @@ struct SurfaceTransform<T>::Parts {
         return out;
     }
 
+    /// A row of sites, and the waves of one, which are lost.
+    void to_waves(const T* sites, T* waves) const {
+        // Out of place, FFTW only reads.
+        F::run_real_to_waves(rows_forward, const_cast<T*>(sites),
+                             reinterpret_cast<Complex*>(waves));
+    }
+    void to_sites(T* waves, T* sites) const {
+        F::run_waves_to_real(rows_backward, reinterpret_cast<Complex*>(waves), sites);
+    }
+    /// Rows of sites of a thread's own.
+    std::array<T*, 3> sites_of_mine() {
+        std::array<T*, 3> rows;
+        for (std::size_t c = 0; c < rows.size(); ++c)
+            rows[c] = mine() + c * row_length();
+        return rows;
+    }
+
     /// All columns of the waves, which are whole on one rank.
-    void columns_of_one_rank(Waves<T>& waves, int component, bool forward) {
+    void columns_of_one_rank(const Waves<T>& from, Waves<T>& to, int component, bool forward) {
         const int columns = slab.columns();
 #pragma omp parallel for schedule(static) num_threads(threads())
         for (int x0 = 0; x0 < columns; x0 += at_once) {
             const int width = std::min(at_once, columns - x0);
             Wave<T>* const some = waves_in(mine());
-            const auto row = [&](int y) { return waves_in(waves.row(component, y)) + x0; };
+            const auto copy = [width](const Wave<T>* these, Wave<T>* there) {
+                if (width == at_once)
+                    std::memcpy(there, these, at_once * sizeof(Wave<T>)); // a line
+                else
+                    std::copy_n(these, width, there);
+            };
             for (int y = 0; y < slab.sites; ++y)
-                std::copy_n(row(y), width, some + y * at_once);
+                copy(waves_in(from.row(component, y)) + x0, some + y * at_once);
             const Wave<T>* const done = transform_some(some, forward);
             for (int y = 0; y < slab.sites; ++y)
-                std::copy_n(done + y * at_once, width, row(y));
+                copy(done + y * at_once, waves_in(to.row(component, y)) + x0);
         }
     }
 
     /// The same of several: every rank transforms its columns.
-    void columns_of_all_ranks(Waves<T>& waves, int component, bool forward) {
-        copy_rows(waves, component, true);
+    void columns_of_all_ranks(const Waves<T>& from, Waves<T>& to, int component, bool forward) {
+        each_in_rows([&](Wave<T>& in_column, int x, int y) {
+            in_column = waves_in(from.row(component, y))[x];
+        });
         exchange(true);
 #pragma omp parallel for schedule(static) num_threads(threads())
         for (int x0 = 0; x0 < my_columns(); x0 += at_once) {
@@ -192,7 +227,9 @@ struct SurfaceTransform<T>::Parts {
                  [](const Wave<T>& from, Wave<T>& to) { to = from; });
         }
         exchange(false);
-        copy_rows(waves, component, false);
+        each_in_rows([&](const Wave<T>& in_column, int x, int y) {
+            waves_in(to.row(component, y))[x] = in_column;
+        });
     }
 
     /// Of rank r's rows, this rank's column x.
@@ -201,19 +238,15 @@ struct SurfaceTransform<T>::Parts {
         return waves_in(of_columns.get()) +
                static_cast<std::ptrdiff_t>(first_row(r)) * my_columns() + x * rows;
     }
-    /// Between the waves and `of_rows`, where column x starts at x * rows.
-    void copy_rows(Waves<T>& waves, int component, bool out) {
+    /// Of `of_rows`, where column x starts at x * rows, each wave.
+    template <class Copy>
+    void each_in_rows(const Copy& copy) {
 #pragma omp parallel for schedule(static)
         for (int x = 0; x < slab.columns(); ++x) {
             Wave<T>* const column =
                 waves_in(of_rows.get()) + static_cast<std::ptrdiff_t>(x) * slab.rows;
-            for (int y = 0; y < slab.rows; ++y) {
-                Wave<T>& here = waves_in(waves.row(component, y))[x];
-                if (out)
-                    column[y] = here;
-                else
-                    here = column[y];
-            }
+            for (int y = 0; y < slab.rows; ++y)
+                copy(column[y], x, y);
         }
     }
     /// Every rank's rows of this rank's columns come here, or go back.
@@ -247,11 +280,15 @@ struct SurfaceTransform<T>::Parts {
         slab.ranks.exchange(messages);
     }
 
-    void transform_columns(Waves<T>& waves, int component, bool forward) {
+    void transform_columns(const Waves<T>& from, Waves<T>& to, int component, bool forward) {
         if (slab.ranks.size() == 1)
-            columns_of_one_rank(waves, component, forward);
+            columns_of_one_rank(from, to, component, forward);
         else
-            columns_of_all_ranks(waves, component, forward);
+            columns_of_all_ranks(from, to, component, forward);
+    }
+    void transform_columns(const Waves<T>& from, Waves<T>& to, bool forward) {
+        for (int c = 0; c < to.components(); ++c)
+            transform_columns(from, to, c, forward);
     }
 };
 
@@ -268,28 +305,57 @@ template <class T>
 void SurfaceTransform<T>::forward(const PlaneView<const T>& field, Waves<T>& waves,
                                   int component) const {
 #pragma omp parallel for schedule(static) num_threads(parts_->threads())
-    for (int y = 0; y < waves.rows(); ++y) {
-        T* const row = parts_->mine();
-        // Out of place, FFTW only reads.
-        Fftw<T>::run_real_to_waves(parts_->rows_forward, const_cast<T*>(field.line(y)),
-                                   reinterpret_cast<typename Fftw<T>::Complex*>(row));
-        std::copy_n(row, waves.length(), waves.row(component, y));
-    }
-    parts_->transform_columns(waves, component, true);
+    for (int y = 0; y < waves.rows(); ++y)
+        parts_->to_waves(field.line(y), waves.row(component, y));
+    parts_->transform_columns(waves, waves, component, true);
 }
 
 template <class T>
 void SurfaceTransform<T>::backward(Waves<T>& waves, int component,
                                    const PlaneView<T>& field) const {
-    parts_->transform_columns(waves, component, false);
+    parts_->transform_columns(waves, waves, component, false);
+#pragma omp parallel for schedule(static) num_threads(parts_->threads())
+    for (int y = 0; y < waves.rows(); ++y)
+        parts_->to_sites(waves.row(component, y), field.line(y));
+}
+
+template <class T>
+void SurfaceTransform<T>::forward(const Rows& make, Waves<T>& waves) const {
 #pragma omp parallel for schedule(static) num_threads(parts_->threads())
     for (int y = 0; y < waves.rows(); ++y) {
-        T* const row = parts_->mine();
-        std::copy_n(waves.row(component, y), waves.length(), row);
-        Fftw<T>::run_waves_to_real(parts_->rows_backward,
-                                   reinterpret_cast<typename Fftw<T>::Complex*>(row),
-                                   field.line(y));
+        const auto rows = parts_->sites_of_mine();
+        make(y, rows.data());
+        for (int c = 0; c < waves.components(); ++c)
+            parts_->to_waves(rows[static_cast<std::size_t>(c)], waves.row(c, y));
     }
+    parts_->transform_columns(waves, waves, true);
+}
+
+template <class T>
+void SurfaceTransform<T>::backward(Waves<T>& waves, const Rows& use) const {
+    parts_->transform_columns(waves, waves, false);
+#pragma omp parallel for schedule(static) num_threads(parts_->threads())
+    for (int y = 0; y < waves.rows(); ++y) {
+        const auto rows = parts_->sites_of_mine();
+        for (int c = 0; c < waves.components(); ++c)
+            parts_->to_sites(waves.row(c, y), rows[static_cast<std::size_t>(c)]);
+        use(y, rows.data());
+    }
+}
+
+template <class T>
+void SurfaceTransform<T>::through(const Waves<T>& from, const Rows& change, Waves<T>& to) const {
+    parts_->transform_columns(from, to, false);
+#pragma omp parallel for schedule(static) num_threads(parts_->threads())
+    for (int y = 0; y < to.rows(); ++y) {
+        const auto rows = parts_->sites_of_mine();
+        for (int c = 0; c < to.components(); ++c)
+            parts_->to_sites(to.row(c, y), rows[static_cast<std::size_t>(c)]);
+        change(y, rows.data());
+        for (int c = 0; c < to.components(); ++c)
+            parts_->to_waves(rows[static_cast<std::size_t>(c)], to.row(c, y));
+    }
+    parts_->transform_columns(to, to, true);
 }
 
 template class SurfaceTransform<double>;

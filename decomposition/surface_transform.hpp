@@ -13,6 +13,7 @@
 #include "decomposition/waves.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -43,6 +44,16 @@ public:
     void forward(const PlaneView<const T>& field, Waves<T>& waves, int component) const;
     /// The field of one component, whose waves are lost.
     void backward(Waves<T>& waves, int component, const PlaneView<T>& field) const;
+
+    /// Row y of the slab of each component of a field, in the cache: to be written or read. Called
+    /// by all threads.
+    using Rows = std::function<void(int y, T* const* rows)>;
+    /// N^2 u_q of the field that make() writes.
+    void forward(const Rows& make, Waves<T>& waves) const;
+    /// Hands over the field of some waves, which are lost.
+    void backward(Waves<T>& waves, const Rows& use) const;
+    /// to <- N^2 u_q of what change() makes of the field of `from`.
+    void through(const Waves<T>& from, const Rows& change, Waves<T>& to) const;
 
 private:
     struct Parts;

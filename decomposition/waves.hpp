@@ -44,11 +44,8 @@ template <class T>
 class Waves {
 public:
     Waves(const Slab& slab, int components)
-        : slab_(slab), components_(components),
-          component_(
-              (2 * static_cast<std::size_t>(slab.rows) * static_cast<std::size_t>(slab.columns()) +
-               15) /
-              16 * 16) {
+        : slab_(slab), components_(components), row_(row_length(slab)),
+          component_(static_cast<std::size_t>(slab.rows) * row_) {
         const std::size_t size = static_cast<std::size_t>(components) * component_;
         data_ = aligned_array<T>(size);
         clear();
@@ -77,12 +74,16 @@ public:
     }
 
 private:
-    std::size_t offset(int y) const {
-        return static_cast<std::size_t>(y) * static_cast<std::size_t>(length());
+    /// Rows start on cache lines, and not all at one place of a page.
+    static std::size_t row_length(const Slab& slab) {
+        constexpr std::size_t line = 64 / sizeof(T), page = 4096 / sizeof(T);
+        const std::size_t row = (2 * static_cast<std::size_t>(slab.columns()) + line - 1) / line;
+        return (row * line % page == 0 ? row + 1 : row) * line;
     }
+    std::size_t offset(int y) const { return static_cast<std::size_t>(y) * row_; }
     Slab slab_;
     int components_ = 0;
-    std::size_t component_ = 0;
+    std::size_t row_ = 0, component_ = 0;
     AlignedArray<T> data_;
 };
 

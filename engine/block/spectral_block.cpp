@@ -257,14 +257,15 @@ void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<fl
 }
 
 void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& waves,
-                            SiteField<float>& target) const {
+                            const Rows& use) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        for (int c = 0; c < components_; ++c)
-            tie_row(k, norm, moving(layer_.plane(0), c).line(y), moving(force_.plane(0), c).line(y),
-                    target[static_cast<std::size_t>(c)].plane(0).line(y), slab_.sites);
-    to_waves(target, waves);
+    single_.forward(
+        [&](int y, float* const* rows) {
+            for (int c = 0; c < components_; ++c)
+                tie_row(k, norm, moving(layer_.plane(0), c).line(y),
+                        moving(force_.plane(0), c).line(y), rows[c], slab_.sites);
+        },
+        waves);
     const int normal = components_ - 1;
     if (slab_.holds_uniform()) {
         double mean = -norm * constraint_.load();
@@ -277,7 +278,7 @@ void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& 
         preconditioner.apply_row(y, waves, waves);
     if (constraint_.is_mean_height() && slab_.holds_uniform())
         waves.row(normal, 0)[0] = static_cast<float>(constraint_.value);
-    at_sites(waves, target);
+    single_.backward(waves, use);
 }
 
 void SpectralBlock::restore_mean_height() {

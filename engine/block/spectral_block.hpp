@@ -111,11 +111,16 @@ public:
     /// What branches remember, to be kept and restored; null without.
     std::vector<SiteField<double>>* memory() { return memory_ ? &memory_->extensions() : nullptr; }
 
-    /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
-    /// to where it is: target <- (S + k)^-1 (k u + F + load). The waves are room for work; those of
+    /// Rows of a field, row by row (surface_transform.hpp).
+    using Rows = SurfaceTransform<float>::Rows;
+    /// Hands over where the sites would come to rest under the forces of gradient(), did a spring k
+    /// tie each to where it is: (S + k)^-1 (k u + F + load). The waves are room for work; those of
     /// the displacement are not looked at. Collective.
-    void respond(const Preconditioner& preconditioner, Waves<float>& waves,
-                 SiteField<float>& target) const;
+    void respond(const Preconditioner& preconditioner, Waves<float>& waves, const Rows& use) const;
+    /// to <- N^2 times the waves of what change() makes of the field of `from`. Collective.
+    void through_sites(const Waves<float>& from, const Rows& change, Waves<float>& to) const {
+        single_.through(from, change, to);
+    }
 
     /// The field of some waves, which are lost. Collective.
     template <class T>

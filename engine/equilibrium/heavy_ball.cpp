@@ -6,19 +6,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace asperity {
 
 HeavyBall::HeavyBall(SpectralBlock& block)
-    : block_(block), waves_(block.new_waves<float>()), target_(block.new_field<float>()),
-      momentum_(block.new_field<float>()), step_sizes_(block.tile(), 1, 0) {
+    : block_(block), waves_(block.new_waves<float>()), momentum_(block.new_field<float>()),
+      step_sizes_(block.tile(), 1, 0) {
     const PlaneView<float> step_size = step_sizes_.plane(0);
     for (int y = 0; y < step_size.ny; ++y)
         std::fill(step_size.line(y), step_size.line(y) + step_size.nx, 1.0f);
 }
 
 double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
-    block_.respond(preconditioner, waves_, target_);
     using Constants = RelaxationConstants;
     const BallRule rule{.keep = Constants::keep,
                         .cut = Constants::cut,
@@ -27,19 +27,18 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
                         .bound = static_cast<float>(bound)};
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
-    double longest = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : longest)
-    for (int y = 0; y < step_size.ny; ++y) {
+    std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
+    block_.respond(preconditioner, waves_, [&](int y, float* const* target) {
         BallRow row{};
         for (int c = 0; c < components; ++c) {
-            row.target[c] = target_[static_cast<std::size_t>(c)].plane(0).line(y);
+            row.target[c] = target[c];
             row.momentum[c] = momentum_[static_cast<std::size_t>(c)].plane(0).line(y);
             row.u[c] = block_.moving_layer(c).line(y);
         }
         row.step_size = step_size.line(y);
-        longest =
-            std::max(longest, static_cast<double>(move_row(row, rule, components, step_size.nx)));
-    }
+        of_row[static_cast<std::size_t>(y)] = move_row(row, rule, components, step_size.nx);
+    });
+    const double longest = *std::max_element(of_row.begin(), of_row.end());
     block_.restore_mean_height();
     return std::sqrt(block_.communicator().max(longest));
 }

@@ -40,7 +40,7 @@ public:
 private:
     SpectralBlock& block_;
     Waves<float> waves_;
-    SiteField<float> target_, momentum_;
+    SiteField<float> momentum_;
     Field<float> step_sizes_;
 };
 

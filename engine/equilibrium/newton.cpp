@@ -10,8 +10,8 @@ Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner,
                const Scales& scales)
     : block_(block), preconditioner_(preconditioner),
       stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length),
-      at_sites_(block.new_field<float>()), r_(block.new_waves<float>()),
-      z_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
+      r_(block.new_waves<float>()), z_(block.new_waves<float>()), p_(block.new_waves<float>()),
+      q_(block.new_waves<float>()) {}
 
 bool Newton::direction(const Interface& interface, double reference_height, double forcing,
                        const Waves<double>& g, Waves<float>& d) {
@@ -33,10 +33,8 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
 }
 
 double Newton::multiply() {
-    combine(1.0, p_, 0.0, q_);
-    block_.at_sites(q_, at_sites_);
-    stiffness_.apply(at_sites_);
-    block_.to_waves(at_sites_, q_);
+    block_.through_sites(
+        p_, [&](int y, float* const* rows) { stiffness_.apply_row(y, rows); }, q_);
     const double n = block_.options().sites, norm = 1.0 / (n * n);
     RowSums sums(block_.slab(), 1);
 #pragma omp parallel for schedule(static)

@@ -33,7 +33,6 @@ private:
     const SpectralBlock& block_;
     const Preconditioner& preconditioner_;
     InterfaceStiffness stiffness_;
-    SiteField<float> at_sites_;
     Waves<float> r_, z_, p_, q_;
 };
 

@@ -84,26 +84,24 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
     }
 }
 
-void InterfaceStiffness::apply(SiteField<float>& v) const {
-    const int ny = v[0].plane(0).ny, nx = v[0].plane(0).nx;
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < ny; ++y) {
-        const float* kzz = entry(zz).line(y);
-        float* vz = v.back().plane(0).line(y);
-        if (v.size() == 1) {
-            for (int x = 0; x < nx; ++x)
-                vz[x] *= kzz[x];
-            continue;
-        }
-        float *vx = v[0].plane(0).line(y), *vy = v[1].plane(0).line(y);
-        const float *kxx = entry(xx).line(y), *kyy = entry(yy).line(y), *kxy = entry(xy).line(y);
-        const float *kxz = entry(xz).line(y), *kyz = entry(yz).line(y);
-        for (int x = 0; x < nx; ++x) {
-            const float a = vx[x], b = vy[x], c = vz[x];
-            vx[x] = kxx[x] * a + kxy[x] * b + kxz[x] * c;
-            vy[x] = kxy[x] * a + kyy[x] * b + kyz[x] * c;
-            vz[x] = kxz[x] * a + kyz[x] * b + kzz[x] * c;
-        }
+void InterfaceStiffness::apply_row(int y, float* const* v) const {
+    const PlaneView<const float> of_z = entry(zz);
+    const float* kzz = of_z.line(y);
+    const int nx = of_z.nx;
+    if (map_.size() == 1) {
+        for (int x = 0; x < nx; ++x)
+            v[0][x] *= kzz[x];
+        return;
+    }
+    float *vx = v[0], *vy = v[1], *vz = v[2];
+    const float *kxx = entry(xx).line(y), *kyy = entry(yy).line(y), *kxy = entry(xy).line(y);
+    const float *kxz = entry(xz).line(y), *kyz = entry(yz).line(y);
+#pragma omp simd
+    for (int x = 0; x < nx; ++x) {
+        const float a = vx[x], b = vy[x], c = vz[x];
+        vx[x] = kxx[x] * a + kxy[x] * b + kxz[x] * c;
+        vy[x] = kxy[x] * a + kyy[x] * b + kyz[x] * c;
+        vz[x] = kxz[x] * a + kyz[x] * b + kzz[x] * c;
     }
 }
 

@@ -30,8 +30,8 @@ public:
     double mean(const Interface& interface, const VectorPlane<const double>& u,
                 const VectorPlane<const double>& force, double reference_height,
                 const Communicator& ranks);
-    /// v <- H v at every site; v has as many components.
-    void apply(SiteField<float>& v) const;
+    /// v <- H v for the sites of row y; v: the row of each component.
+    void apply_row(int y, float* const* v) const;
 
 private:
     enum Entry { zz, xx, yy, xy, xz, yz };

@@ -177,8 +177,13 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
         for (int y = 0; y < n; ++y)
             for (int x = 0; x < n; ++x)
                 up[0].plane(0)(x, y) = 1.0f;
-        all.apply(v);
-        normal.apply(up);
+        for (int y = 0; y < n; ++y) {
+            float* const row[3] = {v[0].plane(0).line(y), v[1].plane(0).line(y),
+                                   v[2].plane(0).line(y)};
+            all.apply_row(y, row);
+            float* const up_row = up[0].plane(0).line(y);
+            normal.apply_row(y, &up_row);
+        }
         const auto expect_slope = [&](float product, const Field<double>& high,
                                       const Field<double>& low, int x, int y) {
             const double slope = -(high.plane(0)(x, y) - low.plane(0)(x, y)) / (2.0 * h);

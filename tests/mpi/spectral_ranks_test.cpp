@@ -10,11 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 using namespace asperity;
 
@@ -111,6 +113,75 @@ void transform_like_one_rank(double tolerance) {
     }
 }
 
+template <class T>
+void transform_rows_like_fields(int components) {
+    for (int sites : {8, 15, 49}) {
+        const Slab slab(sites, test::world());
+        const SurfaceTransform<T> transform(slab);
+        auto field = field_on<T>(slab, components);
+        const auto row_of = [&](int c, int y) {
+            return field[static_cast<std::size_t>(c)].plane(0).line(y);
+        };
+        const auto expect_equal = [&](const Waves<T>& a, const Waves<T>& b) {
+            for (int c = 0; c < components; ++c)
+                for (int y = 0; y < slab.rows; ++y)
+                    for (int i = 0; i < a.length(); ++i)
+                        ASSERT_EQ(a.row(c, y)[i], b.row(c, y)[i]) << sites << ' ' << c;
+        };
+        Waves<T> by_field(slab, components), by_row(slab, components), kept(slab, components);
+        for (int c = 0; c < components; ++c)
+            transform.forward(std::as_const(field[static_cast<std::size_t>(c)]).plane(0), by_field,
+                              c);
+        transform.forward(
+            [&](int y, T* const* rows) {
+                for (int c = 0; c < components; ++c)
+                    std::copy_n(row_of(c, y), sites, rows[c]);
+            },
+            by_row);
+        expect_equal(by_row, by_field);
+
+        // There, doubled, and back again.
+        combine(1.0, by_field, 0.0, kept);
+        for (int c = 0; c < components; ++c)
+            transform.backward(by_field, c, field[static_cast<std::size_t>(c)].plane(0));
+        std::vector<int> equal(static_cast<std::size_t>(slab.rows));
+        transform.backward(by_row, [&](int y, T* const* rows) {
+            bool all = true;
+            for (int c = 0; c < components; ++c)
+                all = all && std::equal(rows[c], rows[c] + sites, row_of(c, y));
+            equal[static_cast<std::size_t>(y)] = all;
+        });
+        EXPECT_EQ(std::count(equal.begin(), equal.end(), 1), slab.rows) << sites;
+        const auto twice = [&](T* row) {
+            for (int x = 0; x < sites; ++x)
+                row[x] *= T(2);
+        };
+        for (int c = 0; c < components; ++c) {
+            for (int y = 0; y < slab.rows; ++y)
+                twice(row_of(c, y));
+            transform.forward(std::as_const(field[static_cast<std::size_t>(c)]).plane(0), by_field,
+                              c);
+        }
+        Waves<T> untouched(slab, components);
+        combine(1.0, kept, 0.0, untouched);
+        transform.through(
+            kept,
+            [&](int, T* const* rows) {
+                for (int c = 0; c < components; ++c)
+                    twice(rows[c]);
+            },
+            by_row);
+        expect_equal(by_row, by_field);
+        expect_equal(kept, untouched);
+    }
+}
+
+TEST(Slabs, TransformRowsLikeFields) {
+    for (int components : {1, 3}) {
+        transform_rows_like_fields<double>(components);
+        transform_rows_like_fields<float>(components);
+    }
+}
 TEST(Slabs, TransformLikeOneRankInDouble) { transform_like_one_rank<double>(1e-14); }
 TEST(Slabs, TransformLikeOneRankInSingle) { transform_like_one_rank<float>(1e-6); }
 

@@ -139,7 +139,12 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
             auto target = block.new_field<float>();
-            block.respond(preconditioner, waves, target);
+            block.respond(preconditioner, waves, [&](int y, float* const* rows) {
+                for (int c = 0; c < block.components(); ++c) {
+                    const PlaneView<float> to = target[static_cast<std::size_t>(c)].plane(0);
+                    std::copy_n(rows[c], to.nx, to.line(y));
+                }
+            });
 
             auto g = block.new_waves<double>();
             block.gradient(g);
