@@ -32,7 +32,7 @@ def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
             curve(ax, [r.seconds for r in some], [100 * r.error[question] for r in some], label, colour=colour, line="",
                   marker=marker, filled=marker != "P")
     if front := sorted((r.seconds, 100 * r.error[question]) for r in rows if r.front[question]):
-        curve(ax, *zip(*front), "none is faster and more accurate", colour=GREY, line=DASHES[1], behind=True)
+        curve(ax, *zip(*front), "best for its time", colour=GREY, line=DASHES[1], behind=True)
     finish(ax, "processor time (s)", "largest error of γ and contact (%)" if question == "state" else
            "largest error of γ, contact, works and force (%)", log="xy", legend="above")
     return bool(rows)
