@@ -40,7 +40,7 @@ def test_what_there_is():
 def test_objects_show_themselves_in_two_lines(path_run, tmp_path):
     sweep = asperity.Sweep("t", {}, ["surface.rms"], [
         {"set": {"surface.rms": rms}, "theory": {}, "status": "done", "result": {f"column_{i}": 1.0 for i in range(60)}}
-        for rms in (1.0, 2.0)])
+        for rms in (1.0, 2.0)], simulated=True)
     sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
     for thing in (path_run, path_run.series, path_run.fields["relaxed"], sweep, sim, statics, sim.energy, statics.now,
                   path_run.plot, sim.top, statics.copy(), sweep.table):
