@@ -171,10 +171,10 @@ kernels {kernels}; {date}, commit {commit}. {load} {baseline}
 
 ## Kernels and steps
 
-Every time is the shortest of repeats that alternate with each other; fractions are of limits measured in the same run: *of
-fused* of a loop of fused multiply-adds, *of stream* of a stream triad on as many threads. *Limit* is the time of an item at
-best, and *bound* what sets it: its multiplications, additions, divisions and shifts in a loop without dependences and loads
-(arithmetic, or division alone), or u and v read and written once (memory).
+Every time is the shortest of several repeats; repeats of different kernels alternate. *Of fused* is the speed over that of a
+loop of fused multiply-adds, *of stream* over that of a stream triad on as many threads, both measured in the same run.
+*Limit* is the shortest possible time of an item, and *bound* is what sets it: its operations in a loop without dependences
+and loads (arithmetic, or division alone), or moving u and v once to the processor and back (memory).
 
 {suite}
 ## Scaling
@@ -191,8 +191,8 @@ one core and between two ranks:
     + log2(ranks) x t_sum                                                   the reduction
     + log2(ranks) x latency + bytes gathered x t_gathered                   where coarse levels are held by all
 
-A node costs less where the block of a rank fits into its cache, so efficiencies above 1 can occur. Not included: waiting for
-late ranks, memory shared by more cores than here, and effects of a network other than latency and bandwidth.
+A node costs less where the block of a rank fits into its cache, so efficiencies above 1 can occur. The model leaves out
+waiting for late ranks, memory that more cores share than here, and all of a network but latency and bandwidth.
 
 {larger}"""
 

@@ -287,10 +287,10 @@ PYBIND11_MODULE(_engine, m) {
             "balance_error")
         .def_property_readonly(
             "contact", [](const Sim& sim) { return sim.fraction(sim.now().in_contact); },
-            "fraction of the sites whose nearest atom is in contact, at the last observed step")
+            "fraction of the sites that are in contact, at the last observed step")
         .def_property_readonly(
             "repulsive_fraction", [](const Sim& sim) { return sim.fraction(sim.now().repulsive); },
-            "fraction of the sites that are pushed away, at the last observed step")
+            "fraction of the sites whose net normal force is repulsive, at the last observed step")
         .def_property_readonly(
             "segment", &Sim::segment,
             "the segment of drive.path under way, as the scene has it; 'done' after the last")
@@ -311,7 +311,9 @@ PYBIND11_MODULE(_engine, m) {
             "work of the drive on the solids, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
             "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
-            "energy lost over approach and pull-off, and still moving then, meV/Å²; None before")
+            "energy lost over approach and pull-off, with what still moves at the end, meV/Å²; "
+            "None "
+            "until then")
         .def_property_readonly(
             "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
             "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; what is written is "
@@ -423,22 +425,23 @@ PYBIND11_MODULE(_engine, m) {
         }))
         .def(
             "relax", [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
-            "Goes where mean_height, top or load was set, point by point; the Point there.\n\n"
-            "Without a new target: the point where it is. Ctrl-C ends it at a point; the next "
-            "relax() goes on.\n"
+            "Leads the solids, point by point, to the mean_height, top or load that was set, and "
+            "returns the Point there.\n\n"
+            "Without a new target it returns the present point. Ctrl-C ends it at a point; the "
+            "next relax() goes on.\n"
             "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
             "is reached.")
         .def(
             "free", [](LedPath& s) { return working([&] { return s.release(look_for_signals); }); },
-            "The state that the sites come to from where they are with nothing held but "
-            "drive.load: "
-            "a RestState.\n\n"
+            "Relaxes the sites from where they are with nothing held, under drive.load; returns "
+            "the RestState.\n\n"
             "From beyond the interaction range: the state that the segment \"relax\" of a run "
             "leads to. The "
             "next "
             "relax() begins\na path there. Raises PhysicsError if no state is found; the "
             "sites then stay.")
-        .def("copy", &LedPath::copy, "Where the sites stand: a State, for restore().")
+        .def("copy", &LedPath::copy,
+             "Displacements of the sites and the top as a State, for restore().")
         .def("restore", &LedPath::restore, py::arg("state"),
              "Puts the sites where a State has them. The next relax() begins a path there: work, "
              "dissipated and number\ncount from there.")
@@ -449,12 +452,12 @@ PYBIND11_MODULE(_engine, m) {
         .def_property(
             "mean_height", [](const LedPath& s) { return s.now().mean_height; },
             &LedPath::set_mean_height,
-            "mean height of the lowest layer above the substrate's zero, Å. Written: where the "
-            "next relax() leads it")
+            "mean height of the lowest layer above the substrate's zero, Å. Written: the one to "
+            "which the next relax() leads it")
         .def_property(
             "top", [](const LedPath& s) { return s.now().top; }, &LedPath::set_top,
-            "displacement of the top plane since the start, Å. Written: where the next relax() "
-            "leads it")
+            "displacement of the top plane since the start, Å. Written: the one to which the next "
+            "relax() leads it")
         .def_property_readonly(
             "_case", // what a search needs of it, in the units of the engine
             [](const LedPath& s) {

@@ -207,8 +207,8 @@ class Simulation(_engine.Simulation):
                same calls with the same arguments, but for what is written to their own sites. An error that ends one
                of them ends all.
 
-    It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a scene that has no time,
-    or that a run would refuse, and warns (SceneWarning) of what is worth knowing of a scene.
+    It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a quasi-static scene and for one
+    that a run would refuse; notes on a scene are warnings (SceneWarning).
     """
 
     __setattr__ = _set_what_is_there
@@ -279,7 +279,7 @@ class Simulation(_engine.Simulation):
     def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
         """Calls observer(simulation) after each step whose number divides by n, the first one included.
 
-        It looks and writes as a script does between two steps, but does not step. What it raises ends step().
+        It may read and write what a script may between two steps, but must not call step(). What it raises ends step().
         A number that it returns goes to the column `name` of `series` (else that of the function's name), those of a
         dictionary to the columns that its keys name.
         """
@@ -362,7 +362,7 @@ class Simulation(_engine.Simulation):
 
 
 class Statics(_engine.Statics):
-    """A quasi-static scene: its solids in force balance, where a script leads them.
+    """A quasi-static scene: a script prescribes positions or loads, and the solids are relaxed to force balance there.
 
         statics = asperity.Statics("scene.toml")
         for height in (6.0, 4.0, 3.0, 4.0, 6.0):
@@ -370,10 +370,10 @@ class Statics(_engine.Statics):
             point = statics.relax()
             print(point.mean_height, point.force, point.dissipated)
 
-    It starts beyond the interaction range. What is found depends on the way there, as on a path of `asperity run`, and what is
-    lost on it is counted. The mean height is held, or the top plane: the first one that is written decides (a
-    load holds what drive.control of the scene says). Of a dynamic scene the same solids are taken, as if
-    drive.mode were "quasistatic". scene and overrides are as for Simulation.
+    It starts beyond the interaction range. The state at a point depends on the way there, as on a path of `asperity run`;
+    energy lost on the way is counted. Mean height or top plane: the one that is written first is held from then on (a
+    load holds what drive.control of the scene says). A dynamic scene is taken as if its drive.mode were "quasistatic".
+    scene and overrides are as for Simulation.
 
     free() is the state with nothing held; copy() keeps a state, and restore() leads back to it:
 
@@ -422,10 +422,10 @@ class Statics(_engine.Statics):
 
     @property
     def load(self) -> None:
-        """Load where the next relax() leads it, written as MPa or "100 MPa"; positive presses.
+        """Load to which the next relax() leads the solids, written as MPa or "100 MPa"; positive presses.
 
-        Reached where the force comes to it: from below on the way in, from above on the way out. Read
-        point.force.
+        The block moves in until the force rises to the load, or out until it falls to it. It cannot be read: the force
+        of a point is point.force.
         """
         raise AttributeError("a load can be written, not read: the force of a point is point.force, eV/Å")
 
