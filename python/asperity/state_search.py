@@ -26,7 +26,8 @@ from . import files, program
 from .engine import State, Statics
 from .errors import PhysicsError, SceneError
 from .scene import Overrides, SceneLike
-from .terminal import Progress, table
+from .terminal import Progress, millijoules, table
+from .units import MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
 PRESS = 0.125  # of the contact modulus: how far full contact is pressed
@@ -258,13 +259,18 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
         return 75
     finally:
         shown.finish()
-    rows = [[*(f"{s[name]:.4g}" for name in NUMBERS), f"{s['barrier']:.3g}" if s["barrier"] else "-",
+    def cell(state: dict, name: str) -> str:
+        return f"{state[name]:.4g}" + f" ({millijoules(state[name])})" * (name in ("binding_energy", "elastic_energy"))
+
+    rows = [[*(cell(s, name) for name in NUMBERS), f"{s['barrier']:.3g}" if s["barrier"] else "-",
              ", ".join(s["found"])] for s in found["states"]]
-    print(table(["binding energy, meV/Å²", "elastic, meV/Å²", "mean height, Å", "contact", "repulsive",
+    print(table(["binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
                  "to the next, MPa", "found by"], rows, left=(6,)))
-    print(f"The deepest binds {rows[found['deepest']][0]} meV/Å². The path went to {found['innermost']:.2f} Å and "
-          f"{found['pressed_to']:.4g} MPa: {found['ended']}.")
+    deepest = found["states"][found["deepest"]]["binding_energy"]
+    print(f"The deepest state has a binding energy of {deepest:.4g} meV/Å² ({millijoules(deepest)} mJ/m²). The path went in to a "
+          f"mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; it ended because: {found['ended']}.")
     if found["approach_less_run"]:
-        print(f"An approach ends in a state of {found['approach_less_run']:+.3g} meV/Å² relative to that of a run.")
+        less = found["approach_less_run"]
+        print(f"The state after an approach binds by {less:+.3g} meV/Å² ({less * MILLIJOULE:+.3g} mJ/m²) relative to that of a run.")
     print("May be missed: " + "; ".join(found["may_miss"]) + f".\n{place / RESULT}")
     return 0

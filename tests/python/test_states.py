@@ -27,7 +27,7 @@ def whole(tmp_path_factory):
     (work / "hill.toml").write_text(SCENE)
     said = command("states", "hill.toml", cwd=work, says=["to the next, MPa", "run, approach", "May be missed: "])
     found = json.loads((work / "results/hill-states/states.json").read_text())
-    assert f"The deepest binds {found['states'][1]['binding_energy']:.4g} meV/Å²" in said
+    assert f"has a binding energy of {found['states'][1]['binding_energy']:.4g} meV/Å² (" in said
     assert not list(work.glob("results/*/*.npz"))
     command("states", "hill.toml", cwd=work, expect=2, says="already holds a result")
     return found
@@ -101,7 +101,7 @@ def test_lateral_forces_on_a_soft_steep_surface(place):
     """An approach, a run, a press and random displacements end in states of their own, and none is called complete."""
     Path("soft.toml").write_text("surface = { sites = 16, rms = 4, seed = 2, rolloff = 1 }\n"
                                  "block = { young = 8, thickness = 16 }\ndrive = { path = [\"relax\"] }\n")
-    said = command("states", "soft.toml", says=["meV/Å² relative to that of a run", "random starts led to"])
+    said = command("states", "soft.toml", says=["mJ/m²) relative to that of a run", "random starts led to"])
     found = json.loads(Path("results/soft-states/states.json").read_text())
     by = {name: state for state in found["states"] for name in state["found"]}
     assert by["run"]["binding_energy"] == pytest.approx(asperity.run("soft.toml").binding_energy, abs=1e-9)
