@@ -241,7 +241,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
         part("rate", "rate", f"velocity {2 * own('drive.velocity'):.4g} m/s, to 0", scene.scaled("drive.velocity", 2),
              coarser(2, 1), start)
     else:
-        part("rate", "rate", "none: the scene has no time")
+        part("rate", "rate", "none: the scene is quasi-static")
     if scene.scene.text("surface.kind") == "self-affine" and own("surface.rms") > 0:
         _surfaces(scene, part, seeds)
     elif not maps:

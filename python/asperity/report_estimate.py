@@ -143,13 +143,13 @@ def _set(text: str) -> str:
 
 def page_of(estimate: Estimate) -> Page:
     """Written by its write()."""
-    page = Page(estimate.directory, "Estimate", estimate.name, quote(estimate.first) + ".")
+    page = Page(estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
     for n in list(estimate.numbers.values())[1:]:
         page.add("paragraph", _set(quote(n)) + ".")
     page.section("budget", "Budget")
     for columns in tables_of(estimate):
-        page.table(heads_of(columns), [row for row in rows_of(estimate, columns) if row])
+        page.table([*map(_set, heads_of(columns))], [row for row in rows_of(estimate, columns) if row])
     page.figure("budget", "Budget of " + estimate.first.name, "Bars: shift by each part of the error; whiskers: standard error of the shift.",
                 lambda ax: chart(estimate, ax))
     page.section("left-out", "What is not in the error")
