@@ -194,6 +194,12 @@ def test_the_legend_of_the_energies_covers_no_curve(path_run):
     assert inside(fig) and not covered(fig)
 
 
+def test_the_legend_of_a_sphere_covers_no_curve(sphere_run):
+    fig = style.make(lambda ax: run_plots.separation(sphere_run, ax))
+    assert len(fig.axes[0].get_legend().get_texts()) > 4
+    assert inside(fig) and not covered(fig)
+
+
 def test_a_large_error_of_the_balance_has_a_whole_label(path_run):
     run = asperity.load(path_run.directory)
     run.series._read["balance_error"] = -1234.5 * np.ones(len(run.series["time"]))

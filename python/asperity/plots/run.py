@@ -76,7 +76,8 @@ def separation(run: Result, ax: Axes) -> bool:
         lowest = min([least] + [v for _, _, y in beside for v in y if v > 1.5 * least])
         room = 0.08 * (greatest - least)
         ax.set_ylim((lowest - room) / unit, (greatest + room) / unit)
-    return finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label, zero=True)
+    return finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label, zero=True,
+                  legend="above" if beside else True)
 
 
 def loading(run: Result, ax: Axes) -> bool:

@@ -142,12 +142,14 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
     handles, labels = ax.get_legend_handles_labels()
     if legend == "above" and len(labels) > 0:
         low, high = ax.get_ylim()
-        columns = 3 if max(map(len, labels)) < 20 else 2
+        longest = max(map(len, labels))
+        columns = 3 if longest < 20 else 2 if longest < 36 else 1
         rows = -(-len(labels) // columns)
-        room = 0.02 + 0.1 * rows if rows < 3 else 0.09 * rows
+        part = 0.03 + (0.065 if rows < 4 else 0.055) * rows  # of the frame
+        room = part / (1 - part)
         ax.set_ylim(low, high * (high / low) ** room if "y" in log else high + room * (high - low))
         ax.legend(handles, labels, loc="upper center", ncols=columns, fontsize=6.5, columnspacing=0.9, handlelength=2.0,
-                  handletextpad=0.5)
+                  handletextpad=0.5, labelspacing=0.5 if rows < 4 else 0.25)
     elif legend and len(labels) > 0:
         ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
                   fontsize=7.5 if len(labels) < 5 else 6.5)
