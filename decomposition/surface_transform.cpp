@@ -222,9 +222,9 @@ struct SurfaceTransform<T>::Parts {
                             copy(all[y * at_once + i], column[y - first_row(r)]);
                     }
             };
-            each(some, [](Wave<T>& to, const Wave<T>& from) { to = from; });
+            each(some, [](Wave<T>& in_row, const Wave<T>& in_column) { in_row = in_column; });
             each(transform_some(some, forward),
-                 [](const Wave<T>& from, Wave<T>& to) { to = from; });
+                 [](const Wave<T>& in_row, Wave<T>& in_column) { in_column = in_row; });
         }
         exchange(false);
         each_in_rows([&](const Wave<T>& in_column, int x, int y) {
