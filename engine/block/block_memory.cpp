@@ -35,20 +35,21 @@ struct Loss {
     }
 };
 
-/// result(site) over all sites and components of some fields of the same shape.
-template <class Rule>
-void at_each_site(SiteField<double>& result, const Rule& rule) {
-    for (std::size_t c = 0; c < result.size(); ++c) {
-        const PlaneView<double> to = result[c].plane(0);
+/// to = a x + b y, site by site; `to` may be either.
+void combine(double a, const SiteField<double>& x, double b, const SiteField<double>& y,
+             SiteField<double>& to) {
+    for (std::size_t c = 0; c < to.size(); ++c) {
+        const PlaneView<const double> from_x = x[c].plane(0), from_y = y[c].plane(0);
+        const PlaneView<double> result = to[c].plane(0);
 #pragma omp parallel for schedule(static)
-        for (int y = 0; y < to.ny; ++y)
-            for (int x = 0; x < to.nx; ++x)
-                to(x, y) = rule(c, x, y);
+        for (int row = 0; row < result.ny; ++row) {
+            const double* const xs = from_x.line(row);
+            const double* const ys = from_y.line(row);
+            double* const line = result.line(row);
+            for (int i = 0; i < result.nx; ++i)
+                line[i] = a * xs[i] + b * ys[i];
+        }
     }
-}
-
-double at(const SiteField<double>& field, std::size_t c, int x, int y) {
-    return field[c].plane(0)(x, y);
 }
 
 } // namespace
@@ -72,45 +73,35 @@ double BlockMemory::stiffening() const {
 }
 
 SiteField<double> BlockMemory::known() const {
-    const double stiffening = this->stiffening();
     SiteField<double> sum = new_field();
-    at_each_site(sum, [&](auto c, int x, int y) { return -stiffening * at(w_, c, x, y); });
-    for (std::size_t k = 0; k < branches_.size(); ++k) {
-        const double kept = branches_[k].ratio * Decay(dt_ / branches_[k].time).e;
-        at_each_site(sum, [&](auto c, int x, int y) {
-            return at(sum, c, x, y) + kept * at(h_[k], c, x, y);
-        });
-    }
+    combine(-stiffening(), w_, 0.0, w_, sum);
+    for (std::size_t k = 0; k < branches_.size(); ++k)
+        combine(branches_[k].ratio * Decay(dt_ / branches_[k].time).e, h_[k], 1.0, sum, sum);
     return sum;
 }
 
 BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& square) const {
     BranchEnergies energies;
-    SiteField<double> field = new_field();
-    at_each_site(field, [&](auto c, int x, int y) { return at(to, c, x, y) - at(w_, c, x, y); });
-    const double moved = square(field);
+    SiteField<double> moved = new_field(), field = new_field();
+    combine(1.0, to, -1.0, w_, moved);
+    const double of_step = square(moved);
     for (std::size_t k = 0; k < branches_.size(); ++k) {
         const auto& [ratio, time] = branches_[k];
         const Decay decay(dt_ / time);
         const Loss loss(dt_ / time);
-        const auto combined = [&](double kept, double of_step) {
-            at_each_site(field, [&](auto c, int x, int y) {
-                return kept * at(h_[k], c, x, y) + of_step * (at(to, c, x, y) - at(w_, c, x, y));
-            });
-            return square(field);
-        };
-        energies.stored += 0.5 * ratio * combined(decay.e, decay.b);
-        energies.dissipated += ratio * (loss.a * combined(1.0, loss.shift) + loss.rest * moved);
+        combine(decay.e, h_[k], decay.b, moved, field);
+        energies.stored += 0.5 * ratio * square(field);
+        combine(1.0, h_[k], loss.shift, moved, field);
+        energies.dissipated += ratio * (loss.a * square(field) + loss.rest * of_step);
     }
     return energies;
 }
 
 void BlockMemory::end(SiteField<double> to) {
+    combine(1.0, to, -1.0, w_, w_); // the step
     for (std::size_t k = 0; k < branches_.size(); ++k) {
         const Decay decay(dt_ / branches_[k].time);
-        at_each_site(h_[k], [&](auto c, int x, int y) {
-            return decay.e * at(h_[k], c, x, y) + decay.b * (at(to, c, x, y) - at(w_, c, x, y));
-        });
+        combine(decay.e, h_[k], decay.b, w_, h_[k]);
     }
     w_ = std::move(to);
 }

@@ -51,6 +51,7 @@ public:
 
     /// h of each branch: all that is to be kept.
     std::vector<SiteField<double>>& extensions() { return h_; }
+    const std::vector<SiteField<double>>& extensions() const { return h_; }
     std::size_t bytes() const;
 
 private:

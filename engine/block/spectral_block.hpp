@@ -110,6 +110,9 @@ public:
     double uniform_known() const;
     /// What branches remember, to be kept and restored; null without.
     std::vector<SiteField<double>>* memory() { return memory_ ? &memory_->extensions() : nullptr; }
+    const std::vector<SiteField<double>>* memory() const {
+        return memory_ ? &memory_->extensions() : nullptr;
+    }
 
     /// Rows of a field, row by row (surface_transform.hpp).
     using Rows = SurfaceTransform<float>::Rows;

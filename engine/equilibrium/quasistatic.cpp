@@ -89,16 +89,18 @@ QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, Pat
 
 void QuasistaticPath::start() {
     block_.set_uniform(0.0);
-    first_point(0.0, true);
+    first_point(0.0, {.from_apart = true});
 }
 
-void QuasistaticPath::start_here(bool apart) {
-    first_point(options_.along == Constraint::Of::top ? block_.top() : block_.mean_height(), apart);
+void QuasistaticPath::start_here(Here here) {
+    first_point(options_.along == Constraint::Of::top ? block_.top() : block_.mean_height(), here);
 }
 
-void QuasistaticPath::first_point(double top, bool apart) {
+void QuasistaticPath::first_point(double top, Here here) {
+    const double dt = here.remembers ? 0.0 : HUGE_VAL;
+    block_.begin_step(dt);
     last_.accept(top);
-    const RelaxedState state = last_.relax_at(top, HUGE_VAL, {});
+    const RelaxedState state = last_.relax_at(top, dt, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
                                why_not_converged(state, 0.25 * options_.tolerance),
@@ -106,7 +108,7 @@ void QuasistaticPath::first_point(double top, bool apart) {
     last_.accept(top);
     record_.step = 0;
     const double energy = state.interface_energy + state.elastic_energy;
-    record_.work = apart ? energy : 0.0;
+    record_.work = here.from_apart ? energy : 0.0;
     energy_at_start_ = energy - record_.work;
     set_record(state, top);
     trail_.begin(top, state.top_force);

@@ -72,9 +72,13 @@ public:
 
     /// The undisplaced block, where nothing is in reach.
     void start();
-    /// The block as it is. apart: works are counted from the solids at rest apart, so that the
-    /// first point has the energy of this state; otherwise from here.
-    void start_here(bool apart = false);
+    /// The block as it is. from_apart: works are counted from the solids at rest apart, so that the
+    /// first point has the energy of this state; otherwise from here. remembers: branches keep
+    /// their extensions; otherwise the block has relaxed.
+    struct Here {
+        bool from_apart = false, remembers = false;
+    };
+    void start_here(Here here);
 
     /// A segment of the path, and its number for what is recorded; amounts in the engine's units (a
     /// load in eV/Å).
@@ -186,7 +190,7 @@ private:
     void accept(const RelaxedState& state, double at, const StepDecision& step);
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
-    void first_point(double top, bool apart);
+    void first_point(double top, Here here);
     double longest_step() const;
     double smallest_step() const { return options_.step * 0x1p-16; }
     /// What energy may be missing in a step of this length, eV: no less than what sums over the

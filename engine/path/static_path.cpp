@@ -38,7 +38,7 @@ Path::Made StaticPath::advance(const Wish&) {
     if (!begun_) {
         if (first || from_state) make_points(held_of(case_));
         if (first) points_->start();
-        if (from_state) points_->start_here(true);
+        if (from_state) points_->start_here({.from_apart = true});
         points_->begin(case_.simulation.drive.path[segment_], segment_);
         begun_ = true;
         if (first || from_state) return Made::step;
@@ -135,11 +135,11 @@ void StaticPath::restored() {
 
 // ---- By hand.
 
-void StaticPath::begin_by_hand(Constraint::Of held, bool here) {
+void StaticPath::begin_by_hand(Constraint::Of held, std::optional<bool> remembers) {
     make_points(held);
-    if (!here) return points_->start();
+    if (!remembers) return points_->start();
     try {
-        points_->start_here();
+        points_->start_here({.remembers = *remembers});
     } catch (const io::PhysicsError&) {
         points_.reset();
         throw;

@@ -55,9 +55,9 @@ public:
 
     /// The points, if a path of them has begun.
     const QuasistaticPath* points() const { return points_ ? &*points_ : nullptr; }
-    /// Begins a path by hand, of what is held: where the block is (its works count from there), or
-    /// beyond the interaction range.
-    void begin_by_hand(Constraint::Of held, bool here);
+    /// Begins a path by hand, of what is held: where the block is (works count from there), relaxed
+    /// or with what its branches remember; without either, beyond the interaction range.
+    void begin_by_hand(Constraint::Of held, std::optional<bool> remembers);
     /// Leads it to a displacement of what is held, Å, or along a segment (amounts as in
     /// QuasistaticPath::begin()), point by point. False: the watch asked for an end; the same call
     /// goes on. After each point `look` is called.

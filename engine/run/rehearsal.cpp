@@ -106,7 +106,7 @@ bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto&
     for (std::size_t n = 0; n < c.path.size(); ++n) {
         if (c.path[n].kind == Segment::relax) {
             if (!relax(c.simulation.drive.load_force)) return false;
-            path.start_here();
+            path.start_here({});
             continue;
         }
         if (n == 0) path.start();

@@ -154,9 +154,11 @@ RestState LedPath::release(const Look& look) {
     try {
         const std::optional<ZeroLoad> found = while_looking(look, [&] {
             return path_.state_from_here(case_.simulation.drive.load_force,
-                                         !path_.points() && !placed_);
+                                         !path_.points() && !remembers_);
         });
-        place(copy());
+        State there = copy();
+        there.branches.clear();
+        place(there);
         return {*found, maps()};
     } catch (...) {
         place(from);
@@ -166,10 +168,17 @@ RestState LedPath::release(const Look& look) {
 
 LedPath::State LedPath::copy() const {
     State state{surface_.sites, {}, path_.block().top()};
+    const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
+        for (int y = 0; y < plane.ny; ++y)
+            to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
+    };
     const VectorPlane<const double> layer = path_.layer();
     for (const auto& plane : {layer.x, layer.y, layer.z})
-        for (int y = 0; y < plane.ny; ++y)
-            state.u.insert(state.u.end(), plane.line(y), plane.line(y) + plane.nx);
+        keep(plane, state.u);
+    if (const auto* memory = path_.block().memory())
+        for (const SiteField<double>& branch : *memory)
+            for (const Field<double>& component : branch)
+                keep(component.plane(0), state.branches);
     return state;
 }
 
@@ -178,6 +187,13 @@ void LedPath::restore(const State& state) {
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
                fmt::format("the scene has {0} x {0}", surface_.sites),
                "give a state of this scene");
+    std::size_t extensions = 0;
+    if (const auto* memory = path_.block().memory())
+        for (const SiteField<double>& branch : *memory)
+            extensions += branch.size() * state.u.size() / 3;
+    if (!state.branches.empty() && state.branches.size() != extensions)
+        refuse("restore", "of a state with other branches", "the scene has another block.prony",
+               "give a state of this scene, or State(u, top), which has relaxed");
     if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
         !std::isfinite(state.top))
         refuse("restore", "of displacements that are no numbers", "no state follows from them",
@@ -190,12 +206,21 @@ void LedPath::place(const State& state) {
     before_ = now();
     path_.end_points();
     target_ = {};
-    placed_ = true;
+    remembers_ = !state.branches.empty();
     const VectorPlane<double> layer = path_.block().layer().plane(0);
     auto from = state.u.begin();
     for (const auto& plane : {layer.x, layer.y, layer.z})
         for (int y = 0; y < plane.ny; ++y, from += plane.nx)
             std::copy_n(from, plane.nx, plane.line(y));
+    auto extension = state.branches.begin();
+    if (auto* memory = path_.block().memory())
+        for (SiteField<double>& branch : *memory)
+            for (Field<double>& component : branch) {
+                const PlaneView<double> plane = component.plane(0);
+                for (int y = 0; y < plane.ny; ++y)
+                    for (int x = 0; x < plane.nx; ++x)
+                        plane(x, y) = state.branches.empty() ? 0.0 : *extension++;
+            }
     path_.block().apply_constraint(Constraint::top(state.top));
 }
 
@@ -211,7 +236,7 @@ void LedPath::hold(Held held) {
 void LedPath::begin() {
     if (path_.points()) return;
     hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));
-    path_.begin_by_hand(*held_, placed_);
+    path_.begin_by_hand(*held_, remembers_);
 }
 
 } // namespace asperity

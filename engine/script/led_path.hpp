@@ -63,11 +63,14 @@ public:
         int sites = 0;         ///< across
         std::vector<double> u; ///< displacements of the lowest layer, [component][y][x], Å
         double top = 0.0;      ///< displacement of the top plane, Å
+        /// Of a block that relaxes, extensions of the branches' springs, [branch][moving
+        /// component][y][x], Å; empty: the block has relaxed there.
+        std::vector<double> branches{};
     };
     State copy() const;
-    /// Puts the sites, and a held top plane, there; the next relax() begins a new path there, at
-    /// the mean height that they have where that is held. Throws io::SceneError for another number
-    /// of sites and for values that are no numbers.
+    /// Puts the sites, a held top plane and the branches there; the next relax() begins a new path
+    /// there, at the mean height that they have where that is held. Throws io::SceneError for
+    /// another number of sites and for values that are no numbers.
     void restore(const State& state);
 
 private:
@@ -83,8 +86,9 @@ private:
     const Surface surface_;
     StaticPath path_;
     std::optional<Held> held_;
-    bool placed_ = false; ///< it begins where the block is, not out of reach
-    Point before_;        ///< the last of the path before
+    /// It begins where the block is, not out of reach: relaxed, or with what branches remember.
+    std::optional<bool> remembers_;
+    Point before_; ///< the last of the path before
     struct Goal {
         std::optional<double> at{}, load{}, hold{}; ///< Å, eV/Å, fs
     };

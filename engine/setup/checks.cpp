@@ -391,7 +391,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                 list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
                                            "the path, {:.1g} ps: this branch is always relaxed",
                                            time, 0x1p-16 * a_step));
-    } else if (!c.in_time) {
+    } else if (!c.in_time && !scene.block.prony.empty()) {
         idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
     }
     if (c.path.size() == 1 && c.starts_with(Segment::relax))

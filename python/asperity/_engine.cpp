@@ -395,17 +395,22 @@ PYBIND11_MODULE(_engine, m) {
         .def("__repr__", shown);
 
     using State = LedPath::State;
-    py::class_<State>(m, "State",
-                      "Where the sites stand, of Statics.copy(): all that a state depends on.")
-        .def(py::init([](const py::array_t<double, py::array::c_style | py::array::forcecast>& u,
-                         double top) {
+    using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+    py::class_<State>(
+        m, "State",
+        "Where the sites stand, of Statics.copy(): all that a state depends on, what a "
+        "block that relaxes\nremembers with it.")
+        .def(py::init([](const Array& u, double top, const std::optional<Array>& branches) {
                  if (u.ndim() != 3 || u.shape(0) != 3 || u.shape(1) != u.shape(2))
                      throw io::SceneError({"State", "is given another shape",
                                            "it is three components on a square of sites",
                                            "give an array [3, y, x]"});
-                 return State{static_cast<int>(u.shape(1)), {u.data(), u.data() + u.size()}, top};
+                 State state{static_cast<int>(u.shape(1)), {u.data(), u.data() + u.size()}, top};
+                 if (branches)
+                     state.branches = {branches->data(), branches->data() + branches->size()};
+                 return state;
              }),
-             py::arg("u"), py::arg("top") = 0.0)
+             py::arg("u"), py::arg("top") = 0.0, py::arg("branches") = py::none())
         .def_property_readonly(
             "u",
             [](const py::object& self) {
@@ -414,6 +419,18 @@ PYBIND11_MODULE(_engine, m) {
             },
             "displacements of the lowest layer, Å, [component, y, x], to be read and written")
         .def_readwrite("top", &State::top, "displacement of the top plane, Å")
+        .def_property_readonly(
+            "branches",
+            [](const py::object& self) -> py::object {
+                State& s = self.cast<State&>();
+                const std::size_t sites = static_cast<std::size_t>(s.sites) * s.sites;
+                if (s.branches.empty()) return py::none();
+                return py::array_t<double>(
+                    {s.branches.size() / sites, std::size_t(s.sites), std::size_t(s.sites)},
+                    s.branches.data(), self);
+            },
+            "extensions of the springs of block.prony, Å, [branch and component, y, x], to be read "
+            "and written; None:\nthe block has relaxed there")
         .def("__repr__", [](const State& s) {
             return py::str("<State: {0} x {0} sites, top {1:.4g} Å>").format(s.sites, s.top);
         });

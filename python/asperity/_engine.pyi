@@ -105,9 +105,10 @@ class Point:
     number: Final[int]
 
 class State:
-    def __init__(self, u: ArrayLike, top: float = 0.0) -> None: ...
+    def __init__(self, u: ArrayLike, top: float = 0.0, branches: ArrayLike | None = None) -> None: ...
     u: Final[_Array]
     top: float
+    branches: Final[_Array | None]
 
 class Statics:
     def __init__(self, file: str, overrides: list[str]) -> None: ...

@@ -19,6 +19,8 @@ from . import program
 from .errors import SceneError
 
 MOST_POINTS = 10_000
+LISTS = ("list", "pairs")
+"""kinds of keys whose value has commas of its own"""
 
 
 @dataclass
@@ -84,7 +86,7 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
         where = "--set " + assignment
         key, equals, values = assignment.partition("=")
         key = key.strip()
-        if not equals or key not in schema or schema[key]["kind"] == "list":
+        if not equals or key not in schema or schema[key]["kind"] in LISTS:
             fixed.append(assignment)  # a list has commas of its own; the program finds mistakes
             continue
         if key in found:
@@ -92,7 +94,7 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
                              f"put its values into one list: --set {key}=v1,v2")
         found[key] = _axis(key, values, where)
     for variation in (v for v in of_scene if v["key"] not in found):
-        if schema[variation["key"]]["kind"] == "list":
+        if schema[variation["key"]]["kind"] in LISTS:
             raise SceneError(variation["where"], f"{variation['key']} cannot be swept",
                              "its value is a list itself", "write one scene for each")
         found[variation["key"]] = _axis(**variation)

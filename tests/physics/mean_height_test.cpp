@@ -322,7 +322,7 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     c.block.set_uniform(-9.0);
     const RelaxedState pressed = c.relax(Constraint::load(20.0), 1e-6);
     test::KeptPath path = path_of(c, 1e-4);
-    path.start_here();
+    path.start_here({});
     EXPECT_NEAR(path.now().force, 20.0, 0.01);
     EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
     const double bound = -energy(path.now());

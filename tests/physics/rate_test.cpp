@@ -279,7 +279,7 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         c.block.constrain(Constraint::top(pressed));
         c.block.set_uniform(-c.interface.start_height());
         QuasistaticPath path = path_of(c, velocity, 1e-7, u0 / 20.0, top);
-        path.start_here();
+        path.start_here({});
         double before = 0.0;
         const int cycles = 2 + static_cast<int>(std::ceil(5.0 * two.back().time / period));
         for (int i = 0; i < cycles; ++i) {

@@ -11,6 +11,7 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion  # noqa: E402
+import rate  # noqa: E402
 import rings  # noqa: E402
 import jumps  # noqa: E402
 import stated_errors  # noqa: E402
@@ -60,3 +61,21 @@ def test_the_error_of_an_estimate_holds_other_surfaces(results):
     assert [row["quantity"] for row in rows] == ["binding_energy", "binding_energy_ratio", "contact_fraction"]
     for row in rows:
         assert row["error"] > 0 and abs(row["off"]) < 2.5, row
+
+
+def test_a_steady_crack_has_the_limits_of_a_solid_that_relaxes():
+    slow, *between, fast = (rate.steady(v, 300) for v in (1e-4, 0.1, 1, 10, 1e8))
+    assert slow == pytest.approx(1, abs=1e-3) and fast == pytest.approx(1 + rate.RATIO, rel=1e-3)
+    assert slow < between[0] < between[1] < between[2] < fast
+
+
+def test_strips_come_to_the_infinite_solid():
+    thin, thick = (rate.strip(8 * h, h, 1.5, 1.0) for h in (64, 128))
+    assert rate.steady(2 * thick - thin, 300) == pytest.approx(1.5, rel=0.02)
+
+
+@pytest.mark.parametrize("release", (0.85, 1.5))
+def test_a_crack_moves_as_in_one_dimension(release):
+    mine, other = rate.asperity_strip(256, 32, release, 2.0), rate.strip(256, 32, release, 0.5)
+    assert mine * (release - 1) > 0  # opens above the work of adhesion, closes below
+    assert mine == pytest.approx(other, rel=0.06)

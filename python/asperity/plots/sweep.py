@@ -100,7 +100,9 @@ SIMULATED: dict[str, Spec] = {
     "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
-        Trace("cycle", "lost.cycle", PINK, "", "D")])}
+        Trace("cycle", "lost.cycle", PINK, "", "D"),
+        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<"),
+        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False)])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], [])}
@@ -258,7 +260,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     ys = [v for c in drawn(ax).curves for v in c.y if np.isfinite(v)]
     full = [v for c in drawn(ax).curves if "full contact" not in c.label for v in c.y if np.isfinite(v)]
     low = min([0.0, *full])  # of the theory itself: full contact may go far below zero
-    ax.set_ylim(bottom=low - 0.02 * (max(ys) - low))  # markers at zero stay whole
+    room = max(ys) - low
+    ax.set_ylim(low - 0.02 * room, max(ys) + 0.05 * room if room else None)  # markers at the ends stay whole
     if y in (GAMMA, CONTACT) and max(ys) <= 1.02:
         ax.set_ylim(top=1.02)
     if y == LOST:
@@ -269,7 +272,10 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     if x == "surface.rms":
         ax.set_xlim(left=0)
-    return finish(ax, _label_of(x), y, legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True)
+    xs = [v for c in drawn(ax).curves for v in c.x]
+    decades = all(isinstance(v, (int, float)) and v > 0 for v in xs) and max(xs) > 100 * min(xs)
+    return finish(ax, _label_of(x), y, log="x" * decades,
+                  legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True)
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
