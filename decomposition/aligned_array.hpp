@@ -3,9 +3,9 @@
 //
 // Uninitialised arrays that start on a cache line.
 //
-// Freed ones of at most 2 MB are kept, 24 MB in all, for the next ones of the same size: each
-// relaxation makes its fields anew, and fresh pages of 4 KB for them take up to a third of the time
-// of a short one. Larger arrays lie on large pages, which cost little.
+// Freed ones of at most 2 MB are kept for the next ones of the same size, as many as were in use at
+// once: each relaxation makes its fields anew, and fresh pages of 4 KB for them take up to a third
+// of the time of a short one. Larger arrays lie on large pages, which cost little.
 #pragma once
 
 #include <cstddef>
@@ -16,6 +16,9 @@ namespace asperity {
 /// Throws std::bad_alloc. From any thread.
 void* new_aligned(std::size_t bytes);
 void free_aligned(void* array, std::size_t bytes);
+/// Before work that needs memory of another kind.
+void free_kept_arrays();
+std::size_t kept_arrays(); ///< bytes that are kept
 
 struct FreeAligned {
     std::size_t bytes = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/rehearsal.hpp"
 
+#include "decomposition/aligned_array.hpp"
 #include "engine/equilibrium/quasistatic.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/path/checkpoint.hpp"
@@ -45,10 +46,11 @@ double shortest(const auto& work) {
 
 /// Allocated by this process and not freed, bytes.
 double allocated() {
+    const auto kept = static_cast<double>(kept_arrays());
     if (__sanitizer_get_current_allocated_bytes)
-        return static_cast<double>(__sanitizer_get_current_allocated_bytes());
+        return static_cast<double>(__sanitizer_get_current_allocated_bytes()) - kept;
     const struct mallinfo2 all = ::mallinfo2();
-    return static_cast<double>(all.uordblks + all.hblkhd);
+    return static_cast<double>(all.uordblks + all.hblkhd) - kept;
 }
 
 /// The case on fewer sites, on one rank and on the processor.

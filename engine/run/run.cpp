@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run.hpp"
 
+#include "decomposition/aligned_array.hpp"
 #include "engine/run/observers.hpp"
 #include "engine/run/path_maps.hpp"
 #include "engine/run/plan.hpp"
@@ -69,6 +70,7 @@ int run(const Case& c, const RunOptions& options, const Communicator& communicat
     c.require_runnable();
     require_memory(c, communicator);
     RunSession session(c, options, communicator);
+    free_kept_arrays(); // of the surface
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);
     LastGood last_good(session);
     Guard guard(last_good);

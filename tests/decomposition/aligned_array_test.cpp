@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 using namespace asperity;
@@ -20,27 +20,31 @@ TEST(AlignedArray, AFreedOneServesTheNextOfItsSize) {
     const AlignedArray<double> beside = aligned_array<double>(size);
     EXPECT_NE(beside.get(), at);
     first.reset();
-    const AlignedArray<double> other = aligned_array<double>(size + 8);
-    EXPECT_NE(other.get(), at);
-    const AlignedArray<float> same = aligned_array<float>(2 * size);
-    EXPECT_EQ(same.get(), at);
+    AlignedArray<float> same = aligned_array<float>(2 * size);
+    EXPECT_EQ(same.get(), static_cast<const void*>(at));
     const AlignedArray<double> third = aligned_array<double>(size);
     EXPECT_NE(third.get(), at);
+    same.reset();
+    const AlignedArray<double> smaller = aligned_array<double>(size - 8);
+    EXPECT_NE(smaller.get(), at);
 }
 
-TEST(AlignedArray, NoMoreIsKeptThanSaid) {
-    const std::size_t size = (1 << 20) / sizeof(double); // 1 MB each, 24 are kept
-    std::vector<AlignedArray<double>> many;
-    for (int i = 0; i < 40; ++i)
-        many.push_back(aligned_array<double>(size));
-    std::vector<const void*> freed;
-    for (AlignedArray<double>& array : many)
-        freed.push_back(std::exchange(array, {}).get());
-    int reused = 0;
-    std::vector<AlignedArray<double>> next;
-    for (int i = 0; i < 24; ++i) {
-        next.push_back(aligned_array<double>(size));
-        reused += next.back().get() == freed[static_cast<std::size_t>(39 - i)];
-    }
-    EXPECT_EQ(reused, 24); // the last freed first
+TEST(AlignedArray, NoMoreIsKeptThanWasInUse) {
+    free_kept_arrays();
+    EXPECT_EQ(kept_arrays(), 0u);
+    const std::size_t bytes = 1 << 20, other = bytes - 6400, count = 40;
+    const auto make = [](std::size_t n, std::size_t of) {
+        std::vector<AlignedArray<std::byte>> list;
+        for (std::size_t i = 0; i < n; ++i)
+            list.push_back(aligned_array<std::byte>(of));
+        return list;
+    };
+    make(count, bytes);
+    EXPECT_EQ(kept_arrays(), count * bytes);
+    const auto half = make(count / 2, bytes); // all of them are of those kept
+    EXPECT_EQ(kept_arrays(), count / 2 * bytes);
+    const auto others = make(count / 2, other); // none is: as many go
+    EXPECT_EQ(kept_arrays(), 0u);
+    make(1000, 2 * bytes + 1); // too large
+    EXPECT_EQ(kept_arrays(), 0u);
 }
