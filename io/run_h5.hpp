@@ -46,14 +46,8 @@ void describe_origin(Hdf5File& file, const std::string& scene);
 /// /h5md with version, author and creator.
 void write_h5md_head(Hdf5File& file);
 
-/// A frame of the trajectory.
-struct H5mdFrame {
-    std::array<double, 3> edges{}; ///< of the box, Å
-    std::int64_t step = 0;
-    double time = 0.0;                     ///< ps
-    std::vector<float> position, velocity; ///< [particle][3]; velocity is empty where not asked for
-};
-/// Appends it; the first one makes the group.
-void append_h5md(Hdf5File& file, const H5mdFrame& frame);
+/// The group of the trajectory, and what H5MD wants of it once: its box.
+inline constexpr const char* trajectory = "/particles/trajectory";
+void describe_trajectory(Hdf5File& file);
 
 } // namespace asperity::io

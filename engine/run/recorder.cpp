@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/recorder.hpp"
 
+#include "decomposition/aligned_array.hpp"
 #include "io/machine.hpp"
 #include "io/result_directory.hpp"
 #include "io/run_h5.hpp"
@@ -9,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 namespace asperity {
@@ -28,13 +31,89 @@ std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
     return gather_plane(ranks, grid, 0, std::as_const(field).plane(0));
 }
 
-/// Records of the journal.
-enum RecordKind : std::uint64_t { rows_record, fields_record, frame_record };
+/// Records of the journal: rows of the series, or members of a group of run.h5. A member is a data
+/// set, an attribute of the group, or a row of a data set that grows.
+enum RecordKind : std::uint64_t { rows_record, group_record };
+enum MemberKind : std::uint64_t { data_set, attribute, growing };
+using Types = std::tuple<double, float, std::int64_t, std::uint8_t>;
+
+template <class T, std::size_t I = 0>
+constexpr std::uint64_t type_number() {
+    if constexpr (std::is_same_v<T, std::tuple_element_t<I, Types>>)
+        return I;
+    else
+        return type_number<T, I + 1>();
+}
 
 constexpr std::size_t rows_in_memory = 64;
 
-/// The maps of a state that are doubles, in the order of their record.
-constexpr const char* map_columns[] = {"gap", "pressure", "distance", "u_x", "u_y", "u_z"};
+void put_text(io::PayloadWriter& record, const std::string& text) {
+    record.put<std::uint64_t>(text.size());
+    record.put(std::span<const char>(text));
+}
+
+std::string get_text(io::PayloadReader& record) {
+    const auto text = record.get<char>(record.get<std::uint64_t>());
+    return {text.begin(), text.end()};
+}
+
+/// numbered: the group gets a number where there is one of its name already.
+void put_group(io::PayloadWriter& record, const std::string& group, bool numbered) {
+    put_text(record, group);
+    record.put<std::uint64_t>(numbered);
+}
+
+/// unit: of a growing one; the others have theirs from io/quantities.hpp.
+template <class T>
+void put_member(io::PayloadWriter& record, MemberKind kind, const std::string& name,
+                const io::Hdf5File::Shape& shape, std::span<const T> values,
+                const std::string& unit = "") {
+    record.put<std::uint64_t>(kind);
+    put_text(record, name);
+    put_text(record, unit);
+    record.put(type_number<T>());
+    record.put<std::uint64_t>(shape.size());
+    record.put(shape);
+    record.put<std::uint64_t>(values.size());
+    record.put(values);
+}
+
+template <class T>
+void write_member(io::Hdf5File& file, MemberKind kind, const std::string& group,
+                  const std::string& name, const std::string& unit,
+                  const io::Hdf5File::Shape& shape, const std::vector<T>& values) {
+    const std::string path = group + "/" + name;
+    if (kind == data_set) return io::write_described(file, path, shape, values);
+    if constexpr (std::is_same_v<T, double>)
+        if (kind == attribute)
+            return io::write_described_attribute(file, group, name, values.front());
+    if (!file.exists(path)) {
+        file.make_dataset<T>(path, shape);
+        if (!unit.empty()) file.write_attribute(path, "unit", unit);
+    }
+    file.append<T>(path, values);
+}
+
+/// A record of a group into run.h5.
+void write_group(io::Hdf5File& file, io::PayloadReader record) {
+    const std::string first = get_text(record);
+    const bool numbered = record.get<std::uint64_t>() != 0;
+    std::string group = first; // a path of several cycles comes to a state of this name again
+    for (int n = 2; numbered && file.exists(group); ++n)
+        group = first + "-" + std::to_string(n);
+    while (!record.at_end()) {
+        const auto kind = static_cast<MemberKind>(record.get<std::uint64_t>());
+        const std::string name = get_text(record), unit = get_text(record);
+        const auto type = record.get<std::uint64_t>();
+        const auto shape = record.get<std::uint64_t>(record.get<std::uint64_t>());
+        const auto size = record.get<std::uint64_t>();
+        const auto write = [&]<class T>(T) {
+            if (type == type_number<T>())
+                write_member(file, kind, group, name, unit, shape, record.get<T>(size));
+        };
+        std::apply([&](auto... of_type) { (write(of_type), ...); }, Types{});
+    }
+}
 
 void write_substrate(io::Hdf5File& file, const Surface& surface) {
     const auto n = static_cast<std::uint64_t>(surface.sites);
@@ -67,8 +146,7 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
 }
 
 /// P(u), normalised to one: 200 bins from the least to the greatest gap.
-void write_gap_density(io::Hdf5File& file, const std::string& group,
-                       const std::vector<double>& gap) {
+void put_gap_density(io::PayloadWriter& record, const std::vector<double>& gap) {
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     constexpr std::size_t bins = 200;
     const double width = std::max((*greatest - *least) / bins, 1e-12);
@@ -79,46 +157,8 @@ void write_gap_density(io::Hdf5File& file, const std::string& group,
         const auto bin = static_cast<std::size_t>((u - *least) / width);
         density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
     }
-    io::write_described(file, group + "/gap_edges", {bins + 1}, edge);
-    io::write_described(file, group + "/gap_density", {bins}, density);
-}
-
-void write_fields(io::Hdf5File& file, io::PayloadReader record) {
-    const auto name_length = record.get<std::uint64_t>();
-    const auto name = record.get<char>(name_length);
-    const std::string first = "/fields/" + std::string(name.begin(), name.end());
-    std::string group = first; // a path of several cycles comes to a state of this name again
-    for (int n = 2; file.exists(group); ++n)
-        group = first + "-" + std::to_string(n);
-    const auto n = record.get<std::uint64_t>();
-    const auto reference_height = record.get<double>();
-    const auto slide_x = record.get<double>(), slide_y = record.get<double>();
-    std::vector<double> gap;
-    for (const char* map : map_columns) {
-        const std::vector<double> values = record.get<double>(n * n);
-        io::write_described(file, group + "/" + map, {n, n}, values);
-        if (gap.empty()) gap = values;
-    }
-    io::write_described(file, group + "/contact", {n, n}, record.get<std::uint8_t>(n * n));
-    io::write_described_attribute(file, group, "reference_height", reference_height);
-    if (slide_x != 0.0 || slide_y != 0.0) {
-        io::write_described_attribute(file, group, "slide_x", slide_x);
-        io::write_described_attribute(file, group, "slide_y", slide_y);
-    }
-    write_gap_density(file, group, gap);
-}
-
-io::H5mdFrame frame_of(io::PayloadReader record) {
-    const auto particles = record.get<std::uint64_t>();
-    const bool velocities = record.get<std::uint64_t>() != 0;
-    io::H5mdFrame frame;
-    for (double& edge : frame.edges)
-        edge = record.get<double>();
-    frame.step = record.get<std::int64_t>();
-    frame.time = record.get<double>();
-    frame.position = record.get<float>(3 * particles);
-    frame.velocity = record.get<float>(velocities ? 3 * particles : 0);
-    return frame;
+    put_member<double>(record, data_set, "gap_edges", {bins + 1}, edge);
+    put_member<double>(record, data_set, "gap_density", {bins}, density);
 }
 
 } // namespace
@@ -156,7 +196,7 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
                       double reference_height) {
     const io::PayloadWriter record =
         record_of_fields(state, layer, communicator_, grid, interface, reference_height);
-    communicator_.on_root([&] { journal_->append(fields_record, record.bytes()); });
+    communicator_.on_root([&] { journal_->append(group_record, record.bytes()); });
 }
 
 io::PayloadWriter Recorder::record_of_fields(const std::string& state,
@@ -164,26 +204,39 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface, double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    const auto sites = static_cast<std::size_t>(grid.tile(0).sites);
+    free_kept_arrays(); // of relaxations: what follows is as much again
+    const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
     io::PayloadWriter record;
     ranks.on_root([&] {
-        record.reserve(64 + state.size() + 49 * sites * sites);
-        record.put<std::uint64_t>(state.size());
-        record.put(std::span<const char>(state));
-        record.put(static_cast<std::uint64_t>(sites));
-        record.put(reference_height);
-        for (const double at : interface.place())
-            record.put(at);
+        record.reserve(4096 + state.size() + 49 * n * n);
+        put_group(record, "/fields/" + state, true);
     });
-    const auto put = [&](const std::vector<double>& column) { // one at a time: they are large
-        ranks.on_root([&] { record.put(column); });
+    std::vector<double> gap;                                                 // on the root
+    const auto put = [&](const char* name, const std::vector<double>& map) { // one at a time
+        ranks.on_root([&] { put_member<double>(record, data_set, name, {n, n}, map); });
     };
-    for (const auto* map : {&maps.gap, &maps.pressure, &maps.distance})
-        put(whole(ranks, grid, *map));
-    for (const auto& component : {layer.x, layer.y, layer.z})
-        put(gather_plane(ranks, grid, 0, component));
+    gap = whole(ranks, grid, maps.gap);
+    put("gap", gap);
+    put("pressure", whole(ranks, grid, maps.pressure));
+    put("distance", whole(ranks, grid, maps.distance));
+    put("u_x", gather_plane(ranks, grid, 0, layer.x));
+    put("u_y", gather_plane(ranks, grid, 0, layer.y));
+    put("u_z", gather_plane(ranks, grid, 0, layer.z));
     const auto touching = whole(ranks, grid, {maps.contact.begin(), maps.contact.end()});
-    ranks.on_root([&] { record.put(std::vector<std::uint8_t>(touching.begin(), touching.end())); });
+    ranks.on_root([&] {
+        const std::vector<std::uint8_t> contact(touching.begin(), touching.end());
+        put_member<std::uint8_t>(record, data_set, "contact", {n, n}, contact);
+        const auto [slide_x, slide_y] = interface.place();
+        const auto put_number = [&](const char* name, double value) {
+            put_member(record, attribute, name, {}, std::span<const double>(&value, 1));
+        };
+        put_number("reference_height", reference_height);
+        if (slide_x != 0.0 || slide_y != 0.0) {
+            put_number("slide_x", slide_x);
+            put_number("slide_y", slide_y);
+        }
+        put_gap_density(record, gap);
+    });
     return record;
 }
 
@@ -226,16 +279,23 @@ void Recorder::frame(const Path& path, bool velocities) {
         const double edge = block.sites * block.spacing;
         const double height = 2.0 * path.interface().start_height() + // room for both ends
                               block.thickness * block.spacing;
+        std::array<float, 9> edges{}; // a matrix
+        edges[0] = edges[4] = static_cast<float>(edge);
+        edges[8] = static_cast<float>(height);
+        const std::int64_t step = now.step;
+        const double time = now.time * 1e-3; // ps
         io::PayloadWriter record;
-        record.put(static_cast<std::uint64_t>(sites * sites));
-        record.put<std::uint64_t>(velocities ? 1 : 0);
-        for (const double length : {edge, edge, height})
-            record.put(length);
-        record.put<std::int64_t>(now.step);
-        record.put(now.time * 1e-3);
-        record.put(position);
-        record.put(velocity);
-        journal_->append(frame_record, record.bytes());
+        put_group(record, io::trajectory, false);
+        const auto put = [&](const std::string& name, const char* unit, io::Hdf5File::Shape shape,
+                             std::span<const float> values) {
+            put_member(record, growing, name + "/value", shape, values, unit);
+            put_member(record, growing, name + "/step", {0}, std::span(&step, 1));
+            put_member(record, growing, name + "/time", {0}, std::span(&time, 1), "ps");
+        };
+        put("box/edges", "Angstrom", {0, 3, 3}, edges);
+        put("position", "Angstrom", {0, sites * sites, 3}, position);
+        if (velocities) put("velocity", "Angstrom ps-1", {0, sites * sites, 3}, velocity);
+        journal_->append(group_record, record.bytes());
     });
 }
 
@@ -274,16 +334,15 @@ void Recorder::write_if_cheap() {
 /// run.h5 anew, from all records. Root only.
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
+    free_kept_arrays();
     io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
         io::PayloadReader record(payload);
-        if (kind == fields_record)
-            write_fields(file, record);
-        else if (kind == frame_record)
-            io::append_h5md(file, frame_of(record));
+        if (kind == group_record) write_group(file, record);
     });
+    if (file.exists(io::trajectory)) io::describe_trajectory(file);
     const auto all = series();
     for (const SeriesColumn* c : columns_) {
         const std::vector<double>& values = all.at(c->name());
