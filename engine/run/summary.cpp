@@ -67,6 +67,12 @@ std::string energies(Number value, int digits = 2) {
                        io::cell(*value * units::millijoule_per_square_metre, 3));
 }
 
+/// "55.60 meV/Å² (891 mJ/m²)".
+std::string with_units(double value) {
+    return fmt::format("{} meV/Å² ({} mJ/m²)", io::number(value, 2),
+                       io::cell(value * units::millijoule_per_square_metre, 3));
+}
+
 /// Works and losses of a whole path.
 void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     const Scene& scene = c.scene;
@@ -75,10 +81,11 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
         return;
     }
     if (const Number relaxed = of("dissipated_in_block.cycle")) {
-        fmt::print(to,
-                   "  From the approach to the end of the pull-off {} meV/Å² are dissipated in the "
-                   "block, which relaxes,\n  and {} lost at instabilities.\n",
-                   io::number(*relaxed, 2), io::number(of("lost.cycle").value_or(0.0), 2));
+        fmt::print(
+            to,
+            "  From the approach to the end of the pull-off {} are dissipated in the block,\n"
+            "  which relaxes, and {} are lost at instabilities.\n",
+            with_units(*relaxed), with_units(of("lost.cycle").value_or(0.0)));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,
@@ -89,8 +96,8 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     }
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
-            fmt::print(to, "  From the approach to the end of the pull-off {} meV/Å² are lost.\n",
-                       io::number(*lost, 2));
+            fmt::print(to, "  From the approach to the end of the pull-off {} are lost.\n",
+                       with_units(*lost));
         return;
     }
     const double lost =
@@ -102,15 +109,15 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
     if (hardly)
         fmt::print(
             to,
-            "  The works of the drive on the solids, in and out, add up to {} meV/Å²: hardly "
-            "anything is lost.\n",
-            io::number(std::abs(lost), 2));
+            "  The works of the drive on the solids, in and out, add up to {}:\n  hardly anything "
+            "is lost.\n",
+            with_units(std::abs(lost)));
     else
         fmt::print(
             to,
-            "  The works of the drive on the solids, in and out, add up to {} meV/Å²: energy that "
-            "is\n  {}.\n",
-            io::number(lost, 2),
+            "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
+            "{}.\n",
+            with_units(lost),
             c.in_time ? "damped, or still moves at the end" : "lost at instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
@@ -139,8 +146,8 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     for (const SegmentResults& s : results.segments) {
         std::vector<std::string> row = {
-            c.path[s.number].text,    number(s.work, 2),
-            number(s.lost, 2),        number(s.force / (c.area() * units::megapascal), 1),
+            c.path[s.number].text,    energies(s.work),
+            energies(s.lost),         number(s.force / (c.area() * units::megapascal), 1),
             number(s.mean_height, 2), number(static_cast<double>(s.in_contact) / sites, 4)};
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
@@ -184,12 +191,12 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
                io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
-               "  interface   {}flat on flat {} meV/Å² at {} Å and a range of {} Å, "
-               "in {} precision\n",
-               interface.wall ? "a wall, " : "", io::number(c.flat.work_of_adhesion, 2),
+               "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
+               "{} precision\n",
+               interface.wall ? "a wall; " : "", with_units(c.flat.work_of_adhesion),
                io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
                interface.mixed ? "single" : "double");
-    fmt::print(to, "  machine     {}, {} thread{} each, {:.0f} MB a rank\n", grid.describe(),
+    fmt::print(to, "  machine     {}, {} thread{} each, {:.2g} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6);
     if (c.simulation.device)
         fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
@@ -276,11 +283,11 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (state)
         fmt::print(
             to,
-            "  The state {} has a binding energy of {} meV/Å²{}:\n"
+            "  The state {} has a binding energy of {}{}:\n"
             "  {} of the pairs across the interface, less {} of elastic energy in "
             "the block.\n"
             "  {} % of the block's surface atoms are in contact.\n",
-            at, io::number(*state, 2),
+            at, with_units(*state),
             flat > 0.0 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
                                      anywhere ? "one flat layer of the block's lattice"
                                               : "two flat surfaces")
