@@ -118,8 +118,10 @@ class Cost:
             if measured[-1] <= target:
                 self.chosen = row
                 break
-            # Own errors added up to less than it has, or its run failed: the next has to promise half.
-            left = [one for one in left if one[1] <= 0.5 * added]
+            # Own errors added up to less than it has, or its run failed: the next has to promise half. Where none does,
+            # one that promises less takes the place of one that failed.
+            half = [one for one in left if one[1] <= 0.5 * added]
+            left = half or [one for one in left if one[1] < added and math.isnan(measured[-1])]
         return True
 
 

@@ -130,6 +130,10 @@ def test_only_what_was_measured_is_chosen():
     """A combination that misses, or whose run fails, gives way to one that promises half of its error."""
     assert outcome_of(made_up(VALUES), [0.02], {"0, 0": 0.03}) == ("2, 0", ["0, 0", "2, 0"])
     assert outcome_of(made_up(VALUES), [0.02], {"0, 0": NAN}) == ("2, 0", ["0, 0", "2, 0"])
+    # Where none promises half, one that promises less takes the place of one that failed, not of one that misses.
+    close = {"one": [(8e-3, 0.1), (7e-3, 0.2)]}
+    assert outcome_of(made_up(close), [0.02], {"0": NAN}) == ("1", ["0", "1"])
+    assert outcome_of(made_up(close), [0.02], {"0": 0.03}) == (None, ["0"])
     made = made_up(VALUES)
     made.target = 0.02
     assert outcome_of(made, [0.02], {"0, 0": NAN, "2, 0": 0.021, "2, 1": 0.04}) == (None, ["0, 0", "2, 0", "2, 1"])
