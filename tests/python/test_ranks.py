@@ -41,7 +41,8 @@ def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):
     assert one[0]["pull_off"] == path_run.work_of_interface.pull_off
     series = one[0]["series"]
     of_run = numpy.isin(path_run.series["step"], series["step"])
-    for name in set(series) - {"count"}:
+    # The balance is over the largest energy of the steps that were observed so far; these are others.
+    for name in set(series) - {"count", "balance_error"}:
         assert (path_run.series[name][of_run] == series[name]).all(), name
 
 
