@@ -75,7 +75,7 @@ struct Store {
 
     Problem wrong_type(const std::string& needed, const std::string& example) const {
         static constexpr const char* types[] = {
-            "of a type no key has", "true or false", "a whole number", "a number", "a string",
+            "a value of another form", "true or false", "a whole number", "a number", "a string",
             "a list of strings"};
         return {"", "is of the wrong type",
                 fmt::format("{} is needed, this is {}", needed, types[value.index()]),

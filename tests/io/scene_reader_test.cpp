@@ -174,11 +174,11 @@ TEST(SceneReader, MistakesAreExplained) {
         {"[surface]\ncoats = \"raku\"\n",
          {"", "", "a list of strings is needed, this is a string", ""}},
         {"[surface]\ncoats = [1, 2]\n",
-         {"", "", "a list of strings is needed, this is of a type no key has", ""}},
+         {"", "", "a list of strings is needed, this is a value of another form", ""}},
         {"[surface]\nglaze = 3\n",
          {"", "", "one of \"none\", \"celadon\", \"raku\" is needed, this is a whole number", ""}},
         {"[body]\ncups = 2026-01-01\n",
-         {"", "", "a whole number is needed, this is of a type no key has", ""}},
+         {"", "", "a whole number is needed, this is a value of another form", ""}},
         {"[body]\nmaker = \"\"\n", {"", "body.maker = \"\" is empty", "", ""}},
         // Ranges and units.
         {"[body]\ncups = 13\n",
