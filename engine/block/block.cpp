@@ -61,17 +61,6 @@ std::size_t Block::Level::bytes() const {
     return u.bytes() + v.bytes() + transferred.bytes() + upper_force.bytes();
 }
 
-double Block::Level::mass(int z) const {
-    if (z > 0 || shape.level == 0) return node_mass; // the lowest layer's atoms are full atoms
-    // Half a coarse cell above, and from below the constrained plane's half cells: 4 (m/8)/2 = m/4.
-    return 0.75 * node_mass;
-}
-
-ElasticLevel Block::Level::view(double a) {
-    return {shape.cells, u.view(), v.view(), transferred.plane(0), upper_force.plane(0), lower,
-            inner,       upper,    cell(a)};
-}
-
 Block::Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid)
     : options_(options), communicator_(communicator), grid_(grid), halo_(communicator, grid) {
     double depth = 0.0;
@@ -152,43 +141,6 @@ void Block::exchange() {
             fields.push_back({component, level.shape.cells, level.tiled});
     }
     halo_.exchange(fields);
-}
-
-void Block::add_top_force(ExactSum& sum) const {
-    const Level& last = levels_.back();
-    if (!counts(last)) return;
-    elastic_kernels().sum(last.upper_force.plane(0).z, 0, last.tile.ny, sum);
-}
-
-void Block::add_elastic_energy(ExactSum& sum) const {
-    const ElasticKernels& kernels = elastic_kernels(strain());
-#pragma omp parallel
-    {
-        ExactSum mine;
-        for (const Level& level : levels_) {
-            if (!counts(level)) continue;
-            const LevelCell cell = level.cell(options_.spacing);
-            const int ny = level.tile.ny;
-#pragma omp for schedule(static) nowait
-            for (int y = 0; y < ny; y += band)
-                kernels.energy(level.u.view(), cell, y, std::min(ny, y + band), mine);
-        }
-#pragma omp critical(asperity_block_sums)
-        sum.merge(mine);
-    }
-}
-
-void Block::add_lowest_z(ExactSum& sum) const {
-    const auto z = lowest_layer().z;
-#pragma omp parallel
-    {
-        ExactSum mine;
-#pragma omp for schedule(static) nowait
-        for (int y0 = 0; y0 < z.ny; y0 += band)
-            elastic_kernels().sum(z, y0, std::min(z.ny, y0 + band), mine);
-#pragma omp critical(asperity_block_sums)
-        sum.merge(mine);
-    }
 }
 
 std::size_t Block::bytes() const {

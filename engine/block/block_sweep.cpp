@@ -12,6 +12,17 @@
 
 namespace asperity {
 
+double Block::Level::mass(int z) const {
+    if (z > 0 || shape.level == 0) return node_mass; // the lowest layer's atoms are full atoms
+    // Half a coarse cell above, and from below the constrained plane's half cells: 4 (m/8)/2 = m/4.
+    return 0.75 * node_mass;
+}
+
+ElasticLevel Block::Level::view(double a) {
+    return {shape.cells, u.view(), v.view(), transferred.plane(0), upper_force.plane(0), lower,
+            inner,       upper,    cell(a)};
+}
+
 int Block::Level::first_plane_from(double share_of_thickness, int thickness) const {
     int z = 0;
     while (z < shape.cells &&
@@ -131,6 +142,43 @@ Tile Block::scratch_tile(const ProcessGrid& grid, int levels) {
     for (int level = 0; level < levels; ++level)
         widest = std::max(widest, grid.tile(level).nx);
     return {0, 0, widest, band, grid.tile(0).sites};
+}
+
+void Block::add_top_force(ExactSum& sum) const {
+    const Level& last = levels_.back();
+    if (!counts(last)) return;
+    elastic_kernels().sum(last.upper_force.plane(0).z, 0, last.tile.ny, sum);
+}
+
+void Block::add_elastic_energy(ExactSum& sum) const {
+    const ElasticKernels& kernels = elastic_kernels(strain());
+#pragma omp parallel
+    {
+        ExactSum mine;
+        for (const Level& level : levels_) {
+            if (!counts(level)) continue;
+            const LevelCell cell = level.cell(options_.spacing);
+            const int ny = level.tile.ny;
+#pragma omp for schedule(static) nowait
+            for (int y = 0; y < ny; y += band)
+                kernels.energy(level.u.view(), cell, y, std::min(ny, y + band), mine);
+        }
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
+}
+
+void Block::add_lowest_z(ExactSum& sum) const {
+    const auto z = lowest_layer().z;
+#pragma omp parallel
+    {
+        ExactSum mine;
+#pragma omp for schedule(static) nowait
+        for (int y0 = 0; y0 < z.ny; y0 += band)
+            elastic_kernels().sum(z, y0, std::min(z.ny, y0 + band), mine);
+#pragma omp critical(asperity_block_sums)
+        sum.merge(mine);
+    }
 }
 
 } // namespace asperity

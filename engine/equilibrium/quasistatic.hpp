@@ -33,7 +33,6 @@
 // decide() (step_decision.hpp) says which of the three it is.
 #pragma once
 
-#include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/dissipation.hpp"
 #include "engine/equilibrium/last_point.hpp"
 #include "engine/equilibrium/step_decision.hpp"

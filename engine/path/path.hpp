@@ -161,6 +161,23 @@ private:
     Watch watch_;
 };
 
+/// What looks at a path while a run drives it: the guard, the records, the maps, the line of
+/// progress. It changes nothing of the path.
+class Observer {
+public:
+    virtual ~Observer() = default;
+    /// What it needs of the next step.
+    virtual Path::Wish wish(const Path&) const { return {}; }
+    /// After each step or point.
+    virtual void look(Path& path) = 0;
+    /// Where the step or point has ended a segment, after look(): path.at_end().
+    virtual void look_at_end(Path&) {}
+    /// Of a state of force balance that find_state() has found.
+    virtual void look_at_state(Path&, const LayerAtRest&) {}
+    /// When the run ends, whether or not the path has come to its end.
+    virtual void finish(Path&) {}
+};
+
 /// The owned sites.
 void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to);
 

@@ -50,7 +50,14 @@ void Guard::look(Path& path) {
     failed_.reset();
 }
 
-Path::Wish Rows::wish(const Path& path) const { return {.energies = session_.row_is_due(path)}; }
+bool row_is_due(const Path& path) {
+    const Case& c = path.scene_case();
+    if (!c.in_time || path.about_to_conclude()) return true;
+    const bool last = c.scene.drive.max_steps > 0 && path.steps() + 1 >= c.scene.drive.max_steps;
+    return last || path.steps() % c.scene.output.series == 0;
+}
+
+Path::Wish Rows::wish(const Path& path) const { return {.energies = row_is_due(path)}; }
 
 void Rows::look(Path& path) {
     if (!path.now().observed) return;

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/path/checkpoint.hpp"
-#include "engine/run/observer.hpp"
+#include "engine/path/path.hpp"
 
 #include <optional>
 #include <string>
@@ -41,6 +41,9 @@ private:
     LastGood& last_good_;
     std::optional<StepRecord> failed_;
 };
+
+/// Whether the next step makes a row of the series.
+bool row_is_due(const Path& path);
 
 /// Rows of the series: of each observed step or point.
 class Rows : public Observer {

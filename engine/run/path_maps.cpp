@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/path_maps.hpp"
 
+#include "engine/run/observers.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/units.hpp"
 
@@ -28,7 +29,7 @@ bool PathMaps::delayed_is_due(const Path& path, double time) const { // fs
 Path::Wish PathMaps::wish(const Path& path) const {
     const double next = static_cast<double>(path.steps()) * session_.scene_case().simulation.dt;
     // Of a segment's end it is known only after the step.
-    return {.layer = times_.segments || (times_.pull_off && session_.row_is_due(path)) ||
+    return {.layer = times_.segments || (times_.pull_off && row_is_due(path)) ||
                      is_due(path.steps()) || delayed_is_due(path, next)};
 }
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "engine/equilibrium/state_array.hpp"
-#include "engine/run/observer.hpp"
+#include "engine/path/path.hpp"
 
 #include <array>
 #include <cstddef>

@@ -133,13 +133,6 @@ Interruption RunSession::ask() {
     return now;
 }
 
-bool RunSession::row_is_due(const Path& path) const {
-    if (!case_.in_time || path.about_to_conclude()) return true;
-    const Scene& scene = case_.scene;
-    const bool last = scene.drive.max_steps > 0 && path.steps() + 1 >= scene.drive.max_steps;
-    return last || path.steps() % scene.output.series == 0;
-}
-
 bool RunSession::stop_here(Path& path) {
     const long long most = case_.scene.drive.max_steps;
     if (most > 0 && path.steps() >= most && !path.about_to_conclude()) {

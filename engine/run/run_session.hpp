@@ -46,8 +46,6 @@ public:
     int carry_out(Path& path, const std::function<void()>& work, const AddToResult& add_to);
     /// Before the first step: goes on from a checkpoint, if one was asked for and is there.
     void begin(Path& path);
-    /// Whether the next step makes a row of the series.
-    bool row_is_due(const Path& path) const;
 
     // Reasons to stop.
 
