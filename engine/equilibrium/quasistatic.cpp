@@ -414,9 +414,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.interface_energy = state.interface_energy;
     record_.elastic_energy = state.elastic_energy;
     record_.branch_energy = state.branches.stored;
-    record_.in_contact = state.in_contact;
-    record_.repulsive = state.repulsive;
-    record_.closest = state.closest;
+    static_cast<ContactCount&>(record_) = state;
     const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(
         {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});

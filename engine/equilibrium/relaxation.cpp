@@ -246,10 +246,7 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
     state.branches = block.branch_energies();
     state.elastic_energy = block.elastic_energy() + state.branches.stored;
     state.mean_height = block.mean_height();
-    const ContactCount contacts = count_contacts(sums, block.communicator());
-    state.in_contact = contacts.in_contact;
-    state.repulsive = contacts.repulsive;
-    state.closest = contacts.closest;
+    static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());
     return state;
 }
 

@@ -114,7 +114,7 @@ struct RelaxationConstants {
     static constexpr double closure = 1e-3, rounding = 4e-6;
 };
 
-struct RelaxedState {
+struct RelaxedState : ContactCount {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it
     bool jumped = false;      ///< given up: the force, set, stayed outside its window
@@ -130,9 +130,6 @@ struct RelaxedState {
     /// that this takes, which is `force`.
     double top_force = 0.0;
     double mean_height = 0.0; ///< of the lowest layer above the reference height, Å
-    long long in_contact = 0; ///< sites
-    long long repulsive = 0;  ///< sites
-    double closest = 0.0;     ///< smallest pair distance, Å; infinite beyond the interaction range
 };
 
 /// Below this no residual force can be brought, about, where sites stand as high as this over the
