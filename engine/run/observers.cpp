@@ -57,12 +57,15 @@ bool row_is_due(const Path& path) {
     return last || path.steps() % c.scene.output.series == 0;
 }
 
-Path::Wish Rows::wish(const Path& path) const { return {.energies = row_is_due(path)}; }
+Path::Wish Rows::wish(const Path& path) const {
+    const bool due = row_is_due(path);
+    return {.energies = due, .layer = due && session_.recorder().rows_need_layer()};
+}
 
 void Rows::look(Path& path) {
     if (!path.now().observed) return;
     const auto t = session_.phases().time(Phase::output);
-    session_.recorder().row(path.now(), path.segment(), path.scene_case().scene.surface.sites);
+    session_.recorder().row(path);
 }
 
 bool Trajectory::is_due(long long step) const {

@@ -175,12 +175,18 @@ Recorder::Recorder(const io::Directory& directory, const Surface& surface,
     });
 }
 
-void Recorder::row(const StepRecord& record, std::size_t segment, int sites) {
-    const SeriesRow row{record, static_cast<double>(segment), static_cast<double>(sites) * sites};
+bool Recorder::rows_need_layer() const {
+    return std::any_of(columns_.begin(), columns_.end(),
+                       [](const SeriesColumn* c) { return c->of_sites; });
+}
+
+void Recorder::row(const Path& path) {
+    std::vector<double> row;
+    for (const SeriesColumn* c : columns_)
+        row.push_back(c->value(path));
     ++rows_;
     communicator_.on_root([&] {
-        for (const SeriesColumn* c : columns_)
-            waiting_.push_back(c->value(row));
+        waiting_.insert(waiting_.end(), row.begin(), row.end());
         if (rows_ % rows_in_memory == 0) append_rows();
     });
 }

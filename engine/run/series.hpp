@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The observables of a run: what of each observed step or point is recorded, a column each, with
-// name, unit and meaning. /series of run.h5, docs/reference/result.md and Python's result.series
-// follow from this table.
+// name, unit, meaning and how it is found. /series of run.h5, docs/reference/result.md and Python's
+// result.series follow from this table.
 #pragma once
 
-#include "engine/setup/effects.hpp"
-#include "engine/step_record.hpp"
+#include "engine/path/path.hpp"
 #include "io/quantities.hpp"
 
 #include <span>
@@ -16,19 +15,15 @@
 
 namespace asperity {
 
-/// What a row is made of.
-struct SeriesRow {
-    const StepRecord& at;
-    double segment; ///< its number
-    double sites;   ///< N^2
-};
-
 struct SeriesColumn {
     /// time: where it passes; sliding: where the path slides; relaxing: where the block does.
     enum In { both, dynamic, quasistatic, time, sliding, relaxing };
     In in;
     io::Quantity quantity; ///< its name is that of the data set, "series/force"
-    double (*value)(const SeriesRow&);
+    /// At path.now(). Collective: the same on all ranks.
+    double (*value)(const Path& path);
+    /// The value is found from the sites, path.layer(): it is wanted in each row.
+    bool of_sites = false;
 
     bool is_in(bool in_time, const Effects& effects) const;
     /// "force"
