@@ -37,8 +37,8 @@ SCENES = {
 }
 # Of the build, of the machine and of the clock, at any depth of result.json.
 NOT_COMPARED = {"version", "git", "compiler", "flags", "mpi", "hdf5", "fftw", "machine", "host", "date", "digest",
-                "written", "build", "wall_seconds", "processor_seconds", "phases", "memory", "accuracy", "threads",
-                "ranks", "tiles"}
+                "file_digest", "written", "build", "wall_seconds", "processor_seconds", "phases", "memory", "accuracy",
+                "threads", "ranks", "tiles"}
 
 
 def values(node, path=""):

@@ -58,8 +58,7 @@ bool row_is_due(const Path& path) {
 }
 
 Path::Wish Rows::wish(const Path& path) const {
-    const bool due = row_is_due(path);
-    return {.energies = due, .layer = due && session_.recorder().rows_need_layer()};
+    return row_is_due(path) ? session_.recorder().wish_of_row() : Path::Wish{};
 }
 
 void Rows::look(Path& path) {

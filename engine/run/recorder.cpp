@@ -175,9 +175,10 @@ Recorder::Recorder(const io::Directory& directory, const Surface& surface,
     });
 }
 
-bool Recorder::rows_need_layer() const {
-    return std::any_of(columns_.begin(), columns_.end(),
-                       [](const SeriesColumn* c) { return c->of_sites; });
+Path::Wish Recorder::wish_of_row() const {
+    const bool of_sites = std::any_of(columns_.begin(), columns_.end(),
+                                      [](const SeriesColumn* c) { return c->of_sites; });
+    return {.energies = true, .layer = of_sites};
 }
 
 void Recorder::row(const Path& path) {

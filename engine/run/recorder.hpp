@@ -49,9 +49,9 @@ public:
              const std::optional<Position>& resume, AddToFile add);
 
     /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
-    /// energy and no damping, and no columns for them). With path.layer() where rows_need_layer().
+    /// energy and no damping, and no columns for them), made with wish_of_row().
     void row(const Path& path);
-    bool rows_need_layer() const;
+    Path::Wish wish_of_row() const;
     std::uint64_t rows() const { return rows_; }
     /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
     /// Once for each name.

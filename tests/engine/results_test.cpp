@@ -3,6 +3,9 @@
 //
 // What a run writes, against itself: the same quantity in result.json, in the series and in the
 // maps of run.h5, each converted by the unit that the file states.
+#include "decomposition/global_sum.hpp"
+#include "engine/path/path.hpp"
+#include "engine/run/recorder.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/setup/case.hpp"
@@ -15,6 +18,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -222,4 +226,42 @@ TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {
     EXPECT_GT(alone.binding_energy, 1.0);
     EXPECT_NEAR(json.at("binding_energy").get<double>(), alone.binding_energy,
                 1e-9 * alone.binding_energy);
+}
+
+namespace {
+
+/// The force on the lowest layer, summed anew.
+double force_of_sites(const Path& path) {
+    VectorField<double> force(path.grid().tile(0), 1);
+    const InterfaceSums sums =
+        path.interface().sweep(path.layer(), force.plane(0), path.reference_height());
+    return global_sum(path.communicator(), sums.force_z);
+}
+
+} // namespace
+
+TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
+    constexpr SeriesColumn sites = {
+        SeriesColumn::both, {"series/f", "eV/Å", "", ""}, force_of_sites, true};
+    constexpr SeriesColumn step = {SeriesColumn::both,
+                                   {"series/g", "eV/Å", "", ""},
+                                   [](const Path& p) { return p.now().force; }};
+    for (const char* mode : {"dynamic", "quasistatic"}) {
+        const Case c = resolve(read_scene_text(
+            "surface.sites = 16\nblock.thickness = 8\ndrive.velocity = 100\ndrive.timestep = 40\n"
+            "drive.mode = \"" +
+                std::string(mode) + "\"\n",
+            "test.toml"));
+        const Surface surface = surface_of(c);
+        const std::unique_ptr<Path> path = path_of(c, surface, Communicator());
+        const io::Scratch scratch;
+        Recorder recorder(io::Directory(scratch / ""), surface, Communicator(), {&sites, &step}, {},
+                          [](io::Hdf5File&) {});
+        for (int n = 0; n < 400 && !path->ended(); ++n)
+            if (path->advance(recorder.wish_of_row()) == Path::Made::step) recorder.row(*path);
+        auto series = recorder.series();
+        EXPECT_GT(recorder.rows(), 20u);
+        EXPECT_NE(series["g"].back(), 0.0) << "beyond the interaction range throughout";
+        EXPECT_EQ(series["f"], series["g"]) << mode;
+    }
 }
