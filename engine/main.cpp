@@ -8,6 +8,7 @@
 #include "engine/commands/commands.hpp"
 #include "engine/commands/exit_code.hpp"
 #include "engine/commit.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/run/run.hpp"
 #include "engine/run/stop_signals.hpp"
 
@@ -52,7 +53,10 @@ std::vector<Command> all_commands() {
           takes::progress},
          [](const Arguments& given, const Communicator& world) {
              const RunOptions options = run_options(given);
-             return run(case_of(given, world.size()), options, world);
+             const Case c = case_of(given, world.size());
+             c.require_runnable();
+             require_memory(c, world);
+             return run(c, options, world);
          },
          true},
         {"init",

@@ -3,11 +3,11 @@
 #include "engine/commands/commands.hpp"
 
 #include "decomposition/communicator.hpp"
-#include "engine/run/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/series.hpp"
-#include "engine/run/theory_case.hpp"
 #include "engine/scene/map_statistics.hpp"
+#include "engine/theory/theory_case.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"

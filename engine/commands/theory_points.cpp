@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/commands.hpp"
 
-#include "engine/run/rough_interface.hpp"
 #include "engine/run/run_record.hpp"
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/rough_interface.hpp"
+#include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"

@@ -5,7 +5,6 @@
 #include "decomposition/aligned_array.hpp"
 #include "engine/run/observers.hpp"
 #include "engine/run/path_maps.hpp"
-#include "engine/run/plan.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/run_session.hpp"
 
@@ -68,7 +67,6 @@ void follow(Path& path, RunSession& session, const Observers& observers) {
 
 int run(const Case& c, const RunOptions& options, const Communicator& communicator) {
     c.require_runnable();
-    require_memory(c, communicator);
     RunSession session(c, options, communicator);
     free_kept_arrays(); // of the surface
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);

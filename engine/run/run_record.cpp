@@ -3,7 +3,7 @@
 #include "engine/run/run_record.hpp"
 
 #include "engine/device/device_block.hpp"
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
 #include "theory/jkr.hpp"

@@ -3,7 +3,7 @@
 #include "engine/script/led_path.hpp"
 
 #include "engine/path/guard.hpp"
-#include "engine/run/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/units.hpp"
 #include "io/units.hpp"
 

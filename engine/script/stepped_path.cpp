@@ -4,7 +4,7 @@
 
 #include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
-#include "engine/run/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"

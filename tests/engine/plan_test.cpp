@@ -4,7 +4,7 @@
 // What a plan says of a run follows the scene, and is what runs take: their time here, their memory
 // in tests/python/test_result.py.
 #include "engine/path/expected_path.hpp"
-#include "engine/run/plan.hpp"
+#include "engine/plan/plan.hpp"
 #include "engine/script/stepped_path.hpp"
 #include "io/terminal.hpp"
 #include "support/cases.hpp"
@@ -16,7 +16,6 @@
 
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <numeric>
 
 using namespace asperity;
@@ -76,13 +75,10 @@ TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {
 TEST(Plan, WhatDoesNotFitIsRefusedBeforeItIsMade) {
     const Case c = case_with({"surface.sites=32768", "block.thickness=32768", "block.model=lattice",
                               "surface.q_max=16384"});
-    RunOptions options;
-    options.out = "no-such-directory";
     const std::string refused =
-        test::message_of<io::SceneError>([&] { run(c, options, Communicator()); });
+        test::message_of<io::SceneError>([&] { require_memory(c, Communicator()); });
     EXPECT_TRUE(test::has(refused, "the run does not fit into memory")) << refused;
     EXPECT_TRUE(test::has(refused, "multiscale")) << refused;
-    EXPECT_FALSE(std::filesystem::exists("no-such-directory"));
     // A plan makes neither the surface nor the block.
     const Plan plan = make_plan(c, 1);
     EXPECT_GT(bytes_of(plan), 1e15);

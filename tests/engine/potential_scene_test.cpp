@@ -3,8 +3,8 @@
 //
 // interface.potential through a whole run: the same laws for every potential, and a table of
 // Lennard-Jones as Lennard-Jones.
-#include "engine/run/rough_interface.hpp"
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/rough_interface.hpp"
+#include "engine/theory/theory_case.hpp"
 #include "support/message.hpp"
 #include "support/run_scene.hpp"
 

@@ -259,8 +259,9 @@ TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
                           [](io::Hdf5File&) {});
         for (int n = 0; n < 400 && !path->ended(); ++n)
             if (path->advance(recorder.wish_of_row()) == Path::Made::step) recorder.row(*path);
+        recorder.write();
         auto series = recorder.series();
-        EXPECT_GT(recorder.rows(), 20u);
+        ASSERT_GT(recorder.rows(), 20u);
         EXPECT_NE(series["g"].back(), 0.0) << "beyond the interaction range throughout";
         EXPECT_EQ(series["f"], series["g"]) << mode;
     }

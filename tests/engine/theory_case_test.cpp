@@ -3,8 +3,8 @@
 //
 // The theory of a scene: the scene's keys reach the solver, its numbers reach the result. The
 // expected numbers are those of theory.md (tests/theory tests the solver itself).
-#include "engine/run/rough_interface.hpp"
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/rough_interface.hpp"
+#include "engine/theory/theory_case.hpp"
 
 #include "engine/setup/case.hpp"
 #include "io/error.hpp"

@@ -3,7 +3,7 @@
 //
 // Hard cases of states at rest, and of the theory: where a path cannot start, or where a limit is
 // sharp. Each test says first what stable means for it.
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/theory_case.hpp"
 #include "io/error.hpp"
 #include "support/path_case.hpp"
 

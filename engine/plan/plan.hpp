@@ -8,7 +8,7 @@
 // for it, and continued by the power of the width that the last two show.
 #pragma once
 
-#include "engine/run/rehearsal.hpp"
+#include "engine/plan/rehearsal.hpp"
 
 #include <cstdio>
 #include <vector>

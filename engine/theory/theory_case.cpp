@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/theory_case.hpp"
+#include "engine/theory/theory_case.hpp"
 
-#include "engine/run/rough_interface.hpp"
+#include "engine/theory/rough_interface.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "theory/error.hpp"

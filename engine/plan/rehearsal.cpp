@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/rehearsal.hpp"
+#include "engine/plan/rehearsal.hpp"
 
 #include "decomposition/aligned_array.hpp"
 #include "engine/equilibrium/quasistatic.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/plan.hpp"
+#include "engine/plan/plan.hpp"
 
 #include "engine/device/device_block.hpp"
 #include "engine/equilibrium/zero_load.hpp"

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/rough_interface.hpp"
+#include "engine/theory/rough_interface.hpp"
 
 #include "engine/block/block.hpp"
 #include "engine/units.hpp"
