@@ -89,6 +89,22 @@ def test_tables_are_those_of_their_files():
     assert done.returncode == 0, done.stderr
 
 
+def test_a_table_takes_some_rows_and_columns(tmp_path):
+    (tmp_path / "a.csv").write_text("x,y,z\n1,2,3\n4,5,6\n7,8,9\n10,11,12\n")
+    page = tmp_path / "a.md"
+
+    def written(mark, *options):
+        page.write_text(f"above\n\n<!-- table: {mark} -->\n<!-- end of table -->\n\nbelow\n")
+        return subprocess.run([sys.executable, ROOT / "docs/tables.py", *options, page], capture_output=True, text=True)
+
+    assert written("a.csv rows=1,3-4 columns=3,1").returncode == 0
+    assert re.findall(r"^\|.*", page.read_text(), re.M) == ["| z | x |", "|---|---|", "| 3 | 1 |", "| 9 | 7 |", "| 12 | 10 |"]
+    assert page.read_text().startswith("above\n\n<!-- table: a.csv rows=1,3-4 columns=3,1 -->\n")
+    assert written("a.csv rows=2", "--check").returncode == 1 and "a.md" in written("a.csv", "--check").stderr
+    for mark in ("a.csv rows=5", "a.csv rows=0", "a.csv columns=2-4", "a.csv row=1", "a.csv rows=a", "a.csv rows=3-2"):
+        assert written(mark).returncode == 1 and page.read_text().count("|") == 0, mark
+
+
 def test_references_are_current():
     try:
         import asperity.engine  # noqa: F401
