@@ -138,24 +138,28 @@ def published(some, folder):
 
 def limits_plot(results, file):
     """Each kernel's fraction of the limits, in percent."""
+    sys.path.append(str(Path(__file__).resolve().parents[1] / "python"))
     import matplotlib  # only the page needs it
 
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
+    from asperity.plots.style import BLUE, GREEN, YELLOW, style
 
-    plt.rcParams.update({"font.size": 9, "svg.hashsalt": "asperity", "svg.fonttype": "none"})
-    kinds = (("of limit", "of its bound: arithmetic, division or memory"), ("of fused", "of the fused multiply-add loop"),
-             ("of stream", "of the memory's stream"))
-    rows = [r for g in results["kernels"] for r in g["rows"] if any(key in r for key, _ in kinds)]
-    figure, ax = plt.subplots(figsize=(7.2, 1.2 + 0.26 * len(rows)), layout="constrained")
-    for number, (key, label) in enumerate(kinds):
-        there = [i for i, r in enumerate(rows) if key in r]
-        ax.barh([i + 0.27 * (number - 1) for i in there], [100.0 * rows[i][key] for i in there], 0.27, label=label)
-    ax.set_yticks(range(len(rows)), [r["label"] for r in rows])
-    ax.invert_yaxis()
-    ax.set_xlabel("fraction of the limit measured in the same run, %")
-    ax.legend(loc="lower center", bbox_to_anchor=(0.3, 1.0))
-    figure.savefig(file, metadata={"Date": None})
+    kinds = (("of limit", "of its bound: arithmetic, division or memory", BLUE),
+             ("of fused", "of the fused multiply-add loop", YELLOW), ("of stream", "of the memory's stream", GREEN))
+    rows = [r for g in results["kernels"] for r in g["rows"] if any(key in r for key, *_ in kinds)]
+    with style():
+        figure, ax = plt.subplots(figsize=(7.2, 1.0 + 0.24 * len(rows)), layout="constrained")
+        for number, (key, label, colour) in enumerate(kinds):
+            there = [i for i, r in enumerate(rows) if key in r]
+            ax.barh([i + 0.27 * (number - 1) for i in there], [100.0 * rows[i][key] for i in there], 0.27, color=colour, label=label)
+        ax.set_yticks(range(len(rows)), [r["label"] for r in rows])
+        ax.tick_params(axis="y", which="both", left=False, right=False)
+        ax.set_ylim(len(rows) - 0.4, -0.6)
+        ax.axvline(100.0, color="0.5", lw=0.7, zorder=0)
+        ax.set_xlabel("fraction of the limit measured in the same run, %")
+        ax.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
+        figure.savefig(file, metadata={"Date": None})
 
 
 PAGE = """# Performance

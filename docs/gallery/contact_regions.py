@@ -8,26 +8,28 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
-from matplotlib.colors import Normalize
+from matplotlib.colors import Normalize, to_rgba
 
 import asperity
+from asperity.plots.style import RC, RED
 
+matplotlib.rcParams.update(RC)
 directory, picture = sys.argv[1:3]
 runs = asperity.load_sweep(directory).results()
 states = sorted(runs[0].fields, key=lambda state: state != "relaxed")
-figure, axes = plt.subplots(len(runs), len(states), figsize=(7.2, 3.5 * len(runs)), dpi=80, layout="constrained",
+figure, axes = plt.subplots(len(runs), len(states), figsize=(5.6, 2.7 * len(runs)), layout="constrained",
                             squeeze=False, sharex=True, sharey=True)
 gaps = plt.cm.ScalarMappable(Normalize(0, 25, clip=True), "YlGnBu_r")  # Å
 for row, run in zip(axes, runs):
     for axis, state in zip(row, states):
         gap, contact = run.fields[state].gap, run.fields[state].contact
         colours = gaps.to_rgba(gap)
-        colours[contact > 0] = (0.84, 0.37, 0, 1)
+        colours[contact > 0] = to_rgba(RED)
         axis.imshow(colours, origin="lower", extent=(0, run.edge / 10, 0, run.edge / 10), interpolation="nearest")
         when = "zero load" if state == "relaxed" else state.split(":")[1] + " ps later"
-        axis.set_title(f"rms {run.key('surface.rms'):g} Å, {when}: {contact.mean():.1%}", fontsize=10)
+        axis.set_title(f"rms {run.key('surface.rms'):g} Å, {when}: {contact.mean():.1%}", fontsize=8)
     row[0].set_ylabel("nm")
 for axis in axes[-1]:
     axis.set_xlabel("nm")
 figure.colorbar(gaps, ax=axes, label="gap, Å (orange: in contact)", shrink=0.5, extend="max")
-figure.savefig(picture)
+figure.savefig(picture, dpi=100)
