@@ -59,7 +59,7 @@ made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 cp $place/works/works.svg $gallery/fig2-works.svg
 ./asperity sweep scenes/paper/small/fig5-quasistatic.toml --out $place/spheres >$place/log.txt
 "$python" $gallery/spheres.py $place/spheres $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
-made $gallery/theory-renormalised.svg $gallery/theory-sets.svg $gallery/fig5-gamma-force.svg $data/tables/fig5-gamma-force.csv \
+made $gallery/theory-renormalised.svg $gallery/fig2-paths.svg $gallery/theory-sets.svg $gallery/fig5-gamma-force.svg $data/tables/fig5-gamma-force.csv \
     $gallery/fig2-works.svg \
     $gallery/small-fig5-curves.svg $data/tables/fig5-small-quasistatic.csv
 
@@ -77,7 +77,7 @@ fi
 
 echo
 echo "Not made here: of older programs unless their numbers still agree. Date, commit, file:"
-for file in $(git ls-files $gallery docs/data | grep -E '\.(svg|png|csv|html)$'); do
+for file in $(git ls-files $gallery docs/data | grep -E '\.(svg|png|csv)$'); do
     case " $made " in *" $file "*) ;; *) echo "  $(git log -1 --format='%as %h' -- "$file") $file" ;; esac
 done
 echo "Numbers in the text of the gallery and of first-contact: compare with $place/first-contact.txt"

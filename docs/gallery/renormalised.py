@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """States at zero load beside the paper's theory and the renormalised theory: python3 docs/gallery/renormalised.py
 
-Reads docs/data/renormalised.csv (512 sites, the paper's roughnesses) and parameters.csv (scenes/validation/parameters.py); writes
-theory-renormalised.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
+Reads docs/data/renormalised.csv (512 sites, the paper's roughnesses), fig2-quasistatic.csv and parameters.csv
+(scenes/validation/parameters.py); writes theory-renormalised.svg, fig2-paths.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
 import csv
 import pathlib
 import sys
@@ -60,6 +60,21 @@ for axis, simulated, theory, label in (
     axis.set(xlabel="rms roughness, Å", ylabel=label, xlim=(0, 12.5), ylim=(-0.02, 1.03))
 axes[0].legend()
 save(figure, "theory-renormalised.svg")
+
+column = lambda name: np.array([m[name] for m in table.values()])
+paths = {float(r["surface.rms"]): r for r in rows("fig2-quasistatic.csv") if float(r["surface.rms"]) <= 12}
+figure, axis = plt.subplots(figsize=(4.6, 3.4), constrained_layout=True)
+for segment, marker, colour, label in (("pull_off", "s", "#d55e00", "quasi-static pull-off, surface 1"),
+                                       ("approach", "o", "#0072b2", "quasi-static approach, surface 1")):
+    axis.plot(list(paths), [abs(float(r[f"work_of_interface.{segment}_ratio"])) for r in paths.values()], marker, color=colour,
+              markerfacecolor="none" if marker == "s" else colour, label=label)
+axis.errorbar(rms, column("binding_energy_ratio"), column("binding_energy_ratio±"), fmt="^", ms=5, color=SIMULATED, capsize=2,
+              label="state at zero load, three surfaces")
+axis.plot(rms, column("theory.renormalised.gamma_eff_ratio"), "--", color=RENORMALISED, label="renormalised theory")
+axis.plot(rms, column("theory.persson.gamma_eff_ratio"), ":", color=PAPER, label="paper's theory")
+axis.set(xlabel="rms roughness, Å", ylabel="work or $γ_{eff}$ / Δγ", xlim=(0, 12.5), ylim=(-0.02, 1.2))
+axis.legend()
+save(figure, "fig2-paths.svg")
 
 sets = means(rows("parameters.csv"), ["set", "interface", "rms"])
 figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), constrained_layout=True, sharex=True)
