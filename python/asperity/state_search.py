@@ -109,10 +109,12 @@ class Search:
         before = self.now
         try:
             lost = self.go(mean_height=before["z"] - self.case["step"])
-        except PhysicsError:
-            return self._end("no equilibrium was found further in")
+        except PhysicsError as error:
+            if before["force"] < 0.0:  # a state may lie before the next point
+                self.free(self._way())
+            return self._end("the next point inwards failed: " + str(error).splitlines()[0])
         if before["force"] < 0.0 <= self.now["force"]:
-            self.free("inwards" if any(s["branch"] is not None for s in self.log["states"]) else "approach")
+            self.free(self._way())
         apart, push = self.case["area"] * (1.0 - self.now["contact"]), self.now["force"]
         climb = self.now["energy"] - min(p["energy"] for p in self.log["points"])
         if push > self.case["tension"] * apart:
@@ -121,6 +123,10 @@ class Search:
             self._end("no deeper state further in on this path")
         elif lost > LEAST_LOSS * self.spread() and self.log["states"]:
             self._turn_outwards(lost, "inwards")
+
+    def _way(self) -> str:
+        """How the next state on the way inwards is found."""
+        return "inwards" if any(s["branch"] is not None for s in self.log["states"]) else "approach"
 
     def _end(self, why: str) -> None:
         press = PRESS * self.case["modulus"]

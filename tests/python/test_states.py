@@ -57,6 +57,14 @@ def test_two_states_and_the_work_between_them(whole, place):
     assert first["barrier"] == pytest.approx(largest / AREA * 160217.66, rel=0.01) and deeper["barrier"] is None
 
 
+def test_a_state_before_a_point_that_is_refused():
+    """Rubber is not pressed as far in as a step leads."""
+    found = asperity.states(Path(__file__).parents[2] / "scenes/rubber.toml", {"surface.sites": 32})
+    assert found["states"][0]["found"] == ["run", "approach"]
+    assert found["ended"].startswith("the next point inwards failed: a mean height of ")
+    assert found["ended"].endswith(" lies too far inside the substrate")
+
+
 def test_a_load_tells_states_apart(whole, place):
     """In MPa."""
     barrier, heights = whole["states"][0]["barrier"], {}
