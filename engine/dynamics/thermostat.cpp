@@ -3,6 +3,7 @@
 #include "engine/dynamics/thermostat.hpp"
 
 #include "engine/units.hpp"
+#include "kernels/node_noise.hpp"
 
 #include <algorithm>
 

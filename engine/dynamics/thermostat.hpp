@@ -13,7 +13,7 @@
 //                              noise of the present step, half of which they would have.
 //
 // xi is drawn from a counter-based generator keyed by seed, step and node
-// (kernels/thermal_noise.hpp): bitwise identical on any number of ranks and threads, and on a
+// (kernels/node_noise.hpp): bitwise identical on any number of ranks and threads, and on a
 // device. A scene at T = 0 has no thermostat object at all.
 #pragma once
 

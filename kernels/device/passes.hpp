@@ -12,6 +12,7 @@
 #include "kernels/elastic_column.hpp"
 #include "kernels/interface_site.hpp"
 #include "kernels/kick.hpp"
+#include "kernels/node_noise.hpp"
 #include "kernels/pair_sum.hpp"
 #include "kernels/transfer_node.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The noise's own elementary functions against the C library's, and the moments of its numbers.
-#include "kernels/thermal_noise.hpp"
+#include "kernels/node_noise.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Langevin noise of one node and step: normal numbers from a counter-based generator (Philox,
+// Random123), and what they add to velocity and displacement. One text for processor and device.
+// Logarithm, sine and cosine are written out in additions, multiplications and divisions, none of
+// them fused, so every compiler and machine gives bitwise identical results.
+#pragma once
+
+#include "kernels/annotations.hpp"
+#include "kernels/kick.hpp"
+#include "kernels/thermal_noise.hpp"
+
+#include <Random123/philox.h>
+
+#include <cmath>
+#include <cstdint>
+
+namespace asperity::ASPERITY_VARIANT {
+
+/// ln(x) of 0 < x <= 1, not subnormal. Within two units of the last place.
+ASPERITY_INLINE double logarithm(double x) {
+    const auto bits = __builtin_bit_cast(std::uint64_t, x);
+    int exponent = static_cast<int>(bits >> 52) - 1023;
+    double m = __builtin_bit_cast(double, (bits & 0xfffffffffffffu) | 0x3ff0000000000000u);
+    if (m > 1.4142135623730951) m *= 0.5, ++exponent;
+    // ln m = 2 artanh s = 2 (s + s^3/3 + s^5/5 + ...), |s| < 0.172.
+    const double s = (m - 1.0) / (m + 1.0), q = s * s;
+    double sum = 0.0;
+    ASPERITY_UNROLL(9)
+    for (int k = 19; k >= 3; k -= 2)
+        sum = (sum + 1.0 / k) * q;
+    return exponent * 0.6931471805599453 + 2.0 * (s + s * sum);
+}
+
+struct CosineSine {
+    double cosine, sine;
+};
+/// Of the angle 2 pi (bits + 1/2) / 2^32. Within 2e-16.
+ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
+    // The nearest quarter of a turn, and the rest x, |x| <= pi/4.
+    const std::uint32_t quarter = (bits + 0x20000000u) >> 30;
+    const auto rest = static_cast<std::int32_t>(bits - (quarter << 30));
+    const double x = (rest + 0.5) * 1.4629180792671596e-9; // 2 pi / 2^32
+    const double q = x * x;
+    double c = 1.0, s = 1.0;
+    ASPERITY_UNROLL(8)
+    for (int k = 16; k >= 2; k -= 2) {
+        c = 1.0 - c * (q * (1.0 / ((k - 1) * k)));
+        s = 1.0 - s * (q * (1.0 / (k * (k + 1))));
+    }
+    s *= x;
+    const bool odd = quarter & 1u;
+    const double along = odd ? -s : c, across = odd ? c : s;
+    return quarter & 2u ? CosineSine{-along, -across} : CosineSine{along, across};
+}
+
+/// Three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y, z: which
+/// node of the block.
+ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int x, int y, int z) {
+    const auto u = static_cast<std::uint64_t>(noise.step);
+    // The C interface, whose functions are static: no variant's code is linked into another's.
+    const philox4x32_ctr_t counter = {
+        {static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y),
+         static_cast<std::uint32_t>(z) | static_cast<std::uint32_t>(level) << 24,
+         static_cast<std::uint32_t>(u)}};
+    const philox4x32_key_t key = {{static_cast<std::uint32_t>(noise.seed ^ (u >> 32) * 0x9E3779B9u),
+                                   static_cast<std::uint32_t>(noise.seed >> 32)}};
+    const philox4x32_ctr_t bits = philox4x32(counter, key);
+    const auto radius = [](std::uint32_t b) {
+        return std::sqrt(-2.0 * logarithm((b + 0.5) * 0x1p-32));
+    };
+    const double r1 = radius(bits.v[0]), r2 = radius(bits.v[2]);
+    const CosineSine first = cosine_and_sine(bits.v[1]), second = cosine_and_sine(bits.v[3]);
+    return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
+}
+
+/// Adds `add` to the velocity v(n+1/2) of a node and what follows from it to its displacement
+/// u(n+1). old: v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the
+/// second is minus the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the
+/// mean w of old and v; the other half is part of the work of the force at n+1.
+ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, double& u,
+                            double add) {
+    const double w = 0.5 * (old + v);
+    v = v + add;
+    u = u + noise.dt * add;
+    return add * ((2.0 - noise.drag) * w + 0.5 * add);
+}
+
+/// The noise of one node of mass m (eV fs^2/Å^2), added to v and u. Returns the energy given, eV.
+ASPERITY_INLINE double add_noise(const ThermalNoise& noise, double m, const Triple<double>& xi,
+                                 const Triple<double>& old, Triple<double>& v, Triple<double>& u) {
+    const double sigma = std::sqrt(noise.strength / m) / noise.drag;
+    const double x = push(noise, old.x, v.x, u.x, sigma * xi.x);
+    const double y = push(noise, old.y, v.y, u.y, sigma * xi.y);
+    return m * (x + y + push(noise, old.z, v.z, u.z, sigma * xi.z));
+}
+
+} // namespace asperity::ASPERITY_VARIANT
