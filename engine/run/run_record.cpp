@@ -202,6 +202,25 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     return result;
 }
 
+std::string physics_of(const Case& c, const Surface& surface) {
+    const Scene& scene = c.scene;
+    const io::Json all = scene_json(scene);
+    io::Json part = io::Json::object();
+    for (const char* section : {"surface", "block", "interface", "drive"})
+        if (all.contains(section)) part[section] = all[section];
+    part["drive"]["max_steps"] = 0;
+    part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
+    // What resumes is taken as written where its time is past.
+    part["output"]["delayed"] = io::Json::array();
+    for (const auto& [delay, name] : c.maps.after_approach)
+        part["output"]["delayed"].push_back(name);
+    if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
+    part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
+    if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
+    if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
+    return io::json_text(part);
+}
+
 void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result) {
     const Case& c = path.scene_case();
     const StepRecord& now = failed ? *failed : path.now();

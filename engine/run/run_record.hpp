@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // From what a run computed to result.json: each number is named here, where it is collected, and
-// described in io/quantities.hpp.
+// described in io/quantities.hpp. And what a checkpoint keeps of its scene.
 #pragma once
 
 #include "engine/path/path.hpp"
 #include "io/result.hpp"
 
 #include <optional>
+#include <string>
 
 namespace asperity {
 
@@ -19,6 +20,10 @@ io::Result surface_result(const Case& c, const Surface& surface);
 /// What dynamic runs and without it have in common: the scene, its surface, its effects, the
 /// results, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
+
+/// What may not change between a checkpoint and its resumption: keys, and the map or the atoms of a
+/// file.
+std::string physics_of(const Case& c, const Surface& surface);
 
 /// Steps and energies of a path; failed: the step or point that a guard ended it at.
 void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result);

@@ -6,7 +6,6 @@
 #include "engine/run/curve.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/run/summary.hpp"
-#include "io/json.hpp"
 #include "io/run_h5.hpp"
 
 #include <fmt/format.h>
@@ -32,27 +31,6 @@ void print_unless_closed(const Print& print) {
         print();
     } catch (const std::system_error&) {
     }
-}
-
-/// What may not change between a checkpoint and its resumption: keys, and the map or the atoms of a
-/// file.
-std::string physics_of(const Case& c, const Surface& surface) {
-    const Scene& scene = c.scene;
-    const io::Json all = scene_json(scene);
-    io::Json part = io::Json::object();
-    for (const char* section : {"surface", "block", "interface", "drive"})
-        if (all.contains(section)) part[section] = all[section];
-    part["drive"]["max_steps"] = 0;
-    part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
-    // What resumes is taken as written where its time is past.
-    part["output"]["delayed"] = io::Json::array();
-    for (const auto& [delay, name] : c.maps.after_approach)
-        part["output"]["delayed"].push_back(name);
-    if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
-    part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
-    if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
-    if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
-    return io::json_text(part);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 
 #include "engine/block/block.hpp"
 #include "engine/units.hpp"
+#include "io/json.hpp"
 #include "kernels/surface_stiffness.hpp"
 #include "theory/error.hpp"
 

@@ -6,9 +6,10 @@
 #pragma once
 
 #include "engine/setup/case.hpp"
-#include "io/json.hpp"
 #include "theory/flat_interface.hpp"
 #include "theory/spectrum.hpp"
+
+#include <nlohmann/json_fwd.hpp>
 
 namespace asperity {
 
@@ -26,6 +27,7 @@ theory::FlatInterface flat_interface(const Case& c);
 ///                      the pair energy V as a table: at (r), energy, first (V'/r), second
 ///                      ((V'/r)'/r), zero beyond; of a wall at (separation) and energy per area
 /// Or, where the theory does not apply: note, why.
-io::Json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum, bool realised);
+nlohmann::ordered_json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum,
+                                           bool realised);
 
 } // namespace asperity
