@@ -137,18 +137,22 @@ private:
             iterations_ < Constants::patience)
             return;
         spreading_ = false;
+        forcing_ = Constants::loose;
         expected_ = std::numeric_limits<double>::infinity();
         ball_.stop();
         block_.apply_constraint();
     }
-    /// False, and no step, where Newton's method does not help: its last step has not taken half
-    /// of what it should have off the residual, the curvature is negative, or a site would move
+    /// False, and no step, where Newton's method does not help: its last step, solved closely, has
+    /// not taken half of what it should have off the residual, the curvature is negative, or a site would move
     /// too far. Near an equilibrium a step is shortened instead, so that no site moves further
     /// than max_move.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
-        if (!(rms_ < expected_)) return false;
-        if (!newton_.direction(interface_, height_, Constants::forcing, g_, d_)) return false;
+        if (!(rms_ < expected_)) {
+            if (forcing_ == Constants::tight) return false;
+            forcing_ = Constants::tight;
+        }
+        if (!newton_.direction(interface_, height_, forcing_, g_, d_)) return false;
         combine(1.0, d_, 0.0, work_);
         block_.at_sites(work_, at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
@@ -178,6 +182,7 @@ private:
     double rms_ = 0.0;         ///< mean residual, eV/Å
     /// Newton's last step should have left less than this, eV/Å.
     double expected_ = std::numeric_limits<double>::infinity();
+    double forcing_ = Constants::loose;
     bool rough_ = true;
     double max_move_ = Constants::max_move * options_.scales.length; ///< Å
 };

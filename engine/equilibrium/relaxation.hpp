@@ -12,9 +12,10 @@
 //
 // Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
 // is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same preconditioner,
-// without sweeps and in single precision, and g is in double. Where the curvature is negative,
-// where Newton's step would move a site further than it may, or where the last step has not halved
-// the residual, the heavy balls go on.
+// without sweeps and in single precision, and g is in double. It is solved loosely, and more closely
+// once a step has not halved the residual. Where a step solved closely has not halved it either,
+// where the curvature is negative, or where a site would move further than it may, the heavy balls
+// go on.
 //
 // A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
 // Newton's method; steps that would move a site further than it may, but no further than ten times
@@ -84,7 +85,7 @@ struct RelaxationConstants {
 
     // Heavy balls (heavy_ball.hpp): of the momentum kept; a step size is cut where a site has
     // passed its target, and is raised elsewhere, to this at most.
-    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.06f, largest_step_size = 2.0f;
+    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.12f, largest_step_size = 2.0f;
     /// In an iteration: well below the range of the potential, so that no site passes a barrier.
     static constexpr double max_move = 0.17;
     /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
@@ -97,9 +98,10 @@ struct RelaxationConstants {
     // Newton's method (newton.hpp).
     static constexpr double close_by = 8e-4;     ///< mean force, to try it at once
     static constexpr double close_enough = 0.08; ///< the same from near an equilibrium
-    static constexpr double near = 1.2e-3;       ///< the largest distance to a target, to try it
-    static constexpr long long patience = 10;    ///< iterations of heavy balls before that
-    static constexpr double forcing = 0.1;       ///< what conjugate gradients leave of the residual
+    static constexpr double near = 4e-3;         ///< the largest distance to a target, to try it
+    static constexpr long long patience = 20;    ///< iterations of heavy balls before that
+    /// What conjugate gradients leave of the residual: at first, and once a step has not halved it.
+    static constexpr double loose = 0.3, tight = 0.1;
     static constexpr int most_products = 100;    ///< of conjugate gradients
     static constexpr double shortest = 0.1;      ///< fraction of a step near an equilibrium
     /// Sweeps are in mixed precision down to a mean residual ten times their error.
