@@ -143,9 +143,9 @@ private:
         block_.apply_constraint();
     }
     /// False, and no step, where Newton's method does not help: its last step, solved closely, has
-    /// not taken half of what it should have off the residual, the curvature is negative, or a site would move
-    /// too far. Near an equilibrium a step is shortened instead, so that no site moves further
-    /// than max_move.
+    /// not taken half of what it should have off the residual, the curvature is negative, or a site
+    /// would move too far. Near an equilibrium a step is shortened instead, so that no site moves
+    /// further than max_move.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
         if (!(rms_ < expected_)) {

@@ -12,10 +12,10 @@
 //
 // Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
 // is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same preconditioner,
-// without sweeps and in single precision, and g is in double. It is solved loosely, and more closely
-// once a step has not halved the residual. Where a step solved closely has not halved it either,
-// where the curvature is negative, or where a site would move further than it may, the heavy balls
-// go on.
+// without sweeps and in single precision, and g is in double. It is solved loosely, and more
+// closely once a step has not halved the residual. Where a step solved closely has not halved it
+// either, where the curvature is negative, or where a site would move further than it may, the
+// heavy balls go on.
 //
 // A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
 // Newton's method; steps that would move a site further than it may, but no further than ten times
@@ -102,8 +102,8 @@ struct RelaxationConstants {
     static constexpr long long patience = 20;    ///< iterations of heavy balls before that
     /// What conjugate gradients leave of the residual: at first, and once a step has not halved it.
     static constexpr double loose = 0.3, tight = 0.1;
-    static constexpr int most_products = 100;    ///< of conjugate gradients
-    static constexpr double shortest = 0.1;      ///< fraction of a step near an equilibrium
+    static constexpr int most_products = 100; ///< of conjugate gradients
+    static constexpr double shortest = 0.1;   ///< fraction of a step near an equilibrium
     /// Sweeps are in mixed precision down to a mean residual ten times their error.
     static constexpr double rough_enough = 2.6e-6;
     /// The displacement by which the interface's stiffness is measured.
