@@ -116,8 +116,9 @@ def test_lateral_forces_on_a_soft_steep_surface(place):
     assert found["approach_less_run"] == by["approach"]["binding_energy"] - by["run"]["binding_energy"]
     assert abs(found["approach_less_run"]) > 0.1 and f"{found['approach_less_run']:+.3g} meV/Å²" in said
     pressed = found["states"][-1]
-    assert pressed["found"] == ["outwards"] and abs(pressed["binding_energy"] - by["run"]["binding_energy"]) > 0.2
-    assert by["random start"]["binding_energy"] > by["run"]["binding_energy"] + 0.2
+    assert pressed["found"][0] == "outwards" and abs(pressed["binding_energy"] - by["run"]["binding_energy"]) > 0.2
+    random = [s["binding_energy"] for s in found["states"] if s["found"] == ["random start"]]
+    assert random and min(random) > by["run"]["binding_energy"] + 0.2
     assert by["approach"]["barrier"] > 21.6  # MPa; a path of its own found this at least
     assert found["pressed_to"] == pytest.approx(0.125 * 8000 / (1 - 0.42**2), rel=1e-3)
     # Each is a state: set free from a little beside it the sites come back.
