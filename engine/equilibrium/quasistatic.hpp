@@ -153,16 +153,6 @@ private:
             v("squares", squares);
         }
     };
-    /// The far end of an interval that is bisected, and the force there. Between the last point and
-    /// it the block becomes unstable, or the force is not smooth enough to tell.
-    struct Bracket {
-        double at = 0.0, force = 0.0;
-        template <class Visitor>
-        void visit(Visitor& v) {
-            v("at", at);
-            v("force", force);
-        }
-    };
     double at() const { return last_.at(); }
     double force() const;
     double time_of(double step) const;

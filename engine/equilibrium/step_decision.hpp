@@ -91,6 +91,17 @@ struct PathPoint {
     double energy = 0.0; ///< eV
 };
 
+/// The far end of an interval that is bisected, and the force there. Between the last point and it
+/// the block becomes unstable, or the force is not smooth enough to tell.
+struct Bracket {
+    double at = 0.0, force = 0.0;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("at", at);
+        v("force", force);
+    }
+};
+
 struct StepLimits {
     double missing = 0.0;   ///< energy that counts as nothing in this step, eV
     double uncertain = 0.0; ///< what the work of a step with an instability may be wrong by, eV
