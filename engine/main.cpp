@@ -54,7 +54,6 @@ std::vector<Command> all_commands() {
          [](const Arguments& given, const Communicator& world) {
              const RunOptions options = run_options(given);
              const Case c = case_of(given, world.size());
-             c.require_runnable();
              require_memory(c, world);
              return run(c, options, world);
          },

@@ -226,7 +226,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     const double aim = course_.rule.aim();
     for (;;) {
-        const std::optional<Bracket> bracket = bracket_;
+        const std::optional<ForceAt> bracket = bracket_;
         const bool all_the_way = bisect();
         const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
@@ -337,8 +337,8 @@ bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
 /// such a step is known well enough: then true.
 bool QuasistaticPath::bisect() {
     if (!bracket_) return false;
-    const double way = std::abs(bracket_->at - at());
-    const bool known = is_short_in_time(way) && work_is_known(bracket_->at, bracket_->force);
+    const double way = std::abs(bracket_->x - at());
+    const bool known = is_short_in_time(way) && work_is_known(bracket_->x, bracket_->f);
     if (way > smallest_step() && !known) {
         length_ = std::min(length_, 0.5 * way);
         return false;
@@ -389,7 +389,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     else
         trail_.begin(at, force);
     last_.accept(at);
-    if (bracket_ && course_.direction * (bracket_->at - at) <= 0.0) bracket_.reset();
+    if (bracket_ && course_.direction * (bracket_->x - at) <= 0.0) bracket_.reset();
     ++record_.step;
     course_.relaxed += state.branches.dissipated;
     record_.relaxed += state.branches.dissipated;

@@ -200,7 +200,9 @@ private:
     ForceTrail trail_;
     Course course_;
     double length_ = 0.0; ///< of the next step, Å
-    std::optional<Bracket> bracket_;
+    /// The far end of an interval that is bisected. Between the last point and it the block becomes
+    /// unstable, or the force is not smooth enough to tell.
+    std::optional<ForceAt> bracket_;
     Dissipation dissipation_;
     double strongest_ = 0.0;       ///< attraction so far, eV/Å
     double energy_at_start_ = 0.0; ///< of where works are counted from, eV

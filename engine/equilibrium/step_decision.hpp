@@ -12,6 +12,16 @@
 
 namespace asperity {
 
+/// The force, eV/Å, that leading takes at a place x, Å.
+struct ForceAt {
+    double x = 0.0, f = 0.0;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("x", x);
+        v("f", f);
+    }
+};
+
 /// The integral of a force along a path that is made point by point.
 ///
 /// From the last point to a new one the force is the polynomial through the new point and up to
@@ -34,17 +44,17 @@ public:
     /// From the last point to (x, f), which stays outside.
     Integral to(double x, double f) const {
         const std::size_t n = points_.size();
-        const Point& last = points_[n - 1];
+        const ForceAt& last = points_[n - 1];
         const double h = x - last.x, slope = (f - last.f) / h;
         double value = 0.5 * h * (f + last.f), miss = f - last.f;
         if (n > 1) {
-            const Point& second = points_[n - 2];
+            const ForceAt& second = points_[n - 2];
             const double d = last.x - second.x, old_slope = (last.f - second.f) / d;
             const double bend = (slope - old_slope) / (x - second.x);
             value -= h * h * h / 6.0 * bend;
             miss = bend * h * (x - second.x);
             if (n > 2) {
-                const Point& third = points_[n - 3];
+                const ForceAt& third = points_[n - 3];
                 const double old_bend =
                     (old_slope - (second.f - third.f) / (second.x - third.x)) / (last.x - third.x);
                 const double twist = (bend - old_bend) / (x - third.x);
@@ -57,7 +67,7 @@ public:
     /// From the last point but one to the last; none of one alone.
     double slope() const {
         if (points_.size() == 1) return 0.0;
-        const Point &last = points_.back(), &second = points_[points_.size() - 2];
+        const ForceAt &last = points_.back(), &second = points_[points_.size() - 2];
         return (last.f - second.f) / (last.x - second.x);
     }
     /// The force at x on the line through the last two points; of one alone, its own.
@@ -73,33 +83,14 @@ public:
     }
 
 private:
-    struct Point {
-        double x = 0.0, f = 0.0;
-        template <class Visitor>
-        void visit(Visitor& v) {
-            v("x", x);
-            v("f", f);
-        }
-    };
     static constexpr std::size_t longest = 3;
-    std::vector<Point> points_;
+    std::vector<ForceAt> points_;
 };
 
 struct PathPoint {
     double at = 0.0;     ///< of what is led, Å
     double force = 0.0;  ///< that leading it there takes, eV/Å
     double energy = 0.0; ///< eV
-};
-
-/// The far end of an interval that is bisected, and the force there. Between the last point and it
-/// the block becomes unstable, or the force is not smooth enough to tell.
-struct Bracket {
-    double at = 0.0, force = 0.0;
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("at", at);
-        v("force", force);
-    }
 };
 
 struct StepLimits {

@@ -59,13 +59,12 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
             : s.balanced ? "take a larger drive.tolerance"
                          : "look at run.h5 whether the surfaces touch at all");
     const double area = c.area();
-    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     ZeroLoad z;
     z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
     z.pairwise = -units::milli_per_unit * s.interface_energy / area;
     z.elastic = units::milli_per_unit * s.elastic_energy / area;
-    z.contact_fraction = static_cast<double>(s.in_contact) / sites;
-    z.repulsive_fraction = static_cast<double>(s.repulsive) / sites;
+    z.contact_fraction = c.fraction(s.in_contact);
+    z.repulsive_fraction = c.fraction(s.repulsive);
     z.mean_height = reference_height + s.mean_height;
     z.residual = s.residual;
     z.iterations = s.iterations;

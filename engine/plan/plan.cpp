@@ -220,6 +220,7 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {
+    c.require_runnable();
     // The same on all ranks.
     if (nodes_of(c.levels) <= small_nodes && std::pow(c.scene.surface.sites, 2) <= small_sites)
         return;

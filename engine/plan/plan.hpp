@@ -32,8 +32,9 @@ struct Plan {
 Plan make_plan(const Case& c, int threads);
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
 
-/// Throws io::SceneError if a run of this case does not fit into the memory of its machines: the
-/// ranks of each machine together are held against what is available there. Collective.
+/// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not
+/// fit into the memory of its machines: the ranks of each machine together are held against what is
+/// available there. Collective.
 void require_memory(const Case& c, const Communicator& ranks);
 
 } // namespace asperity

@@ -102,7 +102,6 @@ void add_sphere(const Case& c, io::Result& result) {
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
-    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     result.set_list("segments[]");
     for (std::size_t i = 0; i < results.segments.size(); ++i) {
         const SegmentResults& s = results.segments[i];
@@ -123,16 +122,14 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
-        result.set("segments[].contact_fraction", i, static_cast<double>(s.in_contact) / sites);
+        result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
         if (c.effects.sliding)
             result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
     }
 }
 
 void add_dissipation(const PathResults& results, const Case& c, io::Result& result) {
-    const Scene& scene = c.scene;
     const Dissipation& lost = *results.dissipated;
-    const double sites = static_cast<double>(scene.surface.sites) * scene.surface.sites;
     result.set("dissipated.energy", lost.total());
     result.set("dissipated.events", lost.events);
     if (c.effects.branches) result.set("dissipated.not_followed", lost.not_followed);
@@ -149,8 +146,7 @@ void add_dissipation(const PathResults& results, const Case& c, io::Result& resu
                    both(jump.height_before, jump.height_after));
         result.set("dissipated.jumps[].force", i, both(jump.force_before, jump.force_after));
         result.set("dissipated.jumps[].contact_fraction", i,
-                   both(static_cast<double>(jump.contact_before) / sites,
-                        static_cast<double>(jump.contact_after) / sites));
+                   both(c.fraction(jump.contact_before), c.fraction(jump.contact_after)));
         result.set(
             "dissipated.jumps[].site", i,
             std::vector{static_cast<long long>(jump.site_x), static_cast<long long>(jump.site_y)});

@@ -6,12 +6,6 @@ namespace asperity {
 
 namespace {
 
-/// Of all sites.
-double fraction(const Path& path, long long sites) {
-    const double across = path.scene_case().scene.surface.sites;
-    return static_cast<double>(sites) / (across * across);
-}
-
 constexpr SeriesColumn columns[] = {
     {SeriesColumn::both,
      {"series/step", "1", "", "time step; of a quasi-static path: point"},
@@ -91,11 +85,11 @@ constexpr SeriesColumn columns[] = {
      {"series/contact_fraction", "1", io::per::sites,
       "sites closer to an atom than the inflection of the pair potential; over a wall as at zero "
       "load"},
-     [](const Path& p) { return fraction(p, p.now().in_contact); }},
+     [](const Path& p) { return p.scene_case().fraction(p.now().in_contact); }},
     {SeriesColumn::both,
      {"series/repulsive_fraction", "1", io::per::sites,
       "sites whose net normal force is repulsive"},
-     [](const Path& p) { return fraction(p, p.now().repulsive); }},
+     [](const Path& p) { return p.scene_case().fraction(p.now().repulsive); }},
     {SeriesColumn::both,
      {"series/closest", "Å", "",
       "smallest distance of a site and an atom; infinite beyond the interaction range"},

@@ -143,12 +143,11 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                                      "contact"};
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
-    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     for (const SegmentResults& s : results.segments) {
         std::vector<std::string> row = {
             c.path[s.number].text,    energies(s.work),
             energies(s.lost),         number(s.force / (c.area() * units::megapascal), 1),
-            number(s.mean_height, 2), number(static_cast<double>(s.in_contact) / sites, 4)};
+            number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)};
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
     }
@@ -171,10 +170,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
 
 std::string progress_phase(const Case& c, const std::string& segment, double force,
                            long long in_contact, double mean_height) {
-    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     return fmt::format("{}, {} MPa, contact {:.3f}, height {} Å", segment,
                        io::number(force / (c.area() * units::megapascal), 1),
-                       static_cast<double>(in_contact) / sites, io::number(mean_height, 2));
+                       c.fraction(in_contact), io::number(mean_height, 2));
 }
 
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,

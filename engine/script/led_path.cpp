@@ -43,7 +43,6 @@ Case without_time(const Case& c) {
 }
 
 Surface checked_surface(const Case& c) {
-    c.require_runnable();
     require_memory(c, Communicator());
     return surface_of(c);
 }

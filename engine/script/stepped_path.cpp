@@ -47,7 +47,6 @@ Surface checked_surface(const Case& c, const Communicator& ranks) {
                "without steps",
                "take asperity.Statics, or drive.mode = \"dynamic\" and drive.path = "
                "[\"approach\", \"pull-off\"]");
-    c.require_runnable();
     require_memory(c, ranks);
     return surface_of(c, ranks);
 }
@@ -193,11 +192,6 @@ std::string SteppedPath::segment() const {
 
 int SteppedPath::segment_number() const {
     return simulation().drive().by_hand() ? -1 : static_cast<int>(path_.segment());
-}
-
-double SteppedPath::fraction(long long sites) const {
-    const double across = case_.scene.surface.sites;
-    return static_cast<double>(sites) / (across * across);
 }
 
 void SteppedPath::set_top_position(double z) {

@@ -88,8 +88,6 @@ public:
     const PathResults& results() const { return path_.results(); }
     /// The last step; zero before the first one.
     const StepRecord& now() const { return path_.now(); }
-    /// Of all sites.
-    double fraction(long long sites) const;
 
     // The top plane: displacement since the start, Å, and velocity in the next step, m/s.
 

@@ -75,6 +75,11 @@ struct Case {
     bool starts_with(Segment::Kind kind) const { return !path.empty() && path[0].kind == kind; }
     /// Area of the interface, Å^2.
     double area() const { return scene.edge() * scene.edge(); }
+    /// Of all sites.
+    double fraction(long long sites) const {
+        const double across = scene.surface.sites;
+        return static_cast<double>(sites) / (across * across);
+    }
     /// Atoms of a substrate of one layer along the edge of the box.
     int substrate() const {
         return substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);

@@ -286,10 +286,12 @@ PYBIND11_MODULE(_engine, m) {
             "Energies of the last observed step, eV: elastic, interface, kinetic, work, damped, "
             "balance_error")
         .def_property_readonly(
-            "contact", [](const Sim& sim) { return sim.fraction(sim.now().in_contact); },
+            "contact",
+            [](const Sim& sim) { return sim.scene_case().fraction(sim.now().in_contact); },
             "fraction of the sites that are in contact, at the last observed step")
         .def_property_readonly(
-            "repulsive_fraction", [](const Sim& sim) { return sim.fraction(sim.now().repulsive); },
+            "repulsive_fraction",
+            [](const Sim& sim) { return sim.scene_case().fraction(sim.now().repulsive); },
             "fraction of the sites whose net normal force is repulsive, at the last observed step")
         .def_property_readonly(
             "segment", &Sim::segment,

@@ -92,3 +92,9 @@ def test_a_plan_runs_nothing_and_writes_nothing(place):
     command("plan", "--set", "surface.sites=32", "block.thickness=32", "surface.rms=1", "drive.temperature=10",
             "plain.toml", "--ranks", "4", says=["4 ranks", "drive.temperature = 10 K", "wall time"])
     assert os.listdir() == ["plain.toml"]
+
+
+def test_a_run_that_does_not_fit_writes_nothing(place):
+    command("run", "plain.toml", "--set", "block.model=lattice", "block.thickness=1000000", "--out", "none", expect=2,
+            says=["the run does not fit into memory", 'block.model = "multiscale"'])
+    assert not Path("none").exists()
