@@ -119,3 +119,13 @@ def test_references_are_current():
         pytest.skip(str(problem))
     done = subprocess.run([sys.executable, ROOT / "docs/reference.py", "--check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_loop_and_the_step_are_those_of_the_code():
+    page = (ROOT / "ARCHITECTURE.md").read_text()
+    code = " ".join(" ".join((ROOT / file).read_text().split())
+                    for file in ("engine/run/run.cpp", "engine/dynamics/simulation.cpp"))
+    quoted = re.findall(r"(?:^    .*\n)+", page[page.index("## The main loop"):page.index("## Three walks")], re.M)
+    assert len(quoted) == 2
+    for part in quoted:
+        assert " ".join(part.split()) in code, part
