@@ -248,26 +248,33 @@ class Bench:
         sizes = range(16, 716, 7) if self.long else (200, 600)
         return self.disturbed_by_space("full-disk", mounted, sizes)
 
-    def stopped_run(self, name):
-        """A run that was killed when it had two checkpoints; None: it ended sooner."""
-        out = self.out(name)
+    def paused_run(self, out, files):
+        """A run that SIGSTOP holds where it has these files and no result yet.
+
+        A run of a tenth of a second may end before the bench looks at it; then another is started.
+        """
+        def there():
+            return all(os.path.exists(os.path.join(out, file)) for file in files)
         for _ in range(200):
             child = self.start(out)
-            while child.poll() is None and not os.path.exists(os.path.join(out, "checkpoint-before.h5")):
+            while child.poll() is None and not there():
                 time.sleep(0.0005)
+            child.send_signal(signal.SIGSTOP)
+            with contextlib.suppress(ChildProcessError):
+                os.waitid(os.P_PID, child.pid, os.WSTOPPED | os.WEXITED | os.WNOWAIT)
+            if there() and not os.path.exists(os.path.join(out, "result.json")):
+                return child
             child.kill()
             child.communicate()
-            if all(os.path.exists(os.path.join(out, f)) for f in ("checkpoint.h5", "checkpoint-before.h5")):
-                return out
-            shutil.rmtree(out)
-        return None
+            shutil.rmtree(out, ignore_errors=True)
+        raise AssertionError(f"200 runs ended before they could be stopped with {files}")
 
     def test_damage(self):
         good = total = older = 0
-        source = self.stopped_run("to-damage")
-        if not source:
-            self.fail("no run had two checkpoints")
-            return "nothing tested"
+        source = self.out("to-damage")
+        child = self.paused_run(source, ("checkpoint.h5", "checkpoint-before.h5"))
+        child.kill()
+        child.communicate()
         for i in range(200 if self.long else 3):
             out = self.out("damaged")
             shutil.copytree(source, out)
@@ -355,9 +362,7 @@ class Bench:
         good = total = 0
         for what in ("moved", "removed", "emptied") * (5 if self.long else 1):
             out = self.out("directory")
-            child = self.start(out)
-            while not os.path.exists(os.path.join(out, "checkpoint.h5")) and child.poll() is None:
-                time.sleep(0.001)
+            child = self.paused_run(out, ("checkpoint.h5",))
             place = out
             if what == "moved":
                 place = self.out("elsewhere")
@@ -370,6 +375,7 @@ class Bench:
                         os.remove(os.path.join(out, name))
                     except FileNotFoundError:
                         pass
+            child.send_signal(signal.SIGCONT)
             text = child.communicate()[0]
             total += 1
             told = child.returncode == EXIT_INPUT_OUTPUT
@@ -388,22 +394,12 @@ class Bench:
                 shutil.rmtree(path, ignore_errors=True)
         return f"{good} of {total}: the same bits in the directory, wherever it is, or an error with exit code 4"
 
-    @staticmethod
-    def has_had(out, child):
-        """Whether the directory's lock says that it is this process's."""
-        with contextlib.suppress(FileNotFoundError), open(os.path.join(out, "run.lock")) as lock:
-            return f"process {child.pid}" in lock.read()
-        return False
-
     def test_two(self):
         longest = 0.0
         for locking in ("TRUE", "FALSE"):
             ENVIRONMENT["HDF5_USE_FILE_LOCKING"] = locking
             out = self.out("shared")
-            child = self.start(out)
-            while not self.has_had(out, child) and child.poll() is None:
-                time.sleep(0.001)
-            child.send_signal(signal.SIGSTOP)  # it cannot end meanwhile, however fast the machine is
+            child = self.paused_run(out, ("run.lock", "run.journal"))
             start = time.monotonic()
             done = self.run(out)
             longest = max(longest, time.monotonic() - start)
@@ -416,11 +412,9 @@ class Bench:
             shutil.rmtree(out)
         del ENVIRONMENT["HDF5_USE_FILE_LOCKING"]
         out = self.out("again")
-        child = self.start(out)
-        while not os.path.exists(os.path.join(out, "run.journal")):
-            time.sleep(0.001)
+        child = self.paused_run(out, ("run.journal",))
         child.kill()
-        child.wait()
+        child.communicate()
         before = sorted(os.listdir(out))
         done = self.run(out)
         if done.returncode != EXIT_SCENE or "--restart" not in done.stdout:
