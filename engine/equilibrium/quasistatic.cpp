@@ -226,7 +226,6 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     const double aim = course_.rule.aim();
     for (;;) {
-        const std::optional<ForceAt> bracket = bracket_;
         const bool all_the_way = bisect();
         const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
@@ -241,12 +240,12 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             last_.relax_at(there, time_of(way), options_.report,
                            any_force ? ForceWindow{} : acceptable_force(there));
         if (state.interrupted) { // resumed, the same step is made
-            bracket_ = bracket;
             length_ = planned;
             put_back();
             last_.set_iterations(iterations);
             return Outcome::interrupted;
         }
+        if (all_the_way) bracket_.reset();
         if (!state.converged && last_try) refuse_place(state, there);
         // A load is met by shorter steps than instabilities are followed with.
         const bool shortens = length_ > 1e-6 * smallest_step();
@@ -344,7 +343,6 @@ bool QuasistaticPath::bisect() {
         return false;
     }
     length_ = way;
-    bracket_.reset();
     return true;
 }
 

@@ -21,12 +21,14 @@ namespace {
 
 using test::world;
 
+constexpr int sites = 16;
+
 struct Kind {
     const char* name = "top";
     bool frictionless = false;
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
-    int sites = 16, thickness = 60;
+    int thickness = 60;
     bool slides = false;               ///< between approach and pull-off
     std::vector<Branch> branches = {}; ///< of a block that relaxes; it is held there
 };
@@ -38,13 +40,7 @@ InterfaceOptions interface_of(const Kind& kind) {
     return o;
 }
 
-/// A rough map of 16 sites, or a rougher one of more.
-Surface surface_of(const Kind& kind) {
-    if (kind.sites == 16) return test::reference_surface("c1_N16_T16_rms0.5");
-    return test::self_affine(kind.sites, 1.0, 8);
-}
-
-/// A soft block on it: under a held top plane it snaps in.
+/// A soft block on a rough map: under a held top plane it snaps in.
 struct Contact {
     BlockOptions options;
     Surface surface;
@@ -57,14 +53,14 @@ struct Contact {
     bool slides;
 
     explicit Contact(const Communicator& ranks, const Kind& kind = {})
-        : options(block_of(kind)), surface(surface_of(kind)),
-          grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), kind.sites)),
+        : options(block_of(kind)), surface(test::reference_surface("c1_N16_T16_rms0.5")),
+          grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), sites)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
           path(block, interface, path_options(kind.along)), slides(kind.slides) {}
 
     static BlockOptions block_of(const Kind& kind) {
-        BlockOptions o = test::paper_block(kind.sites, kind.thickness, 0);
+        BlockOptions o = test::paper_block(sites, kind.thickness, 0);
         o.branches = kind.branches;
         return o;
     }
@@ -178,29 +174,5 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
         EXPECT_EQ(point + 1, whole.size()) << kind.name;
         EXPECT_GT(stops, 6) << kind.name;
         EXPECT_GT(within, 0) << kind.name;
-    }
-}
-
-TEST(QuasistaticRanks, StoppedOnItsWayIntoAnInstabilityItIsTheSameBits) {
-    // Around these looks a step is relaxed all the way to a place that earlier steps have found.
-    using Outcome = QuasistaticPath::Outcome;
-    const test::SharedScratch scratch("quasistatic_stopped");
-    const std::string& file = scratch.file;
-    const Kind kind{.along = Constraint::Of::mean_height, .sites = 64, .thickness = 64};
-    const std::vector<std::uint64_t> whole = cycle(world(), kind, 100);
-    for (const long long look : {112, 116, 120}) {
-        Contact stopped(world(), kind);
-        stopped.path.start();
-        stopped.stop_at = look;
-        std::size_t point = 0;
-        while (stopped.advance() != Outcome::interrupted)
-            ASSERT_LT(++point + 2, whole.size());
-        stopped.write(file, world());
-        world().barrier();
-        Contact resumed(world(), kind);
-        resumed.read(file, world());
-        resumed.advance();
-        EXPECT_EQ(resumed.trace(), whole[point + 1]) << "stopped at look " << look;
-        world().barrier();
     }
 }
