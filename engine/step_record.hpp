@@ -12,7 +12,7 @@ namespace asperity {
 /// What is counted of the sites that the substrate acts on (count_contacts(), interface.hpp).
 struct ContactCount {
     long long in_contact = 0, repulsive = 0; ///< sites
-    double closest = 0.0;                    ///< smallest pair distance, Å; infinite out of reach
+    double closest = 0.0; ///< smallest pair distance, Å; infinite beyond the interaction range
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -22,7 +22,7 @@ struct ContactCount {
     }
 };
 
-/// Global values, the same bits on every rank. Energies in eV.
+/// Global values, bitwise identical on every rank. Energies in eV.
 struct StepRecord : ContactCount {
     long long step = 0;       ///< its number; of a quasi-static path, of the point
     double time = 0.0;        ///< fs

@@ -31,8 +31,8 @@ SCENES = {
     "mixed precision": [*TIME, "numerics.precision=mixed"],
     "sphere, 20 K": [*TIME, "surface.sites=48", "surface.radius=400", "drive.temperature=20"],
     "finite strain": [*TIME, "block.strain=finite", "drive.timestep=30"],
-    "path without time": REST,
-    "mean height held": [*REST, "drive.control=mean-height"],
+    "quasi-static": REST,
+    "mean height controlled": [*REST, "drive.control=mean-height"],
     "wall": [*REST, "interface.kind=wall", "drive.control=mean-height"],
 }
 # Of the build, of the machine and of the clock, at any depth of result.json.

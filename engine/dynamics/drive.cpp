@@ -7,7 +7,7 @@
 
 namespace asperity {
 
-bool out_of_reach(double top, double force, double strongest, double at_start) {
+bool beyond_range(double top, double force, double strongest, double at_start) {
     return top >= 0.0 && std::abs(force) <= std::max(1e-6 * strongest, std::abs(at_start));
 }
 

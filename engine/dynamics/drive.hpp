@@ -40,7 +40,7 @@ struct DriveOptions {
 /// beyond (top, Å), and the force is no larger than it was there, or small beside the strongest
 /// attraction met (eV/Å). The force alone is not enough: it passes through zero on the way out of
 /// compression.
-bool out_of_reach(double top, double force, double strongest, double at_start = 0.0);
+bool beyond_range(double top, double force, double strongest, double at_start = 0.0);
 
 /// A velocity over time: from one to another along half a cosine, and, where `cruise` ends, to rest
 /// along another.
@@ -78,7 +78,7 @@ public:
     double slide_velocity(int axis, double t) const;
 
     /// What a step has felt: force on the lowest layer, eV/Å, positive upwards; gone:
-    /// out_of_reach().
+    /// beyond_range().
     struct Felt {
         double time = 0.0, force = 0.0, top = 0.0;
         bool gone = false;

@@ -69,7 +69,7 @@ class QuasistaticPath {
 public:
     QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);
 
-    /// The undisplaced block, where nothing is in reach.
+    /// The undisplaced block, beyond the interaction range.
     void start();
     /// The block as it is. from_apart: works are counted from the solids at rest apart, so that the
     /// first point has the energy of this state; otherwise from here. remembers: branches keep

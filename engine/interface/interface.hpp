@@ -42,8 +42,8 @@ ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks
 struct InterfaceMaps {
     int nx = 0, ny = 0;
     std::vector<std::uint8_t> contact; ///< 1 where the nearest atom is within contact distance
-    std::vector<double> distance; ///< to the nearest atom, Å; infinite where none is in reach; over
-                                  ///< a wall the gap, 0 where it is negative
+    std::vector<double> distance; ///< to the nearest atom, Å; infinite where none is within the
+                                  ///< cutoff; over a wall the gap, 0 where it is negative
     std::vector<double> gap; ///< height above the substrate below (a wall, or bilinear between its
                              ///< atoms), Å
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
@@ -74,8 +74,8 @@ public:
     InterfaceMaps maps(const VectorPlane<const double>& displacement,
                        double reference_height) const;
 
-    /// The reference height from which nothing is in reach of undisplaced sites: highest atom +
-    /// reach_of().
+    /// The reference height from which undisplaced sites are beyond the interaction range: highest
+    /// atom + reach_of().
     double start_height() const;
     /// Down to this reference height the attraction of undisplaced sites only grows; the start
     /// height, where no better bound is known.

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The path of a scene (drive.path): its segments one after the other, as steps in time
+// The path of a scene (drive.path): its segments one after the other, as time steps
 // (time_path.hpp) or as points in force balance (static_path.hpp). Who drives it, a run
 // (engine/run/run.cpp) or a script, does:
 //
@@ -140,7 +140,7 @@ public:
     using Kept = std::function<std::string()>;
 
     // Checkpoints: numbers, and arrays of whole planes. Who reads one restores the numbers, reads
-    // the arrays, and calls restored(); the path then goes on to the same bits.
+    // the arrays, and calls restored(); the path then goes on bitwise identically.
 
     virtual void collect(CollectNumbers& numbers) = 0;
     virtual void restore(RestoreNumbers& numbers) = 0;

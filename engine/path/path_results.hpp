@@ -23,11 +23,11 @@ struct SegmentResults {
     Segment::Kind kind = Segment::approach;
     // Works are done on the solids, meV/Å^2; from rest beyond the interaction range where the path
     // starts there, and to rest there at a pull-off.
-    /// By what drives or holds the block: the top plane (in time with the medium that damps, which
-    /// moves along), or the holder of the mean height.
+    /// By what drives or holds the block: the top plane (on a dynamic path with the medium that
+    /// damps, which moves along), or the holder of the mean height.
     double work = 0.0;
-    /// Of the interface's force on the mean height of the lowest layer, int F dz. Empty at a held
-    /// top without time, where the mean height jumps at instabilities.
+    /// Of the interface's force on the mean height of the lowest layer, int F dz. Empty on a
+    /// quasi-static path that controls the top, where the mean height jumps at instabilities.
     std::optional<double> interface_work;
     std::optional<double> relaxed; ///< dissipated in time by a block that relaxes
     double lost = 0.0;             ///< damped (less the heat of a thermostat) or dissipated
@@ -35,7 +35,7 @@ struct SegmentResults {
     /// at zero load behind an approach (empty where that is not known), or about the solids at rest
     /// apart behind a pull-off.
     std::optional<double> kinetic;
-    std::optional<double> uncertainty;  ///< of works and lost; without time only
+    std::optional<double> uncertainty;  ///< of works and lost; quasi-static only
     double attraction = 0.0;            ///< the largest, eV/Å
     std::optional<double> lateral_mean; ///< force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most; ///< the largest of it, eV/Å

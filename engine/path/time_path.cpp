@@ -43,7 +43,8 @@ Path::Made TimePath::advance(const Wish& wish) {
             simulation_.drive().velocity(0.0) != 0.0
                 ? now.kinetic_energy
                 : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
-        // The drive sets it in motion and brings it within reach before the first step.
+        // The drive sets it in motion and brings it within the interaction range before the first
+        // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
     }
     if (ended_)
@@ -76,7 +77,7 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     const Segment& segment = case_.path[number];
     results_.feel(segment, now);
     if (drive.by_hand()) return std::nullopt;
-    const bool gone = out_of_reach(now.top, now.force, results_.strongest, start_.force);
+    const bool gone = beyond_range(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
     end_ = now;
     interface_work_ = simulation_.balance().interface;
@@ -137,8 +138,8 @@ Works TimePath::so_far() const {
             .uncertainty = {}};
 }
 
-/// The same, if the block were brought to rest and out of reach from there as a rigid body: bound,
-/// moving: its energies, eV.
+/// The same, if the block were brought to rest and beyond the interaction range from there as a
+/// rigid body: bound, moving: its energies, eV.
 Works TimePath::at_rest_apart(Works works, double bound, double moving) {
     works.on_solids -= bound + moving;
     *works.interface += bound;

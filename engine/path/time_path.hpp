@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A path in time: a simulation, whose drive is told after each step what the step met, and the
+// A dynamic path: a simulation, whose drive is told after each step what the step met, and the
 // works of the segments.
 #pragma once
 
@@ -16,8 +16,8 @@ namespace asperity {
 
 class TimePath : public Path {
 public:
-    /// The undeformed block where the path starts. A warm block starts where nothing is in reach:
-    /// the way down is what warms it.
+    /// The undeformed block where the path starts. A warm block starts beyond the interaction
+    /// range: the way down is what warms it.
     TimePath(const Case& c, const Surface& surface, const Communicator& ranks);
 
     bool done() const override { return !ended_ && !concluding_ && simulation_.drive().done(); }

@@ -15,7 +15,7 @@ namespace asperity {
 struct Segment {
     enum Kind {
         approach, ///< down, through attraction, to drive.load
-        pull_off, ///< up, until nothing is in reach
+        pull_off, ///< up, until beyond the interaction range
         relax,    ///< straight to the relaxed state under drive.load, nothing held
         load,     ///< up or down to a pressure, MPa
         height,   ///< up or down to a height of the lowest layer, Å: its mean height where that is

@@ -30,7 +30,8 @@ SegmentRule::End SegmentRule::look(double force, bool apart, double slack, bool 
         if (load_ < -slack) refuse();
         return End::at_load; // an attraction too weak to be told from none
     }
-    // A force of exactly zero is no contact: a warm block's tip was in reach and left it again.
+    // A force of exactly zero is no contact: a warm block's tip was within the interaction range
+    // and left it again.
     if (force == 0.0) {
         attracted_ = false;
         return End::no;

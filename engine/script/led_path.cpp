@@ -30,8 +30,8 @@ const char* name(Constraint::Of held) {
     return held == Constraint::Of::top ? "the top plane" : "the mean height";
 }
 
-/// The same solids without time.
-Case without_time(const Case& c) {
+/// The same solids, quasi-static.
+Case quasistatic(const Case& c) {
     if (c.ranks != 1)
         refuse("Statics", fmt::format("on {} ranks", c.ranks),
                "it is one process, on all its threads",
@@ -50,7 +50,7 @@ Surface checked_surface(const Case& c) {
 } // namespace
 
 LedPath::LedPath(const Case& c)
-    : case_(without_time(c)), surface_(checked_surface(case_)),
+    : case_(quasistatic(c)), surface_(checked_surface(case_)),
       path_(case_, surface_, Communicator()) {
     before_.mean_height = path_.reference_height();
 }

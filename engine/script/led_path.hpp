@@ -3,7 +3,7 @@
 //
 // A quasi-static path (engine/path/static_path.hpp) by hand (asperity.Statics of Python): its
 // solids in force balance, where they are led. What is found depends on the way there, as on a path
-// of a run; what is lost on it is counted. It starts out of reach.
+// of a run; what is lost on it is counted. It starts beyond the interaction range.
 //
 // The mean height is held, or the top plane; the first one that is set decides, or a load, which
 // then holds what drive.control says. Of a dynamic scene the same solids are taken, as if
@@ -86,7 +86,8 @@ private:
     const Surface surface_;
     StaticPath path_;
     std::optional<Held> held_;
-    /// It begins where the block is, not out of reach: relaxed, or with what branches remember.
+    /// It begins where the block is, not beyond the interaction range: relaxed, or with what
+    /// branches remember.
     std::optional<bool> remembers_;
     Point before_; ///< the last of the path before
     struct Goal {

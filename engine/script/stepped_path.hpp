@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A path in time (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
+// A dynamic path (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
 // Python): it is stepped, observed, led by hand, pushed and saved. It is the one that a run drives.
 //
 // All ranks of the communicator make the same calls with the same arguments, but for what is
@@ -64,9 +64,9 @@ private:
 
 class SteppedPath : public std::enable_shared_from_this<SteppedPath> {
 public:
-    /// At its start. Throws io::SceneError for a scene without time, or that a run would refuse.
+    /// At its start. Throws io::SceneError for a quasi-static scene, or that a run would refuse.
     SteppedPath(Case c, SceneText source, const Communicator& ranks);
-    /// Of a file of save(): it goes on to the same bits.
+    /// Of a file of save(): it goes on bitwise identically.
     static std::shared_ptr<SteppedPath> resume(const std::string& file, const Communicator& ranks);
 
     /// n steps, or fewer: none are made past the end of the path. Returns how many were. The last

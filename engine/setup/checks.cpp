@@ -28,7 +28,7 @@ void check_path(const Case& c, io::Problems& problems) {
                      "for example path = [\"approach\", \"pull-off\"]");
     const bool frictionless =
         c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
-    bool apart = true; // nothing is in reach
+    bool apart = true; // beyond the interaction range
     for (std::size_t i = 0; i < c.path.size(); ++i) {
         const Segment& segment = c.path[i];
         const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {

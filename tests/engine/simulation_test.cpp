@@ -98,11 +98,11 @@ TEST(Drive, PullOffEndsOutOfReach) {
 }
 
 TEST(Drive, NothingIsOutOfReachBeforeTheTopIsBackAtItsStart) {
-    EXPECT_FALSE(out_of_reach(-1e-9, 0.0, 9.0)) << "the force passes through zero on the way";
-    EXPECT_TRUE(out_of_reach(0.0, 0.0, 9.0));
-    EXPECT_TRUE(out_of_reach(1.0, -8.9e-6, 9.0));
-    EXPECT_FALSE(out_of_reach(1.0, -9.1e-6, 9.0));
-    EXPECT_FALSE(out_of_reach(1.0, 9.1e-6, 9.0));
+    EXPECT_FALSE(beyond_range(-1e-9, 0.0, 9.0)) << "the force passes through zero on the way";
+    EXPECT_TRUE(beyond_range(0.0, 0.0, 9.0));
+    EXPECT_TRUE(beyond_range(1.0, -8.9e-6, 9.0));
+    EXPECT_FALSE(beyond_range(1.0, -9.1e-6, 9.0));
+    EXPECT_FALSE(beyond_range(1.0, 9.1e-6, 9.0));
 }
 
 TEST(Drive, SegmentsThatWereNotAskedForAreLeftOut) {

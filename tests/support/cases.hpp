@@ -46,7 +46,7 @@ void lead(Simulation& s, const Look& look, bool observe = true) {
         const StepRecord& now = s.step(observe);
         strongest = std::max(strongest, -now.force);
         const bool over = s.drive().observe(
-            {now.time, now.force, now.top, out_of_reach(now.top, now.force, strongest)});
+            {now.time, now.force, now.top, beyond_range(now.top, now.force, strongest)});
         look(now, segment, over);
         if (s.steps() > 300000) throw std::runtime_error("a path in time has no end");
     }
