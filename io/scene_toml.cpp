@@ -110,7 +110,10 @@ std::string shown(const toml::node& node) {
         text << "{...}";
     else
         node.visit([&](const auto& value) {
-            text << toml::toml_formatter{value, toml::format_flags::none};
+            if constexpr (toml::is_floating_point<decltype(value)>)
+                text << fmt::format("{}", *value); // 0.6, of which TOML++ makes 0.59999999999999998
+            else
+                text << toml::toml_formatter{value, toml::format_flags::none};
         });
     std::string result = text.str();
     std::replace(result.begin(), result.end(), '\n', ' ');
