@@ -178,9 +178,9 @@ public:
         const std::size_t equals = assignment.find('=');
         std::string path = assignment.substr(0, equals);
         std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
-        if (equals == std::string::npos)
-            return add(at, "there is no =", "an override is section.key=value",
-                       "for example --set surface.rms=1.5");
+        if (equals == std::string::npos || equals == 0)
+            return add(at, equals == 0 ? "there is no key before the =" : "there is no =",
+                       "an override is section.key=value", "for example --set surface.rms=1.5");
         const Schema::Key* key = schema_.find(path);
         if (!key) return unknown(path, at);
         // A path may have as many dots as it likes; a table or a second line may not.
