@@ -110,7 +110,10 @@ std::string shown(const toml::node& node) {
         text << "{...}";
     else
         node.visit([&](const auto& value) {
-            text << toml::toml_formatter{value, toml::format_flags::none};
+            if constexpr (toml::is_floating_point<decltype(value)>)
+                text << fmt::format("{}", *value); // 0.6, of which TOML++ makes 0.59999999999999998
+            else
+                text << toml::toml_formatter{value, toml::format_flags::none};
         });
     std::string result = text.str();
     std::replace(result.begin(), result.end(), '\n', ' ');
@@ -175,9 +178,9 @@ public:
         const std::size_t equals = assignment.find('=');
         std::string path = assignment.substr(0, equals);
         std::erase_if(path, [](char c) { return c == ' ' || c == '\t'; });
-        if (equals == std::string::npos)
-            return add(at, "there is no =", "an override is section.key=value",
-                       "for example --set surface.rms=1.5");
+        if (equals == std::string::npos || equals == 0)
+            return add(at, equals == 0 ? "there is no key before the =" : "there is no =",
+                       "an override is section.key=value", "for example --set surface.rms=1.5");
         const Schema::Key* key = schema_.find(path);
         if (!key) return unknown(path, at);
         // A path may have as many dots as it likes; a table or a second line may not.

@@ -264,9 +264,10 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     if (seam > worst_seam * inside)
         s.notes.push_back(fmt::format(
             "the map does not repeat: over the box's edges heights jump by {:.3g} Å (rms), between "
-            "neighbours inside by {:.3g} Å. The surface keeps this cliff; "
-            "surface.detrend = \"periodic\" removes it",
-            seam, inside));
+            "neighbours inside by {:.3g} Å. The surface keeps this cliff; {}",
+            seam, inside,
+            o.kind == SurfaceKind::atoms ? "a box of whole periods of the substrate has none"
+                                         : "surface.detrend = \"periodic\" removes it"));
     s.height = std::move(h);
     return finish(o, std::move(s));
 }

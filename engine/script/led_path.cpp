@@ -23,7 +23,8 @@ namespace {
 
 void require_number(double value) {
     if (!std::isfinite(value))
-        refuse("Statics", fmt::format("is led to {}", value), "that is no number", "give one");
+        refuse("Statics", fmt::format("cannot go to {}", value), "that is no number",
+               "give a length in Å or a load in MPa");
 }
 
 const char* name(Constraint::Of held) {
@@ -72,14 +73,15 @@ void LedPath::set_load(double pressure) {
 void LedPath::set_load(const std::string& pressure) {
     const io::ParsedQuantity parsed = io::parse_quantity(pressure, "MPa");
     if (!parsed.why.empty())
-        refuse("load", fmt::format("= \"{}\"", pressure), parsed.why, parsed.fix);
+        refuse("load", fmt::format("\"{}\" cannot be read as a quantity", pressure), parsed.why,
+               parsed.fix);
     set_load(parsed.value);
 }
 
 void LedPath::set_hold(double time) {
     if (!case_.effects.branches)
-        refuse("hold", "of a block that does not relax",
-               "without a block that relaxes, force balance does not change with time",
+        refuse("hold", "has no effect on this block",
+               "it does not relax, so that force balance does not change with time",
                "give the block branches (block.prony)");
     if (!(time > 0.0) || !std::isfinite(time))
         refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");
@@ -88,7 +90,9 @@ void LedPath::set_hold(double time) {
 
 void LedPath::set_hold(const std::string& time) {
     const io::ParsedQuantity parsed = io::parse_quantity(time, "ps");
-    if (!parsed.why.empty()) refuse("hold", fmt::format("= \"{}\"", time), parsed.why, parsed.fix);
+    if (!parsed.why.empty())
+        refuse("hold", fmt::format("\"{}\" cannot be read as a quantity", time), parsed.why,
+               parsed.fix);
     set_hold(parsed.value);
 }
 

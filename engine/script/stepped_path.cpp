@@ -42,7 +42,7 @@ void require_finite(const char* name, const VectorPlane<const double>& field) {
 
 Surface checked_surface(const Case& c, const Communicator& ranks) {
     if (!c.in_time)
-        refuse("Simulation", fmt::format("of the scene \"{}\", which has no time", c.scene.name),
+        refuse("Simulation", fmt::format("cannot step the scene \"{}\"", c.scene.name),
                "drive.mode = \"quasistatic\", or drive.path = [\"relax\"], finds force balance "
                "without steps",
                "take asperity.Statics, or drive.mode = \"dynamic\" and drive.path = "
@@ -125,7 +125,8 @@ std::shared_ptr<SteppedPath> SteppedPath::resume(const std::string& file,
 
 long long SteppedPath::step(long long n, const Look& look) {
     if (n < 0)
-        refuse("step", fmt::format("of {} steps", n), "time goes forwards", "a number from 0 on");
+        refuse("step", fmt::format("cannot make {} steps", n), "time goes forwards",
+               "give a number from 0 on");
     require_whole();
     if (stepping_)
         refuse("step", "was called by an observer", "it is called between two steps",

@@ -365,6 +365,9 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
     """Writes the map or the atoms of `source` to `target`; of an instrument's file the channel of this name or number.
     Returns what was found, as lines of text."""
     source, target = str(source), Path(target)
+    if target.suffix.lower() not in (".h5", ".hdf5"):
+        raise _refuse(target, "is no name of an HDF5 file", "what is written is HDF5",
+                      f"for example {target.with_suffix('.h5')}")
     if target.exists():
         raise _refuse(target, "is there already", "", "name another file, or remove it")
     found = _found(source, channel)
@@ -380,10 +383,11 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
                 attributes.update({k: found[k] for k in ("unit", "scale", "size_unit") if found.get(k) is not None})
                 size = found.get("size") or ()
                 attributes.update(dict(zip(("size_x", "size_y"), map(float, size))))
-                unit = found.get("unit") or "? (surface.file_unit)"
+                unit = found.get("unit") or "an unknown unit (set surface.file_unit)"
                 said = " x ".join(f"{s:g}" for s in size) + " " + (found.get("size_unit") or unit)
-                text = (f"{heights.shape[1]} x {heights.shape[0]} points, {said if size else 'of unknown size'}, "
-                        f"heights in {unit}, {int(numpy.isnan(heights).sum())} without a height")
+                text = (f"{heights.shape[1]} x {heights.shape[0]} points, "
+                        f"{said if size else 'of unknown size (set surface.file_size)'}, heights in {unit}; points without "
+                        f"a height: {int(numpy.isnan(heights).sum())}")
             else:
                 for name, kind in (("position", "f8"), ("box", "f8"), ("type", "i4")):
                     file[name] = numpy.array(found[name], kind)

@@ -100,7 +100,9 @@ class Cost:
     def choose(self, targets: tuple[float, ...], run: Callable[[list[Row]], bool]) -> bool:
         """Runs the cheapest combination of each base that may keep each target, side by side, and then further ones of
         those that missed. False: stopped before the end."""
-        searches = [(base, target, self.combinations(base)) for base in self.case.bases for target in targets]
+        varied = {parameter.part for parameter in self.case.parameters}
+        bases = [base for base in self.case.bases if varied.intersection(base.parts)]  # --parameters may leave out all of one
+        searches = [(base, target, self.combinations(base)) for base in bases for target in targets]
         firsts = [next((row for _, error, row in every if error <= target), None) for _, target, every in searches]
         return self._add([row for row in firsts if row], run) and all(self._search(*one, run) for one in searches)
 

@@ -59,7 +59,8 @@ def replacing(path: Path) -> Iterator[Path]:
     except OSError as error:
         raise _refuse(path, error) from None
     finally:
-        beside.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # no such place, or not a directory
+            beside.unlink(missing_ok=True)
 
 
 def write(path: Path, content: str | bytes) -> None:

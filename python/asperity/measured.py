@@ -54,6 +54,11 @@ class Adhesion:
         return f"<Adhesion {self.directory}: {self.quote()}>"
 
 
+ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
+             "surface.file_size": "size"}
+"""What a scene's keys are called here."""
+
+
 def _with_unit(name: str, value: object) -> str:
     """Text of a quantity with its unit, as scenes have it."""
     text = re.sub(r"m2$", "m^2", str(value).strip())
@@ -133,7 +138,8 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
-        raise SceneError(re.sub(r"^\S*scene\.toml:\d+:\d+: ", "", str(error), flags=re.M)) from None
+        said = re.sub(r"^.*?: (?=[a-z]+\.\w+ = )", "", str(error), flags=re.M)  # the place in a scene that nobody has seen
+        raise SceneError(re.sub(r"^[a-z]+\.\w+(?= = )", lambda key: ARGUMENTS.get(key[0], key[0]), said, flags=re.M)) from None
     if not keys.number("interface.adhesion") > 0.0:
         raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)

@@ -136,6 +136,8 @@ def _states(page: Page, run: Result) -> None:
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
     """Numbers by the names of columns."""
     def cell(line: Values, name: str, head: str) -> str:
+        if name not in line:  # the friction of a segment that is no slide
+            return "–"
         text, value = line.text(name) or minus(sentences.general(line.find(name), digits)), line.number(name)
         return f"{text} ({minus(terminal.millijoules(value))})" if head.endswith(BOTH) and value is not None else text
 

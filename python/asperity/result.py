@@ -51,6 +51,9 @@ class Attributes:
         except KeyError:
             raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
 
+    def __missing__(self, key: str) -> Any:
+        raise KeyError(f"{self._called} has no {key!r}; it has {', '.join(self)}")
+
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self]
 
@@ -146,6 +149,9 @@ def expect(directory: Path, *files: str) -> None:
         raise InputOutputError(str(directory), "is no result directory",
                                "it is a file" if directory.exists() else "there is no such directory", example)
     if not any((directory / file).exists() for file in files):
+        if (directory / "sweep.json").exists():
+            raise InputOutputError(str(directory), "holds a sweep, not the result of one run", "sweep.json is in it",
+                                   "name the directory of one of its points; in Python asperity.load_sweep() takes it whole")
         raise InputOutputError(str(directory), "holds no result",
                                f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
                                example + "; a run that was killed leaves no result.json before it is resumed")

@@ -46,6 +46,9 @@ def state_in_words(run: Result, name: str) -> str:
         return name.removeprefix("after-approach:") + " ps after zero load"
     if name.startswith("step-"):
         return "at step " + name.removeprefix("step-")
+    number = name.removeprefix("segment-")
+    if number != name and number.isdecimal() and int(number) < len(run.segment_names):
+        return f"at the end of segment {int(number) + 1}, “{run.segment_names[int(number)]}”"
     return f"“{name}”"
 
 

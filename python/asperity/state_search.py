@@ -190,8 +190,8 @@ class Search:
         misses = [f"states whose force passes the load and comes back within {self.case['step']:.3g} Å",
                   f"branches that no instability of this path leads to, or one that loses less than {LEAST_LOSS:.1%} "
                   "of the energies met", f"states below a mean height of {innermost:.2f} Å"]
-        misses += [f"states in which sites rest in other hollows: {log['tried']} random starts led to {random} that no "
-                   "path leads to"] * self.case["lateral"]
+        misses += [f"states in which sites rest in other hollows: {log['tried']} random starts led to "
+                   f"{random or 'none'} of which the path leads to none"] * self.case["lateral"]
         misses += [f"the ends of {log['failed']} relaxations that did not reach drive.tolerance"] * (log["failed"] > 0)
         return {"states": [{**{name: s[name] for name in NUMBERS}, "barrier": s.get("barrier"), "found": s["found"]}
                            for s in states],
@@ -244,7 +244,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
             search.resume(place / UNFINISHED)
         while search.advance():
             if report:
-                report(f"{search.log['stage']}, {search.now['z']:.2f} Å, {len(search.log['states'])} states")
+                report(f"{search.log['stage']}, {search.now['z']:.2f} Å, states: {len(search.log['states'])}")
             if place and time.monotonic() - saved >= SAVE_EVERY:
                 search.save(place / UNFINISHED)
                 saved = time.monotonic()

@@ -145,6 +145,10 @@ def load_sweep(directory: str | os.PathLike) -> Sweep:
     if not path.exists() and (several := sorted(path.parent.glob("*/sweep.json"))):
         raise InputOutputError(str(directory), "holds a sweep for each of several scenes",
                                ", ".join(p.parent.name for p in several), f"load one of them: {several[0].parent}")
+    if not path.exists():
+        raise InputOutputError(str(directory), "holds no sweep", f"{path.name} is not in it" if path.parent.is_dir() else
+                               "there is no such directory",
+                               "name a directory that asperity sweep has written; of a single run: asperity.load()")
     found = read_json(path)
     if not isinstance(found.find("points"), list):
         raise InputOutputError(str(path), "is no sweep", "it has no list of points",

@@ -93,6 +93,9 @@ class Columns(UserDict):
         some = ", ".join(list(self)[:6]) + ", ..." * (len(self) > 6)
         return f"<{type(self).__name__}: {rows} rows, {len(self)} columns: {some}>"
 
+    def __missing__(self, name: str) -> Any:
+        raise KeyError(f"no column {name!r}; there are {', '.join(self)}")
+
     @property
     def units(self) -> dict[str, str]:
         return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}

@@ -52,7 +52,7 @@ def _text(point: Values) -> str:
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
     def row(words: str, energy: float | None, ratio: float, error: float | None = None) -> list[str]:
-        return [words, *(("", "") if energy is None else (f"{energy:.4g}", terminal.millijoules(energy))), f"{ratio:.5f}",
+        return [words, *(("", "") if energy is None else (f"{energy:#.4g}".rstrip("."), terminal.millijoules(energy))), f"{ratio:.5f}",
                 "" if error is None else f"{error:.1e}"]
 
     def over(energy: float) -> float:

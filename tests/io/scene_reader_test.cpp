@@ -346,6 +346,7 @@ TEST(SceneReader, KeysOfManyParts) {
         EXPECT_EQ(only(text).why, "a key has more than 32 parts") << text.substr(0, 30);
     only("", {"body.cups={" + deep + "=1}"});
     only("", {"body.cups=1\n" + deep + "=1"});
+    EXPECT_EQ(only("", {"=3"}).what, "there is no key before the =");
     // Strings and comments may have as many dots as they like.
     EXPECT_TRUE(read("[body] # " + deep + "\nmaker = \"" + deep + "\"\n").problems.empty());
     EXPECT_TRUE(read("[body]\nmaker = '''\n" + deep + "'''\n").problems.empty());

@@ -102,7 +102,7 @@ def test_gaps_are_missing_points(tmp_path):
              "nodata_value -1\n1 2\n-1 -1\n", "points.xyz": "0 0 1\n1 0 2\n1 1 nan\n", "inf.txt": "1 2\ninf -inf\n"}
     for name, text in holes.items():
         (tmp_path / name).write_text(text)
-        assert "2 without a height" in convert(tmp_path / name, tmp_path / f"{name}.h5")
+        assert "points without a height: 2" in convert(tmp_path / name, tmp_path / f"{name}.h5")
         with h5py.File(tmp_path / f"{name}.h5") as file:
             assert numpy.array_equal(file["heights"], [[1, 2], [numpy.nan, numpy.nan]], equal_nan=True), name
 
@@ -142,6 +142,10 @@ def test_what_could_become_a_wrong_map_is_refused(tmp_path):
         assert file["heights"][:].tolist() == [[1, 2], [3, 4]] and not set(file["heights"].attrs)
     with pytest.raises(InputOutputError, match="is there already"):
         convert(bad, out)
+    with pytest.raises(InputOutputError, match="is no name of an HDF5 file"):
+        convert(bad, tmp_path / "out.npy")
+    with pytest.raises(InputOutputError, match="cannot be written"):
+        convert(bad, bad / "out.h5")
     with pytest.raises(InputOutputError, match="cannot be read\n.*there is no such file\n.*check the path"):
         convert(tmp_path / "none.txt", tmp_path / "none.h5")
 

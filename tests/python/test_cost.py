@@ -126,6 +126,13 @@ def test_errors_add_and_times_multiply():
     assert outcome_of(made_up(VALUES, exact=True), [5e-4], {})[0] == "2, best"
 
 
+def test_a_base_of_which_nothing_is_varied_is_left_out():
+    """`--parameters timestep`: nothing of a quasi-static path is varied."""
+    made = made_up(VALUES)
+    made.case.bases.insert(0, Base("quasi-static", ["drive.mode=quasistatic"], ["tolerance"], "state"))
+    assert made.choose((0.01,), lambda rows: True) and "quasi-static" not in [row.label for row in made.rows]
+
+
 def test_only_what_was_measured_is_chosen():
     """A combination that misses, or whose run fails, gives way to one that promises half of its error."""
     assert outcome_of(made_up(VALUES), [0.02], {"0, 0": 0.03}) == ("2, 0", ["0, 0", "2, 0"])

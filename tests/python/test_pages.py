@@ -107,9 +107,10 @@ def test_a_table_takes_some_rows_and_columns(tmp_path):
 
 def test_pages_are_short():
     written_whole = {f"docs/reference/{name}.md" for name in ("python", "command-line", "result", "scene")} | {"docs/reports/performance.md"}
-    words = {str(page.relative_to(ROOT)): len(page.read_text().split()) for page in PAGES if page.is_relative_to(ROOT / "docs")}
+    read = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *(page for page in PAGES if page.is_relative_to(ROOT / "docs"))]
+    words = {str(page.relative_to(ROOT)): len(page.read_text().split()) for page in read}
     assert written_whole < set(words)
-    assert sum(count for page, count in words.items() if page not in written_whole) <= 18000, words
+    assert sum(count for page, count in words.items() if page not in written_whole) <= 18800, words
 
 
 def test_references_are_current():

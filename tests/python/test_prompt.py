@@ -189,3 +189,19 @@ def test_run_says_how_far_it_is(tmp_path, capfd):
     assert re.search(r"%.*MPa, contact", capfd.readouterr().err)
     asperity.run({**TINY, **slow}, {"drive.max_steps": 12000}, out=tmp_path / "silent")  # no terminal, no notebook
     assert capfd.readouterr().err == ""
+
+
+def test_a_wrong_name_is_told_what_there_is(path_run, results):
+    for error, call, says in (
+            (KeyError, lambda: path_run["gama"], "binding_energy"), (KeyError, lambda: path_run.series["time_"], "force"),
+            (asperity.InputOutputError, lambda: path_run.plot.map("gapp"), "maps: .*gap"),
+            (asperity.InputOutputError, lambda: asperity.load_sweep(path_run.directory), "asperity.load"),
+            (asperity.InputOutputError, lambda: asperity.load_sweep("none"), "no such directory"),
+            (asperity.SceneError, lambda: asperity.run({"block": {"poisson": 0.6}}), "block.poisson = 0.6 is")):
+        with pytest.raises(error, match=says):
+            call()
+    sweep = asperity.sweep(STATIC, {"surface.rms": [0.1, 0.2], "drive.path": "relax"}, out=results / "wrong-names")
+    with pytest.raises(KeyError, match="binding_energy"):
+        sweep.table["gama"]
+    with pytest.raises(asperity.InputOutputError, match="holds a sweep"):
+        asperity.load(results / "wrong-names")

@@ -129,6 +129,7 @@ def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     assert state.startswith(first + " the solids are bound") and theory.startswith(f"Persson’s theory{under} gives")
     assert theory.endswith(" mJ/m²)" + f" {at}" * bool(under) + ".")
     assert sentences.state_in_words(run, "relaxed") == at
+    assert sentences.state_in_words(run, f"segment-{len(path) - 1}") == f"at the end of segment {len(path)}, “{path[-1]}”"
 
 
 def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):

@@ -101,7 +101,7 @@ def contact(run: Result, ax: Axes) -> bool:
     if touching.size and np.ptp(touching) < 0.5 * np.ptp(top):  # most of the way is through empty space
         room = max(0.15 * np.ptp(touching), 0.01 * np.ptp(top))
         ax.set_xlim(touching.min() - room, touching.max() + room)
-    return finish(ax, TOP, "fraction of the sites")
+    return finish(ax, TOP, "fraction of the sites", legend="above" if len(run.segment_names) > 2 else True)
 
 
 def friction(run: Result, ax: Axes) -> bool:
@@ -283,7 +283,8 @@ class RunPlots:
         return f"<plots of {self._run.directory}: {', '.join(dir(self))}>"
 
     def _draw(self, name: str, ax: Axes | None, draw: Callable[..., bool], *of: Any) -> Axes:
-        return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data")
+        return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data",
+                          "see drive.path, output.series and output.fields")
 
     def __getattr__(self, name: str) -> Callable[..., Axes]:
         if name in OF_RUN:
@@ -302,7 +303,10 @@ class RunPlots:
 
     def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
         """A map of a state: "gap", "pressure", "contact", ...; None: the relaxed state, or the first that there is."""
-        return self._draw(name, ax, map_of, self._run, self._state(state), name)
+        if name not in (shown := self._state(state)):
+            raise InputOutputError(str(self._run.directory), f"has no map {name!r}", f"maps: {', '.join(shown)}",
+                                   "take one of these")
+        return self._draw(name, ax, map_of, self._run, shown, name)
 
     def __dir__(self) -> list[str]:
         return [*OF_RUN, *OF_STATE, "map"]

@@ -92,14 +92,15 @@ def style() -> Any:
     return matplotlib.rc_context(RC)
 
 
-def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str) -> Axes:
+def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str,
+               fix: str = "") -> Axes:
     """For people: draws into an axes, which is made if none is given; raises where there is nothing to draw."""
     if ax is None:
         import matplotlib.pyplot as plt
 
         ax = plt.subplots(layout="constrained")[1]
     if not draw(ax):
-        raise InputOutputError(where, f"has nothing for the plot {name!r}", why)
+        raise InputOutputError(where, f"has nothing for the plot {name!r}", why, fix)
     return ax
 
 
