@@ -130,18 +130,6 @@ float longest(const float* const* v, int components, int n) {
     return most;
 }
 
-void clip(float bound, float* const* v, int components, int n) {
-    for (int i = 0; i < n; ++i) {
-        float length2 = 0.0f;
-        for (int c = 0; c < components; ++c)
-            length2 += v[c][i] * v[c][i];
-        if (!(length2 > bound * bound)) continue;
-        const float q = bound / std::sqrt(length2);
-        for (int c = 0; c < components; ++c)
-            v[c][i] *= q;
-    }
-}
-
 void tie(double k, double norm, const double* u, const double* f, float* to, int n) {
 #pragma omp simd
     for (int i = 0; i < n; ++i)
@@ -149,37 +137,51 @@ void tie(double k, double norm, const double* u, const double* f, float* to, int
 }
 
 template <int components>
-float move(const BallRow& row, const BallRule& rule, int n) {
-    float most = 0.0f, fastest = 0.0f;
-#pragma omp simd reduction(max : most, fastest)
+float move(const BallRow& row, const BallRule& rule_, int n) {
+    // Copies and selections of values: loops over pointers and branches within a row's structure
+    // the compiler would not make wide.
+    constexpr int z = components - 1, x = 0, y = components / 2;
+    const float *tx = row.target[x], *ty = row.target[y], *tz = row.target[z];
+    float *mx = row.momentum[x], *my = row.momentum[y], *mz = row.momentum[z];
+    double *ux = row.u[x], *uy = row.u[y], *uz = row.u[z];
+    float* const step_sizes = row.step_size;
+    const BallRule rule = rule_;
+    const float bound2 = rule.bound * rule.bound;
+    float most = 0.0f;
+#pragma omp simd reduction(max : most)
     for (int i = 0; i < n; ++i) {
-        float way[components], along = 0.0f, away2 = 0.0f, speed2 = 0.0f;
-        for (int c = 0; c < components; ++c) {
-            way[c] = static_cast<float>(static_cast<double>(row.target[c][i]) - row.u[c][i]);
-            along += way[c] * row.momentum[c][i];
-            away2 += way[c] * way[c];
+        const float wz = static_cast<float>(static_cast<double>(tz[i]) - uz[i]);
+        float along = wz * mz[i], away2 = wz * wz;
+        float wx = 0.0f, wy = 0.0f;
+        if constexpr (components == 3) {
+            wx = static_cast<float>(static_cast<double>(tx[i]) - ux[i]);
+            wy = static_cast<float>(static_cast<double>(ty[i]) - uy[i]);
+            along = wx * mx[i] + wy * my[i] + along;
+            away2 = wx * wx + wy * wy + away2;
         }
-        const float raised = rule.raise * row.step_size[i];
-        const float step_size = along < 0.0f         ? rule.cut * row.step_size[i]
-                                : raised < rule.most ? raised
-                                                     : rule.most;
-        const float keep = along < 0.0f ? 0.0f : rule.keep;
-        for (int c = 0; c < components; ++c) {
-            const float m = step_size * way[c] + keep * row.momentum[c][i];
-            row.momentum[c][i] = m;
-            speed2 += m * m;
-        }
-        row.step_size[i] = step_size;
+        const bool back = along < 0.0f;
+        const float raised = rule.raise * step_sizes[i], cut = rule.cut * step_sizes[i];
+        const float forth = raised < rule.most ? raised : rule.most;
+        const float step_size = back ? cut : forth, keep = back ? 0.0f : rule.keep;
+        step_sizes[i] = step_size;
         most = away2 > most ? away2 : most;
-        fastest = speed2 > fastest ? speed2 : fastest;
-    }
-    if (fastest > rule.bound * rule.bound) clip(rule.bound, row.momentum, components, n);
-    for (int c = 0; c < components; ++c) {
-        double* u = row.u[c];
-        const float* m = row.momentum[c];
-#pragma omp simd
-        for (int i = 0; i < n; ++i)
-            u[i] += static_cast<double>(m[i]);
+        float vz = step_size * wz + keep * mz[i], speed2 = vz * vz;
+        float vx = 0.0f, vy = 0.0f;
+        if constexpr (components == 3) {
+            vx = step_size * wx + keep * mx[i];
+            vy = step_size * wy + keep * my[i];
+            speed2 = vx * vx + vy * vy + speed2;
+        }
+        const float shorter = rule.bound / std::sqrt(speed2);
+        const float q = speed2 > bound2 ? shorter : 1.0f;
+        mz[i] = vz = q * vz;
+        uz[i] += static_cast<double>(vz);
+        if constexpr (components == 3) {
+            mx[i] = vx = q * vx;
+            my[i] = vy = q * vy;
+            ux[i] += static_cast<double>(vx);
+            uy[i] += static_cast<double>(vy);
+        }
     }
     return most;
 }
