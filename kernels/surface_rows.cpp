@@ -7,6 +7,7 @@
 #include "kernels/variant.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
@@ -17,26 +18,21 @@ inline double wide(double v) { return v; }
 inline double wide(float v) { return static_cast<double>(v); }
 
 template <class A, class B>
-double dot(const A* a, const B* b, int sites) {
-    const auto term = [&](int i) { return wide(a[i]) * wide(b[i]); };
-    const int length = 2 * (sites / 2 + 1);
-    // Partial sums, so many and added in this order whatever the width of registers and the
-    // compiler: left to the compiler, the order would be its own.
-    constexpr int lanes = 16;
+double dot(const A* a, const B* b, int rows, const double* weights) {
+    // A partial sum for each number of a row, added in this order whatever the width of registers
+    // and the compiler: left to the compiler, the order would be its own.
+    constexpr int lanes = 2 * block_columns;
     double part[lanes] = {};
-    int i = 0;
-    for (; i + lanes <= length; i += lanes)
+    for (int y = 0; y < rows; ++y, a += lanes, b += lanes)
 #pragma omp simd
         for (int k = 0; k < lanes; ++k)
-            part[k] += wide(a[i + k]) * wide(b[i + k]);
-    for (int k = 0; i + k < length; ++k)
-        part[k] += wide(a[i + k]) * wide(b[i + k]);
+            part[k] += wide(a[k]) * wide(b[k]);
+    for (int k = 0; k < lanes; ++k)
+        part[k] *= weights[k / 2];
     for (int half = lanes / 2; half > 0; half /= 2)
         for (int k = 0; k < half; ++k)
             part[k] += part[k + half];
-    double once = term(0) + term(1); // columns that have no mirror image
-    if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
-    return 2.0 * part[0] - once;
+    return part[0];
 }
 
 template <class From, class To>
@@ -54,61 +50,72 @@ void combine(double a, const From* from, double keep, To* to, int n) {
         to[i] = static_cast<To>(factor * static_cast<T>(from[i]) + kept * static_cast<T>(to[i]));
 }
 
-template <bool keep, class M, class T>
-void multiply_three(const MatrixRow<M>& m, int waves, const T* const* u, double norm_,
-                    T* const* f) {
-    using E = typename MatrixRow<M>::Entry;
-    const M *xx = m.at[E::xx], *yy = m.at[E::yy], *zz = m.at[E::zz];
-    const M *xy = m.at[E::xy], *xz = m.at[E::xz], *yz = m.at[E::yz];
-    const T *ux = u[0], *uy = u[1], *uz = u[2];
-    T *fx = f[0], *fy = f[1], *fz = f[2];
-    const T sign = static_cast<T>(m.sign), norm = static_cast<T>(norm_);
-#pragma omp simd
-    for (int i = 0; i < waves; ++i) {
-        const T cross = sign * static_cast<T>(xy[i]), across = sign * static_cast<T>(yz[i]);
-        const T along = static_cast<T>(xz[i]), a = static_cast<T>(xx[i]);
-        const T b = static_cast<T>(yy[i]), c = static_cast<T>(zz[i]);
-        const T x0 = ux[2 * i], x1 = ux[2 * i + 1];
-        const T y0 = uy[2 * i], y1 = uy[2 * i + 1];
-        const T z0 = uz[2 * i], z1 = uz[2 * i + 1];
-        // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
-        T gx0 = a * x0 + cross * y0 - along * z1, gx1 = a * x1 + cross * y1 + along * z0;
-        T gy0 = cross * x0 + b * y0 - across * z1, gy1 = cross * x1 + b * y1 + across * z0;
-        T gz0 = c * z0 + along * x1 + across * y1, gz1 = c * z1 - along * x0 - across * y0;
+template <bool keep, class T>
+void multiply_three(const T* m, int sites, const T* u, double norm_, const T* g, T* f) {
+    using namespace matrix_entry;
+    constexpr int n = block_columns;
+    const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(sites) * 2 * n;
+    const T norm = static_cast<T>(norm_);
+    for (int row = 0; row < sites; ++row, u += 2 * n, g += keep ? 2 * n : 0, f += 2 * n) {
+        const int mirrored = row < sites - row ? row : sites - row;
+        const T* const e = m + static_cast<std::ptrdiff_t>(mirrored) * count * n;
+        const T sign = 2 * row > sites ? T(-1) : T(1);
+        const T *ux = u, *uy = ux + component, *uz = uy + component;
+        T *fx = f, *fy = fx + component, *fz = fy + component;
+        const T *gx = g, *gy = nullptr, *gz = nullptr;
         if constexpr (keep) {
-            gx0 += norm * fx[2 * i];
-            gx1 += norm * fx[2 * i + 1];
-            gy0 += norm * fy[2 * i];
-            gy1 += norm * fy[2 * i + 1];
-            gz0 += norm * fz[2 * i];
-            gz1 += norm * fz[2 * i + 1];
+            gy = gx + component;
+            gz = gy + component;
         }
-        fx[2 * i] = gx0;
-        fx[2 * i + 1] = gx1;
-        fy[2 * i] = gy0;
-        fy[2 * i + 1] = gy1;
-        fz[2 * i] = gz0;
-        fz[2 * i + 1] = gz1;
+#pragma omp simd
+        for (int i = 0; i < n; ++i) {
+            const T cross = sign * e[xy * n + i];
+            const T across = sign * e[yz * n + i];
+            const T along = e[xz * n + i], a = e[xx * n + i];
+            const T b = e[yy * n + i], c = e[zz * n + i];
+            const T x0 = ux[2 * i], x1 = ux[2 * i + 1];
+            const T y0 = uy[2 * i], y1 = uy[2 * i + 1];
+            const T z0 = uz[2 * i], z1 = uz[2 * i + 1];
+            // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
+            T fx0 = a * x0 + cross * y0 - along * z1, fx1 = a * x1 + cross * y1 + along * z0;
+            T fy0 = cross * x0 + b * y0 - across * z1, fy1 = cross * x1 + b * y1 + across * z0;
+            T fz0 = c * z0 + along * x1 + across * y1, fz1 = c * z1 - along * x0 - across * y0;
+            if constexpr (keep) {
+                fx0 += norm * gx[2 * i];
+                fx1 += norm * gx[2 * i + 1];
+                fy0 += norm * gy[2 * i];
+                fy1 += norm * gy[2 * i + 1];
+                fz0 += norm * gz[2 * i];
+                fz1 += norm * gz[2 * i + 1];
+            }
+            fx[2 * i] = fx0;
+            fx[2 * i + 1] = fx1;
+            fy[2 * i] = fy0;
+            fy[2 * i + 1] = fy1;
+            fz[2 * i] = fz0;
+            fz[2 * i + 1] = fz1;
+        }
     }
 }
 
-template <class M, class T>
-void multiply(const MatrixRow<M>& m, int waves, int components, const T* const* u, double norm,
-              T* const* f) {
+template <class T>
+void multiply(const T* m, int sites, int components, const T* u, double norm_, const T* g, T* f) {
     if (components == 3) {
-        if (norm == 0.0)
-            multiply_three<false>(m, waves, u, norm, f);
+        if (norm_ == 0.0)
+            multiply_three<false>(m, sites, u, norm_, g, f);
         else
-            multiply_three<true>(m, waves, u, norm, f);
+            multiply_three<true>(m, sites, u, norm_, g, f);
         return;
     }
-    const M* zz = m.at[MatrixRow<M>::zz];
-    const T* from = u[0];
-    T* to = f[0];
-    for (int i = 0; i < 2 * waves; ++i) {
-        const double kept = norm == 0.0 ? 0.0 : norm * static_cast<double>(to[i]);
-        to[i] =
-            static_cast<T>(static_cast<double>(zz[i / 2]) * static_cast<double>(from[i]) + kept);
+    constexpr int n = block_columns;
+    const T norm = static_cast<T>(norm_);
+    for (int row = 0; row < sites; ++row) {
+        const T* const e = m + (row < sites - row ? row : sites - row) * n;
+        for (int k = 0; k < 2 * n; ++k) {
+            const int i = row * 2 * n + k;
+            const T kept = norm == T(0) ? T(0) : norm * g[i];
+            f[i] = e[k / 2] * u[i] + kept;
+        }
     }
 }
 
@@ -200,9 +207,8 @@ const RowKernels row_kernels = {dot<double, double>,
                                 combine<double, float>,
                                 combine<float, double>,
                                 combine<float, float>,
-                                multiply<double, double>,
-                                multiply<double, float>,
-                                multiply<float, float>,
+                                multiply<double>,
+                                multiply<float>,
                                 longest,
                                 tie,
                                 ball};
