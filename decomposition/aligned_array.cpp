@@ -12,7 +12,7 @@ namespace asperity {
 namespace {
 
 constexpr std::align_val_t cache_line{64};
-constexpr std::size_t smallest_kept = 1 << 16, largest_kept = 2 << 20;
+constexpr std::size_t smallest_kept = 1 << 16, largest_kept = 128 << 20;
 
 bool may_be_kept(std::size_t bytes) { return bytes >= smallest_kept && bytes <= largest_kept; }
 

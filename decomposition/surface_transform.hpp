@@ -3,9 +3,10 @@
 //
 // The Fourier transform of a surface in slabs of rows over the ranks.
 //
-// FFTW transforms one row and a few columns at a time, in arrays of a thread's own, by plans made
-// by estimate, not by measurement. So a transform is bitwise identical on any number of threads and
-// ranks. Between rows and columns the ranks exchange all their waves.
+// Rows of sites are made, transformed and handed over one at a time in the cache, and so are blocks
+// of columns of waves (waves.hpp). Between the two the ranks exchange all waves once. FFTW works in
+// arrays of a thread's own, by plans made by estimate, not by measurement, and always on as many
+// columns; so a transform is bitwise identical on any number of threads and ranks.
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -30,30 +31,32 @@ SiteField<T> site_field(const Slab& slab, int components) {
     return field;
 }
 
-/// Between the sites of a surface and its waves; T is double or float. Both directions collective;
-/// one at a time. Fields are those of site_field(), whose rows start on cache lines.
+/// Between the sites of a surface and its waves; T is double or float. All collective; one at a
+/// time.
 template <class T>
 class SurfaceTransform {
 public:
-    explicit SurfaceTransform(const Slab& slab);
+    SurfaceTransform(const Slab& slab, int components);
     ~SurfaceTransform();
     SurfaceTransform(SurfaceTransform&&) noexcept;
     SurfaceTransform& operator=(SurfaceTransform&&) noexcept;
 
-    /// N^2 u_q of one component.
-    void forward(const PlaneView<const T>& field, Waves<T>& waves, int component) const;
-    /// The field of one component, whose waves are lost.
-    void backward(Waves<T>& waves, int component, const PlaneView<T>& field) const;
-
     /// Row y of the slab of each component of a field, in the cache: to be written or read. Called
-    /// by all threads.
+    /// by all threads, as are the next two.
     using Rows = std::function<void(int y, T* const* rows)>;
-    /// N^2 u_q of the field that make() writes.
-    void forward(const Rows& make, Waves<T>& waves) const;
-    /// Hands over the field of some waves, which are lost.
-    void backward(Waves<T>& waves, const Rows& use) const;
-    /// to <- N^2 u_q of what change() makes of the field of `from`.
-    void through(const Waves<T>& from, const Rows& change, Waves<T>& to) const;
+    /// Block b of this rank's waves, in the cache: to be read, or changed.
+    using Blocks = std::function<void(int b, T* block)>;
+    /// Where the waves of block b are: there, or in the room, written by this.
+    using Give = std::function<const T*(int b, T* room)>;
+
+    /// Hands over N^2 u_q of the field that make() writes.
+    void forward(const Rows& make, const Blocks& use) const;
+    /// Hands over the field of some waves.
+    void backward(const Give& give, const Rows& use) const;
+    /// Hands over N^2 u_q of what change() makes of the field of some waves.
+    void through_sites(const Give& give, const Rows& change, const Blocks& use) const;
+    /// Hands over the field of what change() makes of N^2 u_q of the field that make() writes.
+    void through_waves(const Rows& make, const Blocks& change, const Rows& use) const;
 
 private:
     struct Parts;

@@ -1,13 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Fields on a square surface as plane waves, u(r) = sum_q u_q exp(i q r), cut into slabs of rows.
+// Fields on a square surface as plane waves, u(r) = sum_q u_q exp(i q r).
 //
 // u is real, so half of the waves say everything: columns q_x = 0 .. N/2, rows q_y = 0 .. N-1 (the
 // upper half of which are negative). A sum over all waves counts the columns inside twice. With u_q
 // normalised like this, Parseval reads  sum_r a.b = N^2 sum_q conj(a_q).b_q.
 //
-// A rank holds the same rows of the sites and of the waves (surface_transform.hpp).
+// A rank holds a slab of rows of the sites, and of the waves a range of columns. These are kept in
+// blocks of block_columns (kernels/surface_rows.hpp), the last of which is filled up with zeros: a
+// block of all components is small enough for a core's cache, so that it is transformed along y
+// and multiplied there while memory is read and written once (surface_transform.hpp).
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -15,18 +18,19 @@
 #include "decomposition/tile.hpp"
 #include "kernels/surface_rows.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <vector>
 
 namespace asperity {
 
-/// A rank's rows of a square surface of sites * sites.
+/// A rank's share of a square surface of sites * sites.
 struct Slab {
     Communicator ranks;
     int sites = 0;
-    int first = 0; ///< row
-    int rows = 0;
+    int first = 0; ///< row of sites
+    int rows = 0;  ///< of sites
 
     /// The whole surface, or this rank's share of it. Collective. Throws std::invalid_argument
     /// where a rank would have no row.
@@ -34,83 +38,116 @@ struct Slab {
 
     int columns() const { return sites / 2 + 1; }
     Tile tile() const { return {0, first, sites, rows, sites}; }
-    /// The row that is q_y = 0, if it is this rank's.
-    bool holds_uniform() const { return first == 0; }
+    int first_row(int rank) const {
+        return static_cast<int>(static_cast<long long>(sites) * rank / ranks.size());
+    }
+    /// Of all ranks' waves.
+    int all_blocks() const { return (columns() + block_columns - 1) / block_columns; }
+    /// A rank may have none, but the first has one.
+    int first_block(int rank) const {
+        return (all_blocks() * rank + ranks.size() - 1) / ranks.size();
+    }
+    int first_block() const { return first_block(ranks.rank()); }
+    int blocks() const { return first_block(ranks.rank() + 1) - first_block(); }
+    /// Numbers in a block of waves.
+    std::size_t block_length(int components) const {
+        return 2 * block_columns * static_cast<std::size_t>(components) *
+               static_cast<std::size_t>(sites);
+    }
+    /// The wave q = 0 is this rank's.
+    bool holds_uniform() const { return ranks.rank() == 0; }
+    /// How often a sum over all waves counts each column of a block of this rank.
+    std::array<double, block_columns> weights(int block) const {
+        std::array<double, block_columns> of{};
+        for (int i = 0; i < block_columns; ++i) {
+            const int x = (first_block() + block) * block_columns + i;
+            of[static_cast<std::size_t>(i)] = x == 0 || 2 * x == sites ? 1.0
+                                              : x < columns()          ? 2.0
+                                                                       : 0.0;
+        }
+        return of;
+    }
 };
 
-/// Coefficients of one or three components, each [q_y][q_x] as (real, imaginary) pairs of T. The
-/// last component is the normal one.
+/// Coefficients of one or three components, as (real, imaginary) pairs of T, in blocks of columns:
+/// [block][component][q_y][column]. The last component is the normal one.
 template <class T>
 class Waves {
 public:
     Waves(const Slab& slab, int components)
-        : slab_(slab), components_(components), row_(row_length(slab)),
-          component_(static_cast<std::size_t>(slab.rows) * row_) {
-        const std::size_t size = static_cast<std::size_t>(components) * component_;
-        data_ = aligned_array<T>(size);
+        : slab_(slab), components_(components),
+          data_(aligned_array<T>(static_cast<std::size_t>(blocks()) * length())) {
         clear();
     }
     void clear() {
 #pragma omp parallel for schedule(static)
-        for (int y = 0; y < slab_.rows; ++y)
-            for (int c = 0; c < components_; ++c)
-                for (int i = 0; i < length(); ++i)
-                    row(c, y)[i] = T(0);
+        for (int b = 0; b < blocks(); ++b)
+            std::fill_n(block(b), length(), T(0));
     }
 
     const Slab& slab() const { return slab_; }
-    int rows() const { return slab_.rows; }
-    int columns() const { return slab_.columns(); }
-    int length() const { return 2 * columns(); } ///< numbers in a row
     int components() const { return components_; }
-    T* component(int c) { return data_.get() + static_cast<std::size_t>(c) * component_; }
-    /// Row y of the slab.
-    T* row(int c, int y) { return component(c) + offset(y); }
-    const T* row(int c, int y) const {
-        return data_.get() + static_cast<std::size_t>(c) * component_ + offset(y);
+    int blocks() const { return slab_.blocks(); } ///< of this rank
+    /// Numbers in a block.
+    std::size_t length() const { return slab_.block_length(components_); }
+    T* block(int b) { return data_.get() + static_cast<std::size_t>(b) * length(); }
+    const T* block(int b) const { return data_.get() + static_cast<std::size_t>(b) * length(); }
+    /// The pair of a wave, if it is this rank's; else null.
+    const T* wave(int c, int nx, int ny) const {
+        const int b = nx / block_columns - slab_.first_block();
+        if (b < 0 || b >= blocks()) return nullptr;
+        return block(b) + 2 * (block_columns * (static_cast<std::ptrdiff_t>(c) * slab_.sites + ny) +
+                               nx % block_columns);
     }
-    std::size_t bytes() const {
-        return static_cast<std::size_t>(components_) * component_ * sizeof(T);
-    }
+    /// The real part of the wave q = 0, where slab().holds_uniform().
+    T& uniform(int c) { return block(0)[slab_.block_length(c)]; }
+    T uniform(int c) const { return block(0)[slab_.block_length(c)]; }
+    std::size_t bytes() const { return static_cast<std::size_t>(blocks()) * length() * sizeof(T); }
 
 private:
-    /// Rows start on cache lines, and not all at one place of a page.
-    static std::size_t row_length(const Slab& slab) {
-        constexpr std::size_t line = 64 / sizeof(T), page = 4096 / sizeof(T);
-        const std::size_t row = (2 * static_cast<std::size_t>(slab.columns()) + line - 1) / line;
-        return (row * line % page == 0 ? row + 1 : row) * line;
-    }
-    std::size_t offset(int y) const { return static_cast<std::size_t>(y) * row_; }
     Slab slab_;
     int components_ = 0;
-    std::size_t row_ = 0, component_ = 0;
     AlignedArray<T> data_;
 };
 
-/// Sums over all waves: row by row, then in the order of rows, whatever the number of threads and
-/// ranks.
-class RowSums {
+/// Sums of the surface by parts, rows of sites or blocks of waves: within a part, then in the order
+/// of parts, whatever the number of threads and ranks.
+class OrderedSums {
 public:
-    RowSums(const Slab& slab, std::size_t sums)
-        : slab_(slab), sums_(sums), parts_(static_cast<std::size_t>(slab.rows) * sums) {}
-    double* row(int y) { return parts_.data() + static_cast<std::size_t>(y) * sums_; }
-    /// Collective; the same on every rank.
+    enum class Over { rows, blocks };
+    OrderedSums(const Slab& slab, Over over, std::size_t sums)
+        : slab_(slab), over_(over), sums_(sums),
+          parts_(static_cast<std::size_t>(parts_of(slab.ranks.rank())) * sums) {}
+    /// Of a part of this rank.
+    double* part(int i) { return parts_.data() + static_cast<std::size_t>(i) * sums_; }
+    /// Times N^2. Collective; the same on every rank.
     std::vector<double> total() const;
 
 private:
+    int parts_of(int rank) const {
+        return over_ == Over::rows ? slab_.first_row(rank + 1) - slab_.first_row(rank)
+                                   : slab_.first_block(rank + 1) - slab_.first_block(rank);
+    }
     const Slab& slab_;
+    Over over_;
     std::size_t sums_;
     std::vector<double> parts_;
 };
 
+/// A block's part of dot().
+template <class A, class B>
+double dot_of_block(int b, const Waves<A>& a, const Waves<B>& with) {
+    return block_dot(a.block(b), with.block(b), a.components() * a.slab().sites,
+                     a.slab().weights(b).data());
+}
+
 /// sum_r a.b of the fields that the waves stand for. Collective.
 template <class A, class B>
-double dot(const Waves<A>& a, const Waves<B>& b) {
-    RowSums sums(a.slab(), 1);
+double dot(const Waves<A>& a, const Waves<B>& with) {
+    OrderedSums sums(a.slab(), OrderedSums::Over::blocks, 1);
 #pragma omp parallel for schedule(static)
-    for (int y = 0; y < a.rows(); ++y)
-        for (int c = 0; c < a.components(); ++c)
-            *sums.row(y) += row_dot(a.row(c, y), b.row(c, y), a.slab().sites);
+    for (int b = 0; b < a.blocks(); ++b)
+        *sums.part(b) = dot_of_block(b, a, with);
     return sums.total()[0];
 }
 
@@ -118,9 +155,8 @@ double dot(const Waves<A>& a, const Waves<B>& b) {
 template <class From, class To>
 void combine(double a, const Waves<From>& from, double keep, Waves<To>& to) {
 #pragma omp parallel for schedule(static)
-    for (int y = 0; y < from.rows(); ++y)
-        for (int c = 0; c < from.components(); ++c)
-            combine_row(a, from.row(c, y), keep, to.row(c, y), from.length());
+    for (int b = 0; b < from.blocks(); ++b)
+        combine_row(a, from.block(b), keep, to.block(b), static_cast<int>(from.length()));
 }
 
 } // namespace asperity

@@ -7,6 +7,7 @@
 #include "kernels/variant.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
@@ -17,26 +18,21 @@ inline double wide(double v) { return v; }
 inline double wide(float v) { return static_cast<double>(v); }
 
 template <class A, class B>
-double dot(const A* a, const B* b, int sites) {
-    const auto term = [&](int i) { return wide(a[i]) * wide(b[i]); };
-    const int length = 2 * (sites / 2 + 1);
-    // Partial sums, so many and added in this order whatever the width of registers and the
-    // compiler: left to the compiler, the order would be its own.
-    constexpr int lanes = 16;
+double dot(const A* a, const B* b, int rows, const double* weights) {
+    // A partial sum for each number of a row, added in this order whatever the width of registers
+    // and the compiler: left to the compiler, the order would be its own.
+    constexpr int lanes = 2 * block_columns;
     double part[lanes] = {};
-    int i = 0;
-    for (; i + lanes <= length; i += lanes)
+    for (int y = 0; y < rows; ++y, a += lanes, b += lanes)
 #pragma omp simd
         for (int k = 0; k < lanes; ++k)
-            part[k] += wide(a[i + k]) * wide(b[i + k]);
-    for (int k = 0; i + k < length; ++k)
-        part[k] += wide(a[i + k]) * wide(b[i + k]);
+            part[k] += wide(a[k]) * wide(b[k]);
+    for (int k = 0; k < lanes; ++k)
+        part[k] *= weights[k / 2];
     for (int half = lanes / 2; half > 0; half /= 2)
         for (int k = 0; k < half; ++k)
             part[k] += part[k + half];
-    double once = term(0) + term(1); // columns that have no mirror image
-    if (sites % 2 == 0) once += term(length - 2) + term(length - 1);
-    return 2.0 * part[0] - once;
+    return part[0];
 }
 
 template <class From, class To>
@@ -54,61 +50,72 @@ void combine(double a, const From* from, double keep, To* to, int n) {
         to[i] = static_cast<To>(factor * static_cast<T>(from[i]) + kept * static_cast<T>(to[i]));
 }
 
-template <bool keep, class M, class T>
-void multiply_three(const MatrixRow<M>& m, int waves, const T* const* u, double norm_,
-                    T* const* f) {
-    using E = typename MatrixRow<M>::Entry;
-    const M *xx = m.at[E::xx], *yy = m.at[E::yy], *zz = m.at[E::zz];
-    const M *xy = m.at[E::xy], *xz = m.at[E::xz], *yz = m.at[E::yz];
-    const T *ux = u[0], *uy = u[1], *uz = u[2];
-    T *fx = f[0], *fy = f[1], *fz = f[2];
-    const T sign = static_cast<T>(m.sign), norm = static_cast<T>(norm_);
-#pragma omp simd
-    for (int i = 0; i < waves; ++i) {
-        const T cross = sign * static_cast<T>(xy[i]), across = sign * static_cast<T>(yz[i]);
-        const T along = static_cast<T>(xz[i]), a = static_cast<T>(xx[i]);
-        const T b = static_cast<T>(yy[i]), c = static_cast<T>(zz[i]);
-        const T x0 = ux[2 * i], x1 = ux[2 * i + 1];
-        const T y0 = uy[2 * i], y1 = uy[2 * i + 1];
-        const T z0 = uz[2 * i], z1 = uz[2 * i + 1];
-        // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
-        T gx0 = a * x0 + cross * y0 - along * z1, gx1 = a * x1 + cross * y1 + along * z0;
-        T gy0 = cross * x0 + b * y0 - across * z1, gy1 = cross * x1 + b * y1 + across * z0;
-        T gz0 = c * z0 + along * x1 + across * y1, gz1 = c * z1 - along * x0 - across * y0;
+template <bool keep, class T>
+void multiply_three(const T* m, int sites, const T* u, double norm_, const T* g, T* f) {
+    using namespace matrix_entry;
+    constexpr int n = block_columns;
+    const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(sites) * 2 * n;
+    const T norm = static_cast<T>(norm_);
+    for (int row = 0; row < sites; ++row, u += 2 * n, g += keep ? 2 * n : 0, f += 2 * n) {
+        const int mirrored = row < sites - row ? row : sites - row;
+        const T* const e = m + static_cast<std::ptrdiff_t>(mirrored) * count * n;
+        const T sign = 2 * row > sites ? T(-1) : T(1);
+        const T *ux = u, *uy = ux + component, *uz = uy + component;
+        T *fx = f, *fy = fx + component, *fz = fy + component;
+        const T *gx = g, *gy = nullptr, *gz = nullptr;
         if constexpr (keep) {
-            gx0 += norm * fx[2 * i];
-            gx1 += norm * fx[2 * i + 1];
-            gy0 += norm * fy[2 * i];
-            gy1 += norm * fy[2 * i + 1];
-            gz0 += norm * fz[2 * i];
-            gz1 += norm * fz[2 * i + 1];
+            gy = gx + component;
+            gz = gy + component;
         }
-        fx[2 * i] = gx0;
-        fx[2 * i + 1] = gx1;
-        fy[2 * i] = gy0;
-        fy[2 * i + 1] = gy1;
-        fz[2 * i] = gz0;
-        fz[2 * i + 1] = gz1;
+#pragma omp simd
+        for (int i = 0; i < n; ++i) {
+            const T cross = sign * e[xy * n + i];
+            const T across = sign * e[yz * n + i];
+            const T along = e[xz * n + i], a = e[xx * n + i];
+            const T b = e[yy * n + i], c = e[zz * n + i];
+            const T x0 = ux[2 * i], x1 = ux[2 * i + 1];
+            const T y0 = uy[2 * i], y1 = uy[2 * i + 1];
+            const T z0 = uz[2 * i], z1 = uz[2 * i + 1];
+            // w = i u_z = (-z1, z0); the third row, of i f_z, likewise.
+            T fx0 = a * x0 + cross * y0 - along * z1, fx1 = a * x1 + cross * y1 + along * z0;
+            T fy0 = cross * x0 + b * y0 - across * z1, fy1 = cross * x1 + b * y1 + across * z0;
+            T fz0 = c * z0 + along * x1 + across * y1, fz1 = c * z1 - along * x0 - across * y0;
+            if constexpr (keep) {
+                fx0 += norm * gx[2 * i];
+                fx1 += norm * gx[2 * i + 1];
+                fy0 += norm * gy[2 * i];
+                fy1 += norm * gy[2 * i + 1];
+                fz0 += norm * gz[2 * i];
+                fz1 += norm * gz[2 * i + 1];
+            }
+            fx[2 * i] = fx0;
+            fx[2 * i + 1] = fx1;
+            fy[2 * i] = fy0;
+            fy[2 * i + 1] = fy1;
+            fz[2 * i] = fz0;
+            fz[2 * i + 1] = fz1;
+        }
     }
 }
 
-template <class M, class T>
-void multiply(const MatrixRow<M>& m, int waves, int components, const T* const* u, double norm,
-              T* const* f) {
+template <class T>
+void multiply(const T* m, int sites, int components, const T* u, double norm_, const T* g, T* f) {
     if (components == 3) {
-        if (norm == 0.0)
-            multiply_three<false>(m, waves, u, norm, f);
+        if (norm_ == 0.0)
+            multiply_three<false>(m, sites, u, norm_, g, f);
         else
-            multiply_three<true>(m, waves, u, norm, f);
+            multiply_three<true>(m, sites, u, norm_, g, f);
         return;
     }
-    const M* zz = m.at[MatrixRow<M>::zz];
-    const T* from = u[0];
-    T* to = f[0];
-    for (int i = 0; i < 2 * waves; ++i) {
-        const double kept = norm == 0.0 ? 0.0 : norm * static_cast<double>(to[i]);
-        to[i] =
-            static_cast<T>(static_cast<double>(zz[i / 2]) * static_cast<double>(from[i]) + kept);
+    constexpr int n = block_columns;
+    const T norm = static_cast<T>(norm_);
+    for (int row = 0; row < sites; ++row) {
+        const T* const e = m + (row < sites - row ? row : sites - row) * n;
+        for (int k = 0; k < 2 * n; ++k) {
+            const int i = row * 2 * n + k;
+            const T kept = norm == T(0) ? T(0) : norm * g[i];
+            f[i] = e[k / 2] * u[i] + kept;
+        }
     }
 }
 
@@ -130,18 +137,6 @@ float longest(const float* const* v, int components, int n) {
     return most;
 }
 
-void clip(float bound, float* const* v, int components, int n) {
-    for (int i = 0; i < n; ++i) {
-        float length2 = 0.0f;
-        for (int c = 0; c < components; ++c)
-            length2 += v[c][i] * v[c][i];
-        if (!(length2 > bound * bound)) continue;
-        const float q = bound / std::sqrt(length2);
-        for (int c = 0; c < components; ++c)
-            v[c][i] *= q;
-    }
-}
-
 void tie(double k, double norm, const double* u, const double* f, float* to, int n) {
 #pragma omp simd
     for (int i = 0; i < n; ++i)
@@ -149,37 +144,51 @@ void tie(double k, double norm, const double* u, const double* f, float* to, int
 }
 
 template <int components>
-float move(const BallRow& row, const BallRule& rule, int n) {
-    float most = 0.0f, fastest = 0.0f;
-#pragma omp simd reduction(max : most, fastest)
+float move(const BallRow& row, const BallRule& rule_, int n) {
+    // Copies and selections of values: loops over pointers and branches within a row's structure
+    // the compiler would not make wide.
+    constexpr int z = components - 1, x = 0, y = components / 2;
+    const float *tx = row.target[x], *ty = row.target[y], *tz = row.target[z];
+    float *mx = row.momentum[x], *my = row.momentum[y], *mz = row.momentum[z];
+    double *ux = row.u[x], *uy = row.u[y], *uz = row.u[z];
+    float* const step_sizes = row.step_size;
+    const BallRule rule = rule_;
+    const float bound2 = rule.bound * rule.bound;
+    float most = 0.0f;
+#pragma omp simd reduction(max : most)
     for (int i = 0; i < n; ++i) {
-        float way[components], along = 0.0f, away2 = 0.0f, speed2 = 0.0f;
-        for (int c = 0; c < components; ++c) {
-            way[c] = static_cast<float>(static_cast<double>(row.target[c][i]) - row.u[c][i]);
-            along += way[c] * row.momentum[c][i];
-            away2 += way[c] * way[c];
+        const float wz = static_cast<float>(static_cast<double>(tz[i]) - uz[i]);
+        float along = wz * mz[i], away2 = wz * wz;
+        float wx = 0.0f, wy = 0.0f;
+        if constexpr (components == 3) {
+            wx = static_cast<float>(static_cast<double>(tx[i]) - ux[i]);
+            wy = static_cast<float>(static_cast<double>(ty[i]) - uy[i]);
+            along = wx * mx[i] + wy * my[i] + along;
+            away2 = wx * wx + wy * wy + away2;
         }
-        const float raised = rule.raise * row.step_size[i];
-        const float step_size = along < 0.0f         ? rule.cut * row.step_size[i]
-                                : raised < rule.most ? raised
-                                                     : rule.most;
-        const float keep = along < 0.0f ? 0.0f : rule.keep;
-        for (int c = 0; c < components; ++c) {
-            const float m = step_size * way[c] + keep * row.momentum[c][i];
-            row.momentum[c][i] = m;
-            speed2 += m * m;
-        }
-        row.step_size[i] = step_size;
+        const bool back = along < 0.0f;
+        const float raised = rule.raise * step_sizes[i], cut = rule.cut * step_sizes[i];
+        const float forth = raised < rule.most ? raised : rule.most;
+        const float step_size = back ? cut : forth, keep = back ? 0.0f : rule.keep;
+        step_sizes[i] = step_size;
         most = away2 > most ? away2 : most;
-        fastest = speed2 > fastest ? speed2 : fastest;
-    }
-    if (fastest > rule.bound * rule.bound) clip(rule.bound, row.momentum, components, n);
-    for (int c = 0; c < components; ++c) {
-        double* u = row.u[c];
-        const float* m = row.momentum[c];
-#pragma omp simd
-        for (int i = 0; i < n; ++i)
-            u[i] += static_cast<double>(m[i]);
+        float vz = step_size * wz + keep * mz[i], speed2 = vz * vz;
+        float vx = 0.0f, vy = 0.0f;
+        if constexpr (components == 3) {
+            vx = step_size * wx + keep * mx[i];
+            vy = step_size * wy + keep * my[i];
+            speed2 = vx * vx + vy * vy + speed2;
+        }
+        const float shorter = rule.bound / std::sqrt(speed2);
+        const float q = speed2 > bound2 ? shorter : 1.0f;
+        mz[i] = vz = q * vz;
+        uz[i] += static_cast<double>(vz);
+        if constexpr (components == 3) {
+            mx[i] = vx = q * vx;
+            my[i] = vy = q * vy;
+            ux[i] += static_cast<double>(vx);
+            uy[i] += static_cast<double>(vy);
+        }
     }
     return most;
 }
@@ -198,9 +207,8 @@ const RowKernels row_kernels = {dot<double, double>,
                                 combine<double, float>,
                                 combine<float, double>,
                                 combine<float, float>,
-                                multiply<double, double>,
-                                multiply<double, float>,
-                                multiply<float, float>,
+                                multiply<double>,
+                                multiply<float>,
                                 longest,
                                 tie,
                                 ball};

@@ -1,24 +1,25 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A row of a surface at a time: what a relaxation does with its vectors, at the sites and as waves
-// (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
+// A part of a surface at a time: what a relaxation does with its vectors, rows of sites and blocks
+// of waves (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
 //
-// Waves are pairs (real, imaginary), sites / 2 + 1 of them in a row. Arithmetic is in the wider of
-// the two types that meet, inner products always in double, products with matrices in the type of
-// the waves. Orders of sums belong to the level: the
-// same on any number of threads, others on another level.
+// A block of waves is a few columns q_x of each component, [component][q_y][column], each wave a
+// pair (real, imaginary). Arithmetic is in the wider of the two types that meet, inner products
+// always in double, products with matrices in the type of the waves. Orders of sums belong to the
+// level: the same on any number of threads, others on another level.
 #pragma once
 
 namespace asperity {
 
-/// The part of a table of 3 x 3 matrices for one row of waves, each acting on (u_x, u_y, i u_z).
-template <class T>
-struct MatrixRow {
-    enum Entry { xx, yy, zz, xy, xz, yz, entries };
-    const T* at[entries]; ///< [wave]; of one component only zz is read
-    T sign;               ///< of q_y: on xy and yz
-};
+/// Columns of a block: one cache line of a row in single precision.
+inline constexpr int block_columns = 8;
+
+/// The entries of a 3 x 3 matrix that acts on (u_x, u_y, i u_z). A table of them for a block is
+/// [|q_y|][entry][column], of one component [|q_y|][column]; xy and yz change sign with q_y.
+namespace matrix_entry {
+enum { xx, yy, zz, xy, xz, yz, count };
+}
 
 /// A row of sites on their way downhill (engine/equilibrium/heavy_ball.hpp), by components.
 struct BallRow {
@@ -38,11 +39,11 @@ struct BallRule {
 /// The rows' arithmetic for one processor level.
 struct RowKernels {
     template <class A, class B>
-    using Dot = double (*)(const A*, const B*, int sites);
+    using Dot = double (*)(const A*, const B*, int rows, const double* weights);
     template <class From, class To>
     using Combine = void (*)(double, const From*, double, To*, int);
-    template <class M, class T>
-    using Multiply = void (*)(const MatrixRow<M>&, int, int, const T* const*, double, T* const*);
+    template <class T>
+    using Multiply = void (*)(const T*, int sites, int components, const T*, double, const T*, T*);
 
     Dot<double, double> dot_double;
     Dot<double, float> dot_mixed;
@@ -51,9 +52,8 @@ struct RowKernels {
     Combine<double, float> combine_narrow;
     Combine<float, double> combine_wide;
     Combine<float, float> combine_float;
-    Multiply<double, double> multiply_double;
-    Multiply<double, float> multiply_float;
-    Multiply<float, float> condition_float;
+    Multiply<double> multiply_double;
+    Multiply<float> multiply_float;
     float (*longest)(const float* const*, int, int);
     void (*tie)(double, double, const double*, const double*, float*, int);
     float (*ball)(const BallRow&, const BallRule&, int, int);
@@ -62,15 +62,15 @@ struct RowKernels {
 /// The kernels for the running processor (processor_level()).
 const RowKernels& row_kernels();
 
-/// One row's part of sum_q conj(a_q).b_q, columns inside counted twice.
-inline double row_dot(const double* a, const double* b, int sites) {
-    return row_kernels().dot_double(a, b, sites);
+/// A block's part of sum_q conj(a_q).b_q: rows of block_columns waves, weights of their columns.
+inline double block_dot(const double* a, const double* b, int rows, const double* weights) {
+    return row_kernels().dot_double(a, b, rows, weights);
 }
-inline double row_dot(const double* a, const float* b, int sites) {
-    return row_kernels().dot_mixed(a, b, sites);
+inline double block_dot(const double* a, const float* b, int rows, const double* weights) {
+    return row_kernels().dot_mixed(a, b, rows, weights);
 }
-inline double row_dot(const float* a, const float* b, int sites) {
-    return row_kernels().dot_float(a, b, sites);
+inline double block_dot(const float* a, const float* b, int rows, const double* weights) {
+    return row_kernels().dot_float(a, b, rows, weights);
 }
 
 /// to <- a from + keep to, n numbers; with keep = 0, to is not read.
@@ -87,18 +87,15 @@ inline void combine_row(double a, const float* from, double keep, float* to, int
     row_kernels().combine_float(a, from, keep, to, n);
 }
 
-/// f <- m u + norm f for a row of waves of one or three components; u and f may be the same.
-inline void multiply_row(const MatrixRow<double>& m, int waves, int components,
-                         const double* const* u, double norm, double* const* f) {
-    row_kernels().multiply_double(m, waves, components, u, norm, f);
+/// f <- m u + norm g for a block of one or three components; f may be u or g, and g is not read
+/// with norm = 0.
+inline void multiply_block(const double* m, int sites, int components, const double* u, double norm,
+                           const double* g, double* f) {
+    row_kernels().multiply_double(m, sites, components, u, norm, g, f);
 }
-inline void multiply_row(const MatrixRow<double>& m, int waves, int components,
-                         const float* const* u, double norm, float* const* f) {
-    row_kernels().multiply_float(m, waves, components, u, norm, f);
-}
-inline void multiply_row(const MatrixRow<float>& m, int waves, int components,
-                         const float* const* u, double norm, float* const* f) {
-    row_kernels().condition_float(m, waves, components, u, norm, f);
+inline void multiply_block(const float* m, int sites, int components, const float* u, double norm,
+                           const float* g, float* f) {
+    row_kernels().multiply_float(m, sites, components, u, norm, g, f);
 }
 
 /// The greatest squared length of a row of vectors, given by components.

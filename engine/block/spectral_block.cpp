@@ -13,64 +13,55 @@ namespace asperity {
 
 namespace {
 
-using Entry = MatrixRow<double>::Entry;
-// `using enum` of an enumeration in a class template is more than clang 14 understands.
-constexpr Entry xx = Entry::xx, yy = Entry::yy, zz = Entry::zz, xy = Entry::xy, xz = Entry::xz,
-                yz = Entry::yz, entries = Entry::entries;
+using namespace matrix_entry;
 
-/// What row n_y of N sees of a table over the quadrant: [entry][ny][nx], or the one number of a
-/// wave.
-template <class T>
-MatrixRow<T> matrix_row(const std::vector<T>& table, std::size_t columns, int row, int sites) {
-    const std::size_t size = columns * columns;
-    const T* from = table.data() + static_cast<std::size_t>(std::min(row, sites - row)) * columns;
-    MatrixRow<T> m;
-    for (std::size_t e = 0; e < entries; ++e)
-        m.at[e] = from + (table.size() == size ? 0 : e * size);
-    m.sign = 2 * row > sites ? T(-1) : T(1);
-    return m;
-}
-
-/// f <- m u + norm f for row y of some waves.
-template <class M, class T>
-void multiply_waves(const MatrixRow<M>& m, int y, const Waves<T>& u, double norm, Waves<T>& f) {
-    const T* from[3] = {};
-    T* to[3] = {};
-    for (int c = 0; c < u.components(); ++c) {
-        from[c] = u.row(c, y);
-        to[c] = f.row(c, y);
+/// Of a table over the quadrant: [block][ny][entry][column], or one number of a wave.
+struct TableShape {
+    int sites, components;
+    std::size_t entries() const { return components == 1 ? 1 : count; }
+    std::size_t block() const {
+        return static_cast<std::size_t>(sites / 2 + 1) * entries() * block_columns;
     }
-    multiply_row(m, u.columns(), u.components(), from, norm, to);
-}
+    std::size_t size(int blocks) const { return static_cast<std::size_t>(blocks) * block(); }
+    std::size_t at(std::size_t e, int nx, int ny) const {
+        return static_cast<std::size_t>(nx / block_columns) * block() +
+               (static_cast<std::size_t>(ny) * entries() + e) * block_columns +
+               static_cast<std::size_t>(nx % block_columns);
+    }
+    template <class T>
+    void put(const SurfaceMatrix& m, int nx, int ny, std::vector<T>& table) const {
+        const double values[count] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+        for (std::size_t e = 0; e < entries(); ++e)
+            table[at(e, nx, ny)] = static_cast<T>(components == 1 ? m.zz : values[e]);
+    }
+};
 
 /// S of every wave, or what is left of it without friction.
-std::vector<double> stiffness_table(const BlockOptions& options, bool frictionless) {
-    const std::size_t columns = static_cast<std::size_t>(options.sites / 2 + 1);
-    const std::size_t size = columns * columns;
-    std::vector<double> table((frictionless ? 1 : entries) * size);
+std::vector<double> stiffness_table(const BlockOptions& options, const Slab& slab,
+                                    bool frictionless) {
+    const TableShape shape{options.sites, frictionless ? 1 : 3};
+    std::vector<double> table(shape.size(slab.all_blocks()));
     const CellElasticity elasticity = options.elasticity(0);
     std::vector<WavePhase> phase;
     for (int n = 0; n <= options.sites / 2; ++n)
         phase.push_back(wave_phase(n, options.sites));
 #pragma omp parallel for schedule(dynamic, 4)
-    for (std::size_t i = 0; i < columns; ++i)
-        for (std::size_t j = 0; j <= i; ++j) {
+    for (int i = 0; i < slab.columns(); ++i)
+        for (int j = 0; j <= i; ++j) {
             const SurfaceMatrix s =
-                surface_stiffness(elasticity, phase[i], phase[j], options.thickness);
-            const auto put = [&](std::size_t nx, std::size_t ny, const SurfaceMatrix& m) {
-                double* const at = table.data() + ny * columns + nx;
-                if (frictionless) {
-                    *at = 1.0 / inverse(m).zz;
-                    return;
-                }
-                const double values[entries] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
-                for (std::size_t e = 0; e < entries; ++e)
-                    at[e * size] = values[e];
-            };
-            put(i, j, s);
-            put(j, i, {s.yy, s.xx, s.zz, s.xy, s.yz, s.xz});
+                surface_stiffness(elasticity, phase[static_cast<std::size_t>(i)],
+                                  phase[static_cast<std::size_t>(j)], options.thickness);
+            const double normal = frictionless ? 1.0 / inverse(s).zz : s.zz;
+            shape.put({s.xx, s.yy, normal, s.xy, s.xz, s.yz}, i, j, table);
+            shape.put({s.yy, s.xx, normal, s.xy, s.yz, s.xz}, j, i, table);
         }
     return table;
+}
+
+/// Copies row y of a field to a thread's row.
+template <class From, class T>
+void copy_row(const PlaneView<const From>& field, int y, T* row) {
+    std::copy_n(field.line(y), field.nx, row);
 }
 
 } // namespace
@@ -78,9 +69,9 @@ std::vector<double> stiffness_table(const BlockOptions& options, bool frictionle
 SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& communicator,
                              bool frictionless)
     : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
-      columns_(static_cast<std::size_t>(slab_.columns())),
-      table_(stiffness_table(options, frictionless)), layer_(tile(), 1, 0), force_(tile(), 1, 0),
-      waves_(slab_, components_), transform_(slab_), single_(slab_) {
+      table_(stiffness_table(options, slab_, frictionless)),
+      single_table_(table_.begin(), table_.end()), layer_(tile(), 1, 0), force_(tile(), 1, 0),
+      waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
     uniform_ = stiffness(0, 0).zz;
     if (!options.branches.empty()) {
         memory_.emplace(options.branches, slab_, components_);
@@ -90,14 +81,9 @@ SpectralBlock::SpectralBlock(const BlockOptions& options, const Communicator& co
     constrain({});
 }
 
-double* SpectralBlock::table(int entry, int ny) {
-    return const_cast<double*>(std::as_const(*this).table(entry, ny));
-}
-
-const double* SpectralBlock::table(int entry, int ny) const {
-    const int kept = components_ == 1 ? 0 : entry;
-    return table_.data() +
-           (static_cast<std::size_t>(kept) * columns_ + static_cast<std::size_t>(ny)) * columns_;
+std::size_t SpectralBlock::entry(int e, int nx, int ny) const {
+    return TableShape{options_.sites, components_}.at(
+        static_cast<std::size_t>(components_ == 1 ? 0 : e), nx, ny);
 }
 
 void SpectralBlock::set_uniform(double z) {
@@ -106,12 +92,14 @@ void SpectralBlock::set_uniform(double z) {
     for (int y = 0; y < uz.ny; ++y)
         std::fill(uz.line(y), uz.line(y) + uz.nx, z);
     waves_.clear();
-    if (slab_.holds_uniform()) waves_.row(components_ - 1, 0)[0] = z;
+    if (slab_.holds_uniform()) waves_.uniform(components_ - 1) = z;
 }
 
 void SpectralBlock::constrain(const Constraint& constraint) {
     constraint_ = constraint;
-    table(zz, 0)[0] = constraint.is_top() ? uniform_ : 0.0;
+    double& zero = table_[entry(zz, 0, 0)];
+    zero = constraint.is_top() ? uniform_ : 0.0;
+    single_table_[entry(zz, 0, 0)] = static_cast<float>(zero);
 }
 
 double SpectralBlock::top() const {
@@ -119,8 +107,8 @@ double SpectralBlock::top() const {
 }
 
 double SpectralBlock::mean_height() const {
-    double mean = slab_.holds_uniform() ? waves_.row(components_ - 1, 0)[0] : 0.0;
-    slab_.ranks.broadcast(std::span(&mean, 1)); // the root holds the first row
+    double mean = slab_.holds_uniform() ? waves_.uniform(components_ - 1) : 0.0;
+    slab_.ranks.broadcast(std::span(&mean, 1)); // the root holds it
     return mean;
 }
 
@@ -131,36 +119,45 @@ double SpectralBlock::top_force() const {
 }
 
 void SpectralBlock::gradient(Waves<double>& g) const {
-    for (int c = 0; c < components_; ++c)
-        transform_.forward(moving(force_.plane(0), c), g, c);
     const double sites = options_.sites, norm = 1.0 / (sites * sites);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        stiffen_row(y, waves_, -norm, g);
-    if (known_) combine(1.0, *known_, 1.0, g);
+    transform_.forward(
+        [&](int y, double* const* rows) {
+            for (int c = 0; c < components_; ++c)
+                copy_row(moving(force_.plane(0), c), y, rows[c]);
+        },
+        [&](int b, const double* force) {
+            stiffen<double>(b, waves_.block(b), -norm, force, g.block(b));
+            if (known_)
+                combine_row(1.0, known_->block(b), 1.0, g.block(b), static_cast<int>(g.length()));
+        });
     if (!slab_.holds_uniform()) return;
-    double& mean = g.row(components_ - 1, 0)[0];
+    double& mean = g.uniform(components_ - 1);
     mean += norm * constraint_.load();
     if (constraint_.is_top()) mean -= uniform_ * constraint_.value;
     if (constraint_.is_mean_height()) mean = 0.0;
 }
 
 template <class T>
-void SpectralBlock::stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const {
-    multiply_waves(matrix_row(table_, columns_, slab_.first + y, slab_.sites), y, u, norm, f);
+void SpectralBlock::stiffen(int b, const T* u, double norm, const T* g, T* f) const {
+    const TableShape shape{options_.sites, components_};
+    const T* table = nullptr;
+    if constexpr (std::is_same_v<T, double>)
+        table = table_.data();
+    else
+        table = single_table_.data();
+    multiply_block(table + shape.size(slab_.first_block() + b), options_.sites, components_, u,
+                   norm, g, f);
 }
-template void SpectralBlock::stiffen_row(int, const Waves<float>&, double, Waves<float>&) const;
-template void SpectralBlock::stiffen_row(int, const Waves<double>&, double, Waves<double>&) const;
+template void SpectralBlock::stiffen(int, const float*, double, const float*, float*) const;
+template void SpectralBlock::stiffen(int, const double*, double, const double*, double*) const;
 
 double SpectralBlock::elastic_energy() const {
     // Half u.(S u), u measured from a prescribed top plane, and what a load stretches the block by.
     const double from = constraint_.is_top() ? constraint_.value : 0.0;
     Waves<double> su = new_waves<double>();
     combine(1.0, waves_, 0.0, su);
-    if (slab_.holds_uniform()) su.row(components_ - 1, 0)[0] -= from;
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        stiffen_row(y, su, 0.0, su);
+    if (slab_.holds_uniform()) su.uniform(components_ - 1) -= from;
+    stiffen(su);
     double twice = dot(waves_, su);
     if (from != 0.0) twice -= from * spring() * (mean_height() - from);
     if (memory_) twice /= 1.0 + memory_->stiffening();
@@ -187,16 +184,14 @@ double SpectralBlock::square(const SiteField<double>& u) const {
     Waves<double> waves = new_waves<double>(), su = new_waves<double>();
     to_waves(u, waves);
     combine(1.0 / (sites * sites), waves, 0.0, su);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        stiffen_row(y, su, 0.0, su);
+    stiffen(su);
     return dot(waves, su) / (sites * sites);
 }
 
 double SpectralBlock::uniform_known() const {
     double known = 0.0;
     if (!known_) return known;
-    if (slab_.holds_uniform()) known = known_->row(components_ - 1, 0)[0];
+    if (slab_.holds_uniform()) known = known_->uniform(components_ - 1);
     slab_.ranks.broadcast(std::span(&known, 1));
     return known;
 }
@@ -210,12 +205,11 @@ void SpectralBlock::begin_step(double dt) {
     const double sites = options_.sites;
     to_waves(memory_->known(), *known_);
     combine(0.0, *known_, 1.0 / (sites * sites), *known_);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        stiffen_row(y, *known_, 0.0, *known_);
+    stiffen(*known_);
     const double factor = 1.0 + memory_->stiffening();
     for (double& entry : table_)
         entry *= factor;
+    std::copy(table_.begin(), table_.end(), single_table_.begin());
     uniform_ *= factor;
 }
 
@@ -230,55 +224,66 @@ BranchEnergies SpectralBlock::branch_energies() const {
                              [&](const SiteField<double>& u) { return square(u) / factor; });
 }
 
-template <class T>
-void SpectralBlock::at_sites(Waves<T>& waves, SiteField<T>& field) const {
-    for (int c = 0; c < components_; ++c)
-        transform<T>().backward(waves, c, field[static_cast<std::size_t>(c)].plane(0));
+template <class From, class T>
+void SpectralBlock::at_sites(const Waves<From>& waves, SiteField<T>& field) const {
+    transform<T>().backward(
+        [&](int b, T* room) -> const T* {
+            if constexpr (std::is_same_v<From, T>) return waves.block(b);
+            combine_row(1.0, waves.block(b), 0.0, room, static_cast<int>(waves.length()));
+            return room;
+        },
+        [&](int y, T* const* rows) {
+            for (int c = 0; c < components_; ++c)
+                std::copy_n(rows[c], slab_.sites,
+                            field[static_cast<std::size_t>(c)].plane(0).line(y));
+        });
 }
-template void SpectralBlock::at_sites(Waves<float>&, SiteField<float>&) const;
-template void SpectralBlock::at_sites(Waves<double>&, SiteField<double>&) const;
+template void SpectralBlock::at_sites(const Waves<float>&, SiteField<float>&) const;
+template void SpectralBlock::at_sites(const Waves<double>&, SiteField<float>&) const;
+template void SpectralBlock::at_sites(const Waves<double>&, SiteField<double>&) const;
 
 template <class T>
 void SpectralBlock::to_waves(const SiteField<T>& field, Waves<T>& waves) const {
-    for (int c = 0; c < components_; ++c)
-        transform<T>().forward(field[static_cast<std::size_t>(c)].plane(0), waves, c);
+    transform<T>().forward(
+        [&](int y, T* const* rows) {
+            for (int c = 0; c < components_; ++c)
+                copy_row(field[static_cast<std::size_t>(c)].plane(0), y, rows[c]);
+        },
+        [&](int b, const T* block) { std::copy_n(block, waves.length(), waves.block(b)); });
 }
 template void SpectralBlock::to_waves(const SiteField<float>&, Waves<float>&) const;
 template void SpectralBlock::to_waves(const SiteField<double>&, Waves<double>&) const;
 
 void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
+    combine(t, d, 1.0, waves_);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < slab_.rows; ++y)
-        for (int c = 0; c < components_; ++c) {
-            combine_row(t, d.row(c, y), 1.0, waves_.row(c, y), d.length());
+        for (int c = 0; c < components_; ++c)
             combine_row(t, at_sites[static_cast<std::size_t>(c)].plane(0).line(y), 1.0,
                         moving(layer_.plane(0), c).line(y), slab_.sites);
-        }
 }
 
-void SpectralBlock::respond(const Preconditioner& preconditioner, Waves<float>& waves,
-                            const Rows& use) const {
+void SpectralBlock::respond(const Preconditioner& preconditioner, const Rows& use) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
-    single_.forward(
+    double mean = -norm * constraint_.load();
+    if (constraint_.is_top()) mean += uniform_ * constraint_.value;
+    const std::size_t normal = slab_.block_length(components_ - 1);
+    single_.through_waves(
         [&](int y, float* const* rows) {
             for (int c = 0; c < components_; ++c)
                 tie_row(k, norm, moving(layer_.plane(0), c).line(y),
                         moving(force_.plane(0), c).line(y), rows[c], slab_.sites);
         },
-        waves);
-    const int normal = components_ - 1;
-    if (slab_.holds_uniform()) {
-        double mean = -norm * constraint_.load();
-        if (constraint_.is_top()) mean += uniform_ * constraint_.value;
-        waves.row(normal, 0)[0] += static_cast<float>(mean);
-    }
-    if (known_) combine(-1.0, *known_, 1.0, waves);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < slab_.rows; ++y)
-        preconditioner.apply_row(y, waves, waves);
-    if (constraint_.is_mean_height() && slab_.holds_uniform())
-        waves.row(normal, 0)[0] = static_cast<float>(constraint_.value);
-    single_.backward(waves, use);
+        [&](int b, float* block) {
+            const bool uniform = b == 0 && slab_.holds_uniform();
+            if (uniform) block[normal] += static_cast<float>(mean);
+            if (known_)
+                combine_row(-1.0, known_->block(b), 1.0, block, static_cast<int>(known_->length()));
+            preconditioner.apply(b, block, 0.0, block);
+            if (uniform && constraint_.is_mean_height())
+                block[normal] = static_cast<float>(constraint_.value);
+        },
+        use);
 }
 
 void SpectralBlock::restore_mean_height() {
@@ -295,62 +300,59 @@ void SpectralBlock::restore_mean_height() {
 
 void SpectralBlock::apply_constraint() {
     restore_mean_height();
-    const VectorPlane<const double> layer = std::as_const(layer_).plane(0);
-    for (int c = 0; c < components_; ++c)
-        transform_.forward(moving(layer, c), waves_, c);
     const double sites = options_.sites;
-    combine(0.0, waves_, 1.0 / (sites * sites), waves_);
+    transform_.forward(
+        [&](int y, double* const* rows) {
+            for (int c = 0; c < components_; ++c)
+                copy_row(moving(std::as_const(layer_).plane(0), c), y, rows[c]);
+        },
+        [&](int b, const double* block) {
+            combine_row(1.0 / (sites * sites), block, 0.0, waves_.block(b),
+                        static_cast<int>(waves_.length()));
+        });
     if (constraint_.is_mean_height() && slab_.holds_uniform())
-        waves_.row(components_ - 1, 0)[0] = constraint_.value;
+        waves_.uniform(components_ - 1) = constraint_.value;
 }
 
 SurfaceMatrix SpectralBlock::stiffness(int nx, int ny) const {
-    const auto at = [&](int e) { return table(e, ny)[nx]; };
+    const auto at = [&](int e) { return table_[entry(e, nx, ny)]; };
     if (components_ == 1) return {0.0, 0.0, at(zz), 0.0, 0.0, 0.0};
     return {at(xx), at(yy), at(zz), at(xy), at(xz), at(yz)};
 }
 
 std::size_t SpectralBlock::bytes() const {
-    std::size_t sum =
-        table_.size() * sizeof(double) + layer_.bytes() + force_.bytes() + waves_.bytes();
-    if (memory_) sum += table_bytes() + memory_->bytes() + known_->bytes();
+    std::size_t sum = table_bytes() + layer_.bytes() + force_.bytes() + waves_.bytes();
+    if (memory_) sum += relaxed_.size() * sizeof(double) + memory_->bytes() + known_->bytes();
     return sum;
 }
 
 Preconditioner::Preconditioner(const SpectralBlock& block, double k)
-    : sites_(block.slab().sites), first_(block.slab().first),
-      columns_(static_cast<std::size_t>(block.slab().columns())),
-      entries_(block.components() == 1 ? 1 : entries), table_(entries_ * columns_ * columns_) {
+    : sites_(block.slab().sites), first_(block.slab().first_block()),
+      components_(block.components()),
+      table_(TableShape{sites_, components_}.size(block.slab().all_blocks())) {
     tune(block, k);
 }
 
 void Preconditioner::tune(const SpectralBlock& block, double k) {
     k_ = k;
+    const TableShape shape{sites_, components_};
     const int columns = block.slab().columns();
-    const std::size_t size = columns_ * columns_;
 #pragma omp parallel for schedule(static)
     for (int ny = 0; ny < columns; ++ny)
         for (int nx = 0; nx < columns; ++nx) {
             SurfaceMatrix m = block.stiffness(nx, ny);
-            float* const at = table_.data() + static_cast<std::size_t>(ny) * columns_ +
-                              static_cast<std::size_t>(nx);
             m.xx += k;
             m.yy += k;
             m.zz += k;
             SurfaceMatrix i = inverse(m);
             if (nx == 0 && ny == 0 && block.constraint().is_mean_height()) i.zz = 0.0;
-            if (entries_ == 1) {
-                *at = static_cast<float>(i.zz);
-                continue;
-            }
-            const double values[entries] = {i.xx, i.yy, i.zz, i.xy, i.xz, i.yz};
-            for (std::size_t e = 0; e < entries; ++e)
-                at[e * size] = static_cast<float>(values[e]);
+            shape.put(i, nx, ny, table_);
         }
 }
 
-void Preconditioner::apply_row(int y, const Waves<float>& from, Waves<float>& to) const {
-    multiply_waves(matrix_row(table_, columns_, first_ + y, sites_), y, from, 0.0, to);
+void Preconditioner::apply(int b, const float* from, double keep, float* to) const {
+    const TableShape shape{sites_, components_};
+    multiply_block(table_.data() + shape.size(first_ + b), sites_, components_, from, keep, to, to);
 }
 
 } // namespace asperity

@@ -26,8 +26,8 @@
 // make it, and their known force is a part of the block's; without them nothing of this is called.
 //
 // The displacement of the layer is kept both at the sites (for the interface) and as waves (for
-// everything else), in slabs of rows over the ranks; displace() changes both. What says so is
-// collective.
+// everything else), in slabs of rows and ranges of columns over the ranks (waves.hpp); displace()
+// changes both. What says so is collective.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -90,9 +90,16 @@ public:
     /// interface_force() holds and the load spread over the top plane. None along a prescribed mean
     /// height. Collective.
     void gradient(Waves<double>& g) const;
-    /// f <- S u + norm f for row y of the slab: u and f are its components.
+    /// f <- S u + norm g for block b of waves; f may be u or g.
     template <class T>
-    void stiffen_row(int y, const Waves<T>& u, double norm, Waves<T>& f) const;
+    void stiffen(int b, const T* u, double norm, const T* g, T* f) const;
+    /// f <- S f
+    template <class T>
+    void stiffen(Waves<T>& f) const {
+#pragma omp parallel for schedule(static)
+        for (int b = 0; b < f.blocks(); ++b)
+            stiffen<T>(b, f.block(b), 0.0, nullptr, f.block(b));
+    }
     /// U_el, eV; that of branches apart. Collective.
     double elastic_energy() const;
 
@@ -114,20 +121,23 @@ public:
         return memory_ ? &memory_->extensions() : nullptr;
     }
 
-    /// Rows of a field, row by row (surface_transform.hpp).
+    /// Parts of fields and of waves, handed over in the cache (surface_transform.hpp).
     using Rows = SurfaceTransform<float>::Rows;
+    using Blocks = SurfaceTransform<float>::Blocks;
+    using Give = SurfaceTransform<float>::Give;
     /// Hands over where the sites would come to rest under the forces of gradient(), did a spring k
-    /// tie each to where it is: (S + k)^-1 (k u + F + load). The waves are room for work; those of
-    /// the displacement are not looked at. Collective.
-    void respond(const Preconditioner& preconditioner, Waves<float>& waves, const Rows& use) const;
-    /// to <- N^2 times the waves of what change() makes of the field of `from`. Collective.
-    void through_sites(const Waves<float>& from, const Rows& change, Waves<float>& to) const {
-        single_.through(from, change, to);
+    /// tie each to where it is: (S + k)^-1 (k u + F + load). The waves of the displacement are not
+    /// looked at. Collective.
+    void respond(const Preconditioner& preconditioner, const Rows& use) const;
+    /// Hands over N^2 times the waves of what change() makes of the field of some waves.
+    /// Collective.
+    void through_sites(const Give& give, const Rows& change, const Blocks& use) const {
+        single_.through_sites(give, change, use);
     }
 
-    /// The field of some waves, which are lost. Collective.
-    template <class T>
-    void at_sites(Waves<T>& waves, SiteField<T>& field) const;
+    /// The field of some waves. Collective.
+    template <class From, class T>
+    void at_sites(const Waves<From>& waves, SiteField<T>& field) const;
     /// The waves of a field, times a factor N^2. Collective.
     template <class T>
     void to_waves(const SiteField<T>& field, Waves<T>& waves) const;
@@ -151,7 +161,7 @@ public:
     /// S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2. Frictionless: its one number, as zz.
     SurfaceMatrix stiffness(int nx, int ny) const;
     /// Of the table of stiffness, which each rank has whole.
-    std::size_t table_bytes() const { return table_.size() * sizeof(double); }
+    std::size_t table_bytes() const { return table_.size() * (sizeof(double) + sizeof(float)); }
     std::size_t bytes() const;
 
 private:
@@ -161,8 +171,8 @@ private:
     SiteField<double> from_top() const;
     /// u.(S u) with the stiffness of the step.
     double square(const SiteField<double>& u) const;
-    double* table(int entry, int ny);
-    const double* table(int entry, int ny) const;
+    /// Of the whole table.
+    std::size_t entry(int e, int nx, int ny) const;
     /// The components that move of a field of three.
     template <class T>
     PlaneView<T> moving(const VectorPlane<T>& field, int component) const {
@@ -180,9 +190,10 @@ private:
     BlockOptions options_;
     Slab slab_;
     int components_ = 3;
-    std::size_t columns_ = 0;
-    std::vector<double> table_; ///< S of the quadrant: [zz, or xx yy zz xy xz yz][ny][nx], eV/Å^2
-    double uniform_ = 0.0;      ///< S_zz of the uniform wave under a prescribed top, eV/Å^2
+    /// S of the quadrant, eV/Å^2: of each block of all waves as in kernels/surface_rows.hpp.
+    std::vector<double> table_;
+    std::vector<float> single_table_; ///< the same
+    double uniform_ = 0.0;            ///< S_zz of the uniform wave under a prescribed top, eV/Å^2
     Constraint constraint_;
     VectorField<double> layer_, force_;
     Waves<double> waves_;
@@ -201,13 +212,12 @@ public:
     /// With another k.
     void tune(const SpectralBlock& block, double k);
     double k() const { return k_; }
-    /// to <- (S + k)^-1 from, row y of the slab; the two may be the same.
-    void apply_row(int y, const Waves<float>& from, Waves<float>& to) const;
+    /// to <- (S + k)^-1 from + keep to, of block b; the two may be the same.
+    void apply(int b, const float* from, double keep, float* to) const;
 
 private:
-    int sites_, first_;
-    std::size_t columns_, entries_;
-    std::vector<float> table_;
+    int sites_, first_, components_;
+    std::vector<float> table_; ///< like the block's
     double k_ = 0.0;
 };
 

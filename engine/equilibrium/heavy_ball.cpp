@@ -11,8 +11,7 @@
 namespace asperity {
 
 HeavyBall::HeavyBall(SpectralBlock& block)
-    : block_(block), waves_(block.new_waves<float>()), momentum_(block.new_field<float>()),
-      step_sizes_(block.tile(), 1, 0) {
+    : block_(block), momentum_(block.new_field<float>()), step_sizes_(block.tile(), 1, 0) {
     const PlaneView<float> step_size = step_sizes_.plane(0);
     for (int y = 0; y < step_size.ny; ++y)
         std::fill(step_size.line(y), step_size.line(y) + step_size.nx, 1.0f);
@@ -28,7 +27,7 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
     std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
-    block_.respond(preconditioner, waves_, [&](int y, float* const* target) {
+    block_.respond(preconditioner, [&](int y, float* const* target) {
         BallRow row{};
         for (int c = 0; c < components; ++c) {
             row.target[c] = target[c];

@@ -39,7 +39,6 @@ public:
 
 private:
     SpectralBlock& block_;
-    Waves<float> waves_;
     SiteField<float> momentum_;
     Field<float> step_sizes_;
 };

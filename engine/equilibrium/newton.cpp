@@ -10,8 +10,7 @@ Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner,
                const Scales& scales)
     : block_(block), preconditioner_(preconditioner),
       stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length),
-      r_(block.new_waves<float>()), z_(block.new_waves<float>()), p_(block.new_waves<float>()),
-      q_(block.new_waves<float>()) {}
+      r_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
 
 bool Newton::direction(const Interface& interface, double reference_height, double forcing,
                        const Waves<double>& g, Waves<float>& d) {
@@ -20,43 +19,48 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
     combine(-1.0, g, 0.0, r_);
     d.clear();
     double rz = advance(0.0, d);
-    combine(1.0, z_, 0.0, p_);
+    double keep = 0.0;
     const double enough = forcing * forcing * rz;
     for (int i = 0; i < RelaxationConstants::most_products && rz > enough; ++i) {
-        const double curvature = multiply();
+        const double curvature = multiply(keep);
         if (!(curvature > 0.0)) return false;
         const double next = advance(rz / curvature, d);
-        combine(1.0, z_, next / rz, p_);
+        keep = next / rz;
         rz = next;
     }
     return true;
 }
 
-double Newton::multiply() {
-    block_.through_sites(
-        p_, [&](int y, float* const* rows) { stiffness_.apply_row(y, rows); }, q_);
+double Newton::multiply(double keep) {
     const double n = block_.options().sites, norm = 1.0 / (n * n);
-    RowSums sums(block_.slab(), 1);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < p_.rows(); ++y) {
-        block_.stiffen_row(y, p_, norm, q_);
-        for (int c = 0; c < p_.components(); ++c)
-            *sums.row(y) += row_dot(p_.row(c, y), q_.row(c, y), p_.slab().sites);
-    }
+    OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
+    block_.through_sites(
+        [&](int b, float*) {
+            preconditioner_.apply(b, r_.block(b), keep, p_.block(b));
+            return p_.block(b);
+        },
+        [&](int y, float* const* rows) { stiffness_.apply_row(y, rows); },
+        [&](int b, const float* of_interface) {
+            block_.stiffen<float>(b, p_.block(b), norm, of_interface, q_.block(b));
+            *sums.part(b) = dot_of_block(b, p_, q_);
+        });
     return sums.total()[0];
 }
 
 double Newton::advance(double a, Waves<float>& d) {
-    RowSums sums(block_.slab(), 1);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < r_.rows(); ++y) {
-        for (int c = 0; c < r_.components(); ++c) {
-            combine_row(a, p_.row(c, y), 1.0, d.row(c, y), r_.length());
-            combine_row(-a, q_.row(c, y), 1.0, r_.row(c, y), r_.length());
+    const int length = static_cast<int>(r_.length()), rows = r_.components() * r_.slab().sites;
+    OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
+#pragma omp parallel
+    {
+        // Not kept: to make it again from r takes less time than to write it and to read it.
+        const AlignedArray<float> z = aligned_array<float>(r_.length());
+#pragma omp for schedule(static)
+        for (int b = 0; b < r_.blocks(); ++b) {
+            combine_row(a, p_.block(b), 1.0, d.block(b), length);
+            combine_row(-a, q_.block(b), 1.0, r_.block(b), length);
+            preconditioner_.apply(b, r_.block(b), 0.0, z.get());
+            *sums.part(b) = block_dot(r_.block(b), z.get(), rows, r_.slab().weights(b).data());
         }
-        preconditioner_.apply_row(y, r_, z_);
-        for (int c = 0; c < r_.components(); ++c)
-            *sums.row(y) += row_dot(r_.row(c, y), z_.row(c, y), r_.slab().sites);
     }
     return sums.total()[0];
 }

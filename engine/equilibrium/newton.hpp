@@ -25,15 +25,15 @@ public:
     double mean_stiffness(const Interface& interface, double reference_height);
 
 private:
-    /// q <- (S + H) p. Returns p.q.
-    double multiply();
-    /// d <- d + a p, r <- r - a q, z <- P r. Returns r.z.
+    /// p <- P r + keep p, q <- (S + H) p. Returns p.q.
+    double multiply(double keep);
+    /// d <- d + a p, r <- r - a q. Returns r.(P r).
     double advance(double a, Waves<float>& d);
 
     const SpectralBlock& block_;
     const Preconditioner& preconditioner_;
     InterfaceStiffness stiffness_;
-    Waves<float> r_, z_, p_, q_;
+    Waves<float> r_, p_, q_;
 };
 
 } // namespace asperity

@@ -62,8 +62,7 @@ public:
         : block_(block), interface_(interface), height_(reference_height), options_(options),
           phases_(phases), preconditioner_(block, options.scales.stiffness), ball_(block),
           newton_(block, preconditioner_, options.scales), g_(block.new_waves<double>()),
-          d_(block.new_waves<float>()), work_(block.new_waves<float>()),
-          at_sites_(block.new_field<float>()) {
+          d_(block.new_waves<float>()), at_sites_(block.new_field<float>()) {
         find_forces();
         tune();
         const double close =
@@ -113,8 +112,7 @@ private:
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
-        combine(1.0, g_, 0.0, work_);
-        block_.at_sites(work_, at_sites_);
+        block_.at_sites(g_, at_sites_);
         return largest(block_.communicator(), at_sites_);
     }
     void tune() {
@@ -153,8 +151,7 @@ private:
             forcing_ = Constants::tight;
         }
         if (!newton_.direction(interface_, height_, forcing_, g_, d_)) return false;
-        combine(1.0, d_, 0.0, work_);
-        block_.at_sites(work_, at_sites_);
+        block_.at_sites(d_, at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
         const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
         const double fraction = most > max_move_ ? max_move_ / most : 1.0;
@@ -173,7 +170,7 @@ private:
     HeavyBall ball_;
     Newton newton_;
     Waves<double> g_;
-    Waves<float> d_, work_;
+    Waves<float> d_;
     SiteField<float> at_sites_; ///< Newton's direction, or the residual
     InterfaceSums sums_;
     bool spreading_ = false;

@@ -98,15 +98,13 @@ void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
         }
     widest_ = block_.communicator().max(widest);
     block_.to_waves(field, waves);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < waves.rows(); ++y)
-        block_.stiffen_row(y, waves, 0.0, waves);
+    block_.stiffen(waves);
     if (const Waves<double>* known = block_.known()) {
         const bool uniform = block_.slab().holds_uniform(); // which balance() looks after
-        const T mean = uniform ? waves.row(0, 0)[0] : T(0);
+        const T mean = uniform ? waves.uniform(0) : T(0);
         const double n = block_.options().sites;
         combine(n * n, *known, 1.0, waves);
-        if (uniform) waves.row(0, 0)[0] = mean;
+        if (uniform) waves.uniform(0) = mean;
     }
     block_.at_sites(waves, field);
 }
@@ -125,7 +123,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     double reversal = 0.0, mean = 0.0;
     const auto relax = [&](double force) {
         rule.load = force;
-        RowSums sums(block_.slab(), 2);
+        OrderedSums sums(block_.slab(), OrderedSums::Over::rows, 2);
         double furthest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : furthest)
         for (int y = 0; y < u.ny; ++y) {
@@ -134,13 +132,13 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
                                  next_.plane(0).line(y)};
             const WallSums s = interface_.wall()->rest_row(row, rule, u.nx);
             furthest = std::max(furthest, s.furthest);
-            sums.row(y)[0] = s.reversal;
-            sums.row(y)[1] = s.height;
+            sums.part(y)[0] = s.reversal;
+            sums.part(y)[1] = s.height;
         }
         estimate_ = spring_ * block_.communicator().max(furthest);
         const std::vector<double> total = sums.total();
         reversal = total[0];
-        mean = total[1] / (sites * sites); // RowSums multiplies by the sites
+        mean = total[1] / (sites * sites); // total() multiplies by the sites
     };
     // What the block's spring and the load ask for, less the force, and less what L adds to the
     // uniform wave; or what lifts the mean to where it is held.

@@ -35,68 +35,70 @@ Complex wave(const std::vector<T>& row, int i) {
     return {static_cast<double>(row[at]), static_cast<double>(row[at + 1])};
 }
 
-/// f = m u + norm f by the definition: m acts on (u_x, u_y, i u_z), and its third row is i f_z.
-template <class M, class T>
-void expect_product(int sites, double norm, double tolerance) {
+/// f = m u + norm g by the definition: m acts on (u_x, u_y, i u_z), and its third row is i f_z.
+template <class T>
+void expect_product(int sites, int components, double norm, bool in_place, double tolerance) {
+    using namespace matrix_entry;
     std::mt19937_64 random(static_cast<unsigned>(sites));
-    const int waves = sites / 2 + 1;
-    std::vector<M> table[6];
-    MatrixRow<M> m;
-    for (int e = 0; e < 6; ++e) {
-        table[e] = numbers<M>(waves, random);
-        m.at[e] = table[e].data();
-    }
-    m.sign = M(-1);
-    std::vector<T> u[3], f[3];
-    for (int c = 0; c < 3; ++c) {
-        u[c] = numbers<T>(2 * waves, random);
-        f[c] = numbers<T>(2 * waves, random);
-    }
-    const auto before = std::to_array({f[0], f[1], f[2]});
-    const T* const from[3] = {u[0].data(), u[1].data(), u[2].data()};
-    T* const to[3] = {f[0].data(), f[1].data(), f[2].data()};
-    multiply_row(m, waves, 3, from, norm, to);
+    const int entries = components == 1 ? 1 : count, waves = components * sites * block_columns;
+    const auto m = numbers<T>((sites / 2 + 1) * entries * block_columns, random);
+    const auto u = numbers<T>(2 * waves, random), before = numbers<T>(2 * waves, random);
+    auto f = in_place ? before : numbers<T>(2 * waves, random);
+    multiply_block(m.data(), sites, components, u.data(), norm, in_place ? f.data() : before.data(),
+                   f.data());
     const Complex i_unit(0.0, 1.0);
-    for (int i = 0; i < waves; ++i) {
-        const auto at = [&](int e) { return static_cast<double>(m.at[e][i]); };
-        const double xy = -at(MatrixRow<M>::xy), yz = -at(MatrixRow<M>::yz);
-        const double xz = at(MatrixRow<M>::xz);
-        const Complex x = wave(u[0], i), y = wave(u[1], i), w = i_unit * wave(u[2], i);
-        const Complex expected[3] = {at(MatrixRow<M>::xx) * x + xy * y + xz * w,
-                                     xy * x + at(MatrixRow<M>::yy) * y + yz * w,
-                                     (xz * x + yz * y + at(MatrixRow<M>::zz) * w) / i_unit};
-        for (int c = 0; c < 3; ++c)
-            EXPECT_LT(std::abs(wave(f[c], i) - expected[c] -
-                               norm * wave(before[static_cast<std::size_t>(c)], i)),
-                      tolerance)
-                << sites << " sites, wave " << i << ", component " << c;
-    }
+    for (int y = 0; y < sites; ++y)
+        for (int column = 0; column < block_columns; ++column) {
+            const int sign = 2 * y > sites ? -1 : 1;
+            const auto at = [&](int e) {
+                const int row = std::min(y, sites - y) * entries + (components == 1 ? 0 : e);
+                return static_cast<double>(
+                    m[static_cast<std::size_t>(row * block_columns + column)]);
+            };
+            const auto index = [&](int c) { return (c * sites + y) * block_columns + column; };
+            std::vector<Complex> expected;
+            if (components == 1)
+                expected = {at(zz) * wave(u, index(0))};
+            else {
+                const Complex x = wave(u, index(0)), v = wave(u, index(1));
+                const Complex w = i_unit * wave(u, index(2));
+                const double cross = sign * at(xy), across = sign * at(yz);
+                expected = {at(xx) * x + cross * v + at(xz) * w,
+                            cross * x + at(yy) * v + across * w,
+                            (at(xz) * x + across * v + at(zz) * w) / i_unit};
+            }
+            for (int c = 0; c < components; ++c)
+                EXPECT_LT(std::abs(wave(f, index(c)) - expected[static_cast<std::size_t>(c)] -
+                                   norm * wave(before, index(c))),
+                          tolerance)
+                    << sites << " sites, wave " << column << ' ' << y << ", component " << c;
+        }
 }
 
 } // namespace
 
 TEST(SurfaceRows, MatricesActOnWaves) {
-    for (int sites : {1, 2, 7, 16, 33, 128})
-        for (double norm : {0.0, -0.25}) {
-            expect_product<double, double>(sites, norm, 1e-14);
-            expect_product<double, float>(sites, norm, 2e-6);
-            expect_product<float, float>(sites, norm, 2e-6);
-        }
+    for (int sites : {1, 2, 7, 16, 33})
+        for (int components : {1, 3})
+            for (double norm : {0.0, -0.25}) {
+                for (bool in_place : {false, true}) {
+                    expect_product<double>(sites, components, norm, in_place, 1e-14);
+                    expect_product<float>(sites, components, norm, in_place, 2e-6);
+                }
+            }
 }
 
-TEST(SurfaceRows, InnerProductsCountInnerColumnsTwice) {
-    for (int sites : {1, 2, 7, 16, 33, 128}) {
-        std::mt19937_64 random(3);
-        const int waves = sites / 2 + 1, length = 2 * waves;
-        const auto a = numbers<double>(length, random);
-        const auto b = numbers<float>(length, random);
-        double expected = 0.0;
-        for (int i = 0; i < waves; ++i) {
-            const bool mirrored = i > 0 && 2 * i < sites;
-            expected += (mirrored ? 2.0 : 1.0) * (wave(a, i) * std::conj(wave(b, i))).real();
-        }
-        EXPECT_NEAR(row_dot(a.data(), b.data(), sites), expected, 1e-13 * length) << sites;
-    }
+TEST(SurfaceRows, InnerProductsWeighColumns) {
+    const int rows = 21;
+    std::mt19937_64 random(3);
+    const auto a = numbers<double>(2 * rows * block_columns, random);
+    const auto b = numbers<float>(2 * rows * block_columns, random);
+    const auto weights = numbers<double>(block_columns, random);
+    double expected = 0.0;
+    for (int i = 0; i < rows * block_columns; ++i)
+        expected += weights[static_cast<std::size_t>(i % block_columns)] *
+                    (wave(a, i) * std::conj(wave(b, i))).real();
+    EXPECT_NEAR(block_dot(a.data(), b.data(), rows, weights.data()), expected, 1e-12);
 }
 
 TEST(SurfaceRows, TiesAreSpringsAndForces) {

@@ -13,7 +13,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -36,6 +38,46 @@ SiteField<T> field_on(const Slab& slab, int components) {
                 field[static_cast<std::size_t>(c)].plane(0)(x, y) =
                     static_cast<T>(value(x, slab.first + y, c));
     return field;
+}
+
+template <class T>
+auto rows_of(SiteField<T>& field) {
+    return [&](int y, T* const* rows) {
+        for (std::size_t c = 0; c < field.size(); ++c)
+            std::copy_n(field[c].plane(0).line(y), field[c].plane(0).nx, rows[c]);
+    };
+}
+template <class T>
+auto to_rows(SiteField<T>& field) {
+    return [&](int y, T* const* rows) {
+        for (std::size_t c = 0; c < field.size(); ++c)
+            std::copy_n(rows[c], field[c].plane(0).nx, field[c].plane(0).line(y));
+    };
+}
+template <class T>
+auto blocks_of(const Waves<T>& waves) {
+    return [&](int b, T*) { return waves.block(b); };
+}
+template <class T>
+auto to_blocks(Waves<T>& waves) {
+    return [&](int b, const T* block) { std::copy_n(block, waves.length(), waves.block(b)); };
+}
+/// The waves that the ranks of `part` have between them are those of `whole`.
+template <class T>
+void expect_part(const Waves<T>& part, const Waves<T>& whole) {
+    const Slab& slab = part.slab();
+    double mine = 0.0;
+    for (int c = 0; c < part.components(); ++c)
+        for (int ny = 0; ny < slab.sites; ++ny)
+            for (int nx = 0; nx < slab.columns(); ++nx)
+                if (const T* const wave = part.wave(c, nx, ny)) {
+                    ++mine;
+                    const T* const expected = whole.wave(c, nx, ny);
+                    ASSERT_EQ(wave[0], expected[0]) << slab.sites << ": " << nx << ' ' << ny;
+                    ASSERT_EQ(wave[1], expected[1]) << slab.sites << ": " << nx << ' ' << ny;
+                }
+    slab.ranks.sum(std::span(&mine, 1));
+    EXPECT_EQ(mine, part.components() * slab.sites * slab.columns());
 }
 
 struct State {
@@ -74,14 +116,12 @@ TEST(Slabs, AreOfTheRanksTheyAreGiven) {
     const Slab slab(sites, part), whole(sites, Communicator());
     auto mine = field_on<double>(slab, 1), all = field_on<double>(whole, 1);
     Waves<double> waves(slab, 1), of_all(whole, 1);
-    const SurfaceTransform<double> transform(slab), alone(whole);
-    transform.forward(std::as_const(mine[0]).plane(0), waves, 0);
-    alone.forward(std::as_const(all[0]).plane(0), of_all, 0);
-    for (int y = 0; y < slab.rows; ++y)
-        for (int i = 0; i < 2 * slab.columns(); ++i)
-            EXPECT_EQ(waves.row(0, y)[i], of_all.row(0, slab.first + y)[i]);
+    const SurfaceTransform<double> transform(slab, 1), alone(whole, 1);
+    transform.forward(rows_of(mine), to_blocks(waves));
+    alone.forward(rows_of(all), to_blocks(of_all));
+    expect_part(waves, of_all);
     const auto before = field_on<double>(slab, 1);
-    transform.backward(waves, 0, mine[0].plane(0));
+    transform.backward(blocks_of(waves), to_rows(mine));
     for (int y = 0; y < slab.rows; ++y)
         for (int x = 0; x < sites; ++x)
             EXPECT_NEAR(mine[0].plane(0)(x, y),
@@ -89,101 +129,79 @@ TEST(Slabs, AreOfTheRanksTheyAreGiven) {
 }
 
 template <class T>
-void transform_like_one_rank(double tolerance) {
-    for (int sites : {8, 15, 16, 49}) {
+void transform_like_one_rank(double tolerance, int components) {
+    for (int sites : {8, 15, 16, 49, 100}) {
         const Slab slab(sites, test::world()), whole(sites, Communicator());
-        auto mine = field_on<T>(slab, 3), all = field_on<T>(whole, 3);
-        const SurfaceTransform<T> shared(slab), alone(whole);
-        Waves<T> part(slab, 3), waves(whole, 3);
-        for (int c = 0; c < 3; ++c) {
-            const auto at = static_cast<std::size_t>(c);
-            shared.forward(mine[at].plane(0), part, c);
-            alone.forward(all[at].plane(0), waves, c);
-        }
-        for (int c = 0; c < 3; ++c)
-            for (int y = 0; y < slab.rows; ++y)
-                for (int i = 0; i < part.length(); ++i)
-                    ASSERT_EQ(part.row(c, y)[i], waves.row(c, slab.first + y)[i]) << sites;
+        auto mine = field_on<T>(slab, components), all = field_on<T>(whole, components);
+        const SurfaceTransform<T> shared(slab, components), alone(whole, components);
+        Waves<T> part(slab, components), waves(whole, components);
+        shared.forward(rows_of(mine), to_blocks(part));
+        alone.forward(rows_of(all), to_blocks(waves));
+        expect_part(part, waves);
         EXPECT_EQ(dot(part, part), dot(waves, waves));
-        shared.backward(part, 1, mine[1].plane(0));
-        for (int y = 0; y < slab.rows; ++y)
-            for (int x = 0; x < sites; ++x)
-                ASSERT_NEAR(mine[1].plane(0)(x, y) / (1.0 * sites * sites),
-                            value(x, slab.first + y, 1), 10.0 * tolerance);
-    }
-}
 
-template <class T>
-void transform_rows_like_fields(int components) {
-    for (int sites : {8, 15, 49}) {
-        const Slab slab(sites, test::world());
-        const SurfaceTransform<T> transform(slab);
-        auto field = field_on<T>(slab, components);
-        const auto row_of = [&](int c, int y) {
-            return field[static_cast<std::size_t>(c)].plane(0).line(y);
-        };
-        const auto expect_equal = [&](const Waves<T>& a, const Waves<T>& b) {
+        // Parseval, and the definition of one wave.
+        const double n2 = 1.0 * sites * sites;
+        double squares = 0.0, re = 0.0, im = 0.0;
+        const int nx = sites / 2, ny = sites - 1;
+        for (int y = 0; y < sites; ++y)
+            for (int x = 0; x < sites; ++x) {
+                for (int c = 0; c < components; ++c)
+                    squares += value(x, y, c) * value(x, y, c);
+                const double phase = -2.0 * std::numbers::pi * (nx * x + ny * y) / sites;
+                re += value(x, y, components - 1) * std::cos(phase);
+                im += value(x, y, components - 1) * std::sin(phase);
+            }
+        EXPECT_NEAR(dot(part, part) / (n2 * n2 * squares), 1.0, 10.0 * tolerance);
+        EXPECT_NEAR(waves.wave(components - 1, nx, ny)[0], re, n2 * tolerance);
+        EXPECT_NEAR(waves.wave(components - 1, nx, ny)[1], im, n2 * tolerance);
+
+        const auto expect_times = [&](double factor) {
             for (int c = 0; c < components; ++c)
                 for (int y = 0; y < slab.rows; ++y)
-                    for (int i = 0; i < a.length(); ++i)
-                        ASSERT_EQ(a.row(c, y)[i], b.row(c, y)[i]) << sites << ' ' << c;
+                    for (int x = 0; x < sites; ++x)
+                        ASSERT_NEAR(mine[static_cast<std::size_t>(c)].plane(0)(x, y),
+                                    factor * value(x, slab.first + y, c),
+                                    10.0 * factor * tolerance);
         };
-        Waves<T> by_field(slab, components), by_row(slab, components), kept(slab, components);
-        for (int c = 0; c < components; ++c)
-            transform.forward(std::as_const(field[static_cast<std::size_t>(c)]).plane(0), by_field,
-                              c);
-        transform.forward(
-            [&](int y, T* const* rows) {
-                for (int c = 0; c < components; ++c)
-                    std::copy_n(row_of(c, y), sites, rows[c]);
+        shared.backward(blocks_of(part), to_rows(mine));
+        expect_times(n2);
+        // The same on one way, doubled on it.
+        mine = field_on<T>(slab, components);
+        shared.through_waves(
+            rows_of(mine),
+            [&](int, T* block) {
+                for (std::size_t i = 0; i < part.length(); ++i)
+                    block[i] *= T(2);
             },
-            by_row);
-        expect_equal(by_row, by_field);
-
-        // There, doubled, and back again.
-        combine(1.0, by_field, 0.0, kept);
-        for (int c = 0; c < components; ++c)
-            transform.backward(by_field, c, field[static_cast<std::size_t>(c)].plane(0));
-        std::vector<int> equal(static_cast<std::size_t>(slab.rows));
-        transform.backward(by_row, [&](int y, T* const* rows) {
-            bool all = true;
-            for (int c = 0; c < components; ++c)
-                all = all && std::equal(rows[c], rows[c] + sites, row_of(c, y));
-            equal[static_cast<std::size_t>(y)] = all;
-        });
-        EXPECT_EQ(std::count(equal.begin(), equal.end(), 1), slab.rows) << sites;
-        const auto twice = [&](T* row) {
-            for (int x = 0; x < sites; ++x)
-                row[x] *= T(2);
-        };
-        for (int c = 0; c < components; ++c) {
-            for (int y = 0; y < slab.rows; ++y)
-                twice(row_of(c, y));
-            transform.forward(std::as_const(field[static_cast<std::size_t>(c)]).plane(0), by_field,
-                              c);
-        }
-        Waves<T> untouched(slab, components);
-        combine(1.0, kept, 0.0, untouched);
-        transform.through(
-            kept,
+            to_rows(mine));
+        expect_times(2.0 * n2);
+        // Of the waves, from the room where they are written, sixteen times smaller.
+        Waves<T> back(slab, components);
+        shared.through_sites(
+            [&](int b, T* room) -> const T* {
+                combine_row(0.0625, part.block(b), 0.0, room, static_cast<int>(part.length()));
+                return room;
+            },
             [&](int, T* const* rows) {
                 for (int c = 0; c < components; ++c)
-                    twice(rows[c]);
+                    for (int x = 0; x < sites; ++x)
+                        rows[c][x] *= T(16.0 / n2);
             },
-            by_row);
-        expect_equal(by_row, by_field);
-        expect_equal(kept, untouched);
+            to_blocks(back));
+        combine(-1.0, part, 1.0, back);
+        EXPECT_LT(dot(back, back), 100.0 * tolerance * tolerance * dot(part, part));
     }
 }
 
-TEST(Slabs, TransformRowsLikeFields) {
-    for (int components : {1, 3}) {
-        transform_rows_like_fields<double>(components);
-        transform_rows_like_fields<float>(components);
-    }
+TEST(Slabs, TransformLikeOneRankInDouble) {
+    for (int components : {1, 3})
+        transform_like_one_rank<double>(1e-14, components);
 }
-TEST(Slabs, TransformLikeOneRankInDouble) { transform_like_one_rank<double>(1e-14); }
-TEST(Slabs, TransformLikeOneRankInSingle) { transform_like_one_rank<float>(1e-6); }
+TEST(Slabs, TransformLikeOneRankInSingle) {
+    for (int components : {1, 3})
+        transform_like_one_rank<float>(1e-6, components);
+}
 
 TEST(SpectralBlock, RelaxesLikeOneRank) {
     using Constraints = std::array<Constraint, 3>;

@@ -108,11 +108,11 @@ TEST(SpectralBlock, PreconditionerIsAnInverse) {
             std::mt19937_64 random(5);
             const auto x = test::random_displacement(block, random, 1.0);
             auto y = block.new_waves<float>(), back = block.new_waves<float>();
-            for (int row = 0; row < sites; ++row)
-                preconditioner.apply_row(row, x.waves, y);
+            for (int b = 0; b < y.blocks(); ++b)
+                preconditioner.apply(b, x.waves.block(b), 0.0, y.block(b));
             combine(1.5, y, 0.0, back);
-            for (int row = 0; row < sites; ++row)
-                block.stiffen_row(row, y, 1.0, back);
+            for (int b = 0; b < y.blocks(); ++b)
+                block.stiffen<float>(b, y.block(b), 1.0, back.block(b), back.block(b));
             combine(-1.0, x.waves, 1.0, back);
             EXPECT_LT(dot(back, back), 1e-12 * dot(x.waves, x.waves));
         }
@@ -139,7 +139,7 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
             auto target = block.new_field<float>();
-            block.respond(preconditioner, waves, [&](int y, float* const* rows) {
+            block.respond(preconditioner, [&](int y, float* const* rows) {
                 for (int c = 0; c < block.components(); ++c) {
                     const PlaneView<float> to = target[static_cast<std::size_t>(c)].plane(0);
                     std::copy_n(rows[c], to.nx, to.line(y));
@@ -149,8 +149,8 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             auto g = block.new_waves<double>();
             block.gradient(g);
             combine(1.0, g, 0.0, waves);
-            for (int y = 0; y < g.rows(); ++y)
-                preconditioner.apply_row(y, waves, waves);
+            for (int b = 0; b < g.blocks(); ++b)
+                preconditioner.apply(b, waves.block(b), 0.0, waves.block(b));
             auto response = block.new_waves<double>();
             combine(1.0, waves, 0.0, response);
             auto expected = block.new_field<double>();
