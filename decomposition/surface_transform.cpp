@@ -83,7 +83,11 @@ struct SurfaceTransform<T>::Parts {
     typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
     typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
     /// Of each thread: two blocks of waves; or a row of sites of each component, and one of waves.
-    std::vector<AlignedArray<T>> own;
+    struct Own {
+        AlignedArray<T> room;
+        std::array<T*, 3> rows{};
+    };
+    std::vector<Own> own;
     /// Waves that are transformed along x: of this rank's rows of all blocks, and, of several
     /// ranks, of all rows of this rank's blocks, by rank. In both a block of a rank's rows is
     /// [component][row][column], and the next one begins a line further, so that the blocks of a
@@ -95,13 +99,15 @@ struct SurfaceTransform<T>::Parts {
             std::max(2 * slab.block_length(components),
                      static_cast<std::size_t>(components) * row_length() + waves_of_row());
         for (int t = 0; t < omp_get_max_threads(); ++t) {
-            own.push_back(aligned_array<T>(room));
-            std::fill_n(own.back().get(), room, T(0));
+            Own& mine = own.emplace_back(Own{aligned_array<T>(room)});
+            std::fill_n(mine.room.get(), room, T(0));
+            for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c)
+                mine.rows[c] = mine.room.get() + c * row_length();
         }
         of_rows =
             aligned_array<T>(static_cast<std::size_t>(slab.all_blocks()) * block_of(slab.rows));
         if (slab.ranks.size() > 1) of_blocks = aligned_array<T>(from_rank(slab.ranks.size()));
-        T* const sites = own.front().get();
+        T* const sites = mine();
         auto* const waves = reinterpret_cast<Complex*>(waves_of_mine());
         rows_forward = F::real_to_waves(slab.sites, sites, waves, FFTW_ESTIMATE);
         rows_backward = F::waves_to_real(slab.sites, waves, sites, FFTW_ESTIMATE);
@@ -131,14 +137,9 @@ struct SurfaceTransform<T>::Parts {
         return (static_cast<std::size_t>(slab.sites) + line - 1) / line * line;
     }
     std::size_t waves_of_row() const { return static_cast<std::size_t>(slab.all_blocks()) * width; }
-    T* mine() { return own[static_cast<std::size_t>(omp_get_thread_num())].get(); }
-    std::array<T*, 3> sites_of_mine() {
-        std::array<T*, 3> rows{};
-        for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c)
-            rows[c] = mine() + c * row_length();
-        return rows;
-    }
-    T* room_of_mine() { return mine() + slab.block_length(components); } ///< the second block
+    const Own& of_thread() const { return own[static_cast<std::size_t>(omp_get_thread_num())]; }
+    T* mine() { return of_thread().room.get(); }
+    T* second_block() { return mine() + slab.block_length(components); }
     T* waves_of_mine() { return mine() + static_cast<std::size_t>(components) * row_length(); }
 
     /// Numbers of one component of a block of so many rows; of all, with the line.
@@ -156,25 +157,30 @@ struct SurfaceTransform<T>::Parts {
     }
 
     /// Row y of this rank: from its sites to of_rows, or back.
-    void row_to_waves(int y, T* const* rows) {
+    void put_rows(int y) {
+        const auto& rows = of_thread().rows;
         T* const waves = waves_of_mine();
         std::fill(waves + 2 * slab.columns(), waves + waves_of_row(), T(0)); // none, in a block
         for (int c = 0; c < components; ++c) {
-            F::run_real_to_waves(rows_forward, rows[c], reinterpret_cast<Complex*>(waves));
+            F::run_real_to_waves(rows_forward, rows[static_cast<std::size_t>(c)],
+                                 reinterpret_cast<Complex*>(waves));
             each_of_row(y, c, [&](T* there, std::size_t i) {
                 std::memcpy(there, waves + i, width * sizeof(T));
             });
         }
     }
-    void row_to_sites(int y, T* const* rows) {
+    T* const* get_rows(int y) {
+        const auto& rows = of_thread().rows;
         T* const waves = waves_of_mine();
         for (int c = 0; c < components; ++c) {
             each_of_row(y, c, [&](const T* there, std::size_t i) {
                 __builtin_prefetch(there + 2 * width);
                 std::memcpy(waves + i, there, width * sizeof(T));
             });
-            F::run_waves_to_real(rows_backward, reinterpret_cast<Complex*>(waves), rows[c]);
+            F::run_waves_to_real(rows_backward, reinterpret_cast<Complex*>(waves),
+                                 rows[static_cast<std::size_t>(c)]);
         }
+        return rows.data();
     }
     template <class Copy>
     void each_of_row(int y, int c, const Copy& copy) {
@@ -206,9 +212,8 @@ struct SurfaceTransform<T>::Parts {
             F::run_along(plan, reinterpret_cast<Complex*>(const_cast<T*>(from)),
                          reinterpret_cast<Complex*>(to));
     }
-    /// Block b transformed along y as well, in one of two blocks of this thread.
-    T* block_to_waves(int b) {
-        T* const whole = room_of_mine();
+    T* get_block(int b) {
+        T* const whole = second_block();
         const T* from = of_rows.get() + static_cast<std::size_t>(b) * block_of(slab.rows);
         if (slab.ranks.size() > 1) {
             each_of_block(b, [&](const T* part, std::size_t at, std::size_t count) {
@@ -219,8 +224,7 @@ struct SurfaceTransform<T>::Parts {
         transform_block(columns_forward, from, whole);
         return whole;
     }
-    /// The way back, from anywhere but the first of the two.
-    void block_to_rows(int b, const T* waves) {
+    void put_block(int b, const T* waves) {
         if (slab.ranks.size() == 1) {
             transform_block(columns_backward, waves,
                             of_rows.get() + static_cast<std::size_t>(b) * block_of(slab.rows));
@@ -252,19 +256,6 @@ struct SurfaceTransform<T>::Parts {
         }
         slab.ranks.exchange(messages);
     }
-
-    template <class Work>
-    void each_row(const Work& work) {
-#pragma omp parallel for schedule(static) num_threads(threads())
-        for (int y = 0; y < slab.rows; ++y)
-            work(y, sites_of_mine().data());
-    }
-    template <class Work>
-    void each_block(const Work& work) {
-#pragma omp parallel for schedule(static) num_threads(threads())
-        for (int b = 0; b < slab.blocks(); ++b)
-            work(b);
-    }
 };
 
 template <class T>
@@ -278,61 +269,40 @@ template <class T>
 SurfaceTransform<T>& SurfaceTransform<T>::operator=(SurfaceTransform&&) noexcept = default;
 
 template <class T>
-void SurfaceTransform<T>::forward(const Rows& make, const Blocks& use) const {
-    Parts& p = *parts_;
-    p.each_row([&](int y, T* const* rows) {
-        make(y, rows);
-        p.row_to_waves(y, rows);
-    });
-    p.exchange(true);
-    p.each_block([&](int b) { use(b, p.block_to_waves(b)); });
+int SurfaceTransform<T>::threads() const {
+    return parts_->threads();
 }
-
 template <class T>
-void SurfaceTransform<T>::backward(const Give& give, const Rows& use) const {
-    Parts& p = *parts_;
-    p.each_block([&](int b) { p.block_to_rows(b, give(b, p.room_of_mine())); });
-    p.exchange(false);
-    p.each_row([&](int y, T* const* rows) {
-        p.row_to_sites(y, rows);
-        use(y, rows);
-    });
+T* const* SurfaceTransform<T>::rows() const {
+    return parts_->of_thread().rows.data();
 }
-
 template <class T>
-void SurfaceTransform<T>::through_sites(const Give& give, const Rows& change,
-                                        const Blocks& use) const {
-    Parts& p = *parts_;
-    p.each_block([&](int b) { p.block_to_rows(b, give(b, p.room_of_mine())); });
-    p.exchange(false);
-    p.each_row([&](int y, T* const* rows) {
-        p.row_to_sites(y, rows);
-        change(y, rows);
-        p.row_to_waves(y, rows);
-    });
-    p.exchange(true);
-    p.each_block([&](int b) { use(b, p.block_to_waves(b)); });
+void SurfaceTransform<T>::put_rows(int y) const {
+    parts_->put_rows(y);
 }
-
 template <class T>
-void SurfaceTransform<T>::through_waves(const Rows& make, const Blocks& change,
-                                        const Rows& use) const {
-    Parts& p = *parts_;
-    p.each_row([&](int y, T* const* rows) {
-        make(y, rows);
-        p.row_to_waves(y, rows);
-    });
-    p.exchange(true);
-    p.each_block([&](int b) {
-        T* const block = p.block_to_waves(b);
-        change(b, block);
-        p.block_to_rows(b, block);
-    });
-    p.exchange(false);
-    p.each_row([&](int y, T* const* rows) {
-        p.row_to_sites(y, rows);
-        use(y, rows);
-    });
+T* const* SurfaceTransform<T>::get_rows(int y) const {
+    return parts_->get_rows(y);
+}
+template <class T>
+void SurfaceTransform<T>::to_blocks() const {
+    parts_->exchange(true);
+}
+template <class T>
+void SurfaceTransform<T>::to_rows() const {
+    parts_->exchange(false);
+}
+template <class T>
+T* SurfaceTransform<T>::get_block(int b) const {
+    return parts_->get_block(b);
+}
+template <class T>
+void SurfaceTransform<T>::put_block(int b, const T* waves) const {
+    parts_->put_block(b, waves);
+}
+template <class T>
+T* SurfaceTransform<T>::room() const {
+    return parts_->second_block();
 }
 
 template class SurfaceTransform<double>;

@@ -3,10 +3,24 @@
 //
 // The Fourier transform of a surface in slabs of rows over the ranks.
 //
-// Rows of sites are made, transformed and handed over one at a time in the cache, and so are blocks
-// of columns of waves (waves.hpp). Between the two the ranks exchange all waves once. FFTW works in
-// arrays of a thread's own, by plans made by estimate, not by measurement, and always on as many
-// columns; so a transform is bitwise identical on any number of threads and ranks.
+// It is two loops of the caller, over rows of sites and over blocks of columns of waves
+// (waves.hpp), with one exchange of the ranks between them:
+//
+//     #pragma omp parallel for schedule(static) num_threads(t.threads())
+//     for (int y = 0; y < slab.rows; ++y) {
+//         T* const* rows = t.rows(); // of each component, to be written
+//         ...
+//         t.put_rows(y);
+//     }
+//     t.to_blocks();
+//     #pragma omp parallel for schedule(static) num_threads(t.threads())
+//     for (int b = 0; b < slab.blocks(); ++b)
+//         ... t.get_block(b) ...
+//
+// and back by put_block(), to_rows() and get_rows(). So what is done to a row or a block is done
+// while it is in the cache. FFTW works in arrays of a thread's own, by plans made by estimate, not
+// by measurement, and always on as many columns: a transform is bitwise identical on any number of
+// threads and ranks.
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -14,7 +28,6 @@
 #include "decomposition/waves.hpp"
 
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -31,8 +44,7 @@ SiteField<T> site_field(const Slab& slab, int components) {
     return field;
 }
 
-/// Between the sites of a surface and its waves; T is double or float. All collective; one at a
-/// time.
+/// Between the sites of a surface and its waves; T is double or float. One transform at a time.
 template <class T>
 class SurfaceTransform {
 public:
@@ -41,22 +53,24 @@ public:
     SurfaceTransform(SurfaceTransform&&) noexcept;
     SurfaceTransform& operator=(SurfaceTransform&&) noexcept;
 
-    /// Row y of the slab of each component of a field, in the cache: to be written or read. Called
-    /// by all threads, as are the next two.
-    using Rows = std::function<void(int y, T* const* rows)>;
-    /// Block b of this rank's waves, in the cache: to be read, or changed.
-    using Blocks = std::function<void(int b, T* block)>;
-    /// Where the waves of block b are: there, or in the room, written by this.
-    using Give = std::function<const T*(int b, T* room)>;
+    /// Of a loop over rows or blocks, at most.
+    int threads() const;
 
-    /// Hands over N^2 u_q of the field that make() writes.
-    void forward(const Rows& make, const Blocks& use) const;
-    /// Hands over the field of some waves.
-    void backward(const Give& give, const Rows& use) const;
-    /// Hands over N^2 u_q of what change() makes of the field of some waves.
-    void through_sites(const Give& give, const Rows& change, const Blocks& use) const;
-    /// Hands over the field of what change() makes of N^2 u_q of the field that make() writes.
-    void through_waves(const Rows& make, const Blocks& change, const Rows& use) const;
+    /// A row of sites of each component, this thread's own.
+    T* const* rows() const;
+    /// These become row y of the slab.
+    void put_rows(int y) const;
+    /// Row y of the slab, in rows().
+    T* const* get_rows(int y) const;
+    /// From rows that were put to blocks, and back. Collective.
+    void to_blocks() const;
+    void to_rows() const;
+    /// N^2 u_q of this rank's block b, in room(); it may be changed.
+    T* get_block(int b) const;
+    /// The waves of block b, which may be in room(), as u_q.
+    void put_block(int b, const T* waves) const;
+    /// A block of this thread's own.
+    T* room() const;
 
 private:
     struct Parts;

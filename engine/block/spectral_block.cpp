@@ -58,10 +58,16 @@ std::vector<double> stiffness_table(const BlockOptions& options, const Slab& sla
     return table;
 }
 
-/// Copies row y of a field to a thread's row.
-template <class From, class T>
-void copy_row(const PlaneView<const From>& field, int y, T* row) {
-    std::copy_n(field.line(y), field.nx, row);
+/// Transforms a field, a plane for each component, as far as blocks.
+template <class T>
+void put_planes(const std::vector<PlaneView<const T>>& planes, const SurfaceTransform<T>& to) {
+#pragma omp parallel for schedule(static) num_threads(to.threads())
+    for (int y = 0; y < planes.front().ny; ++y) {
+        for (std::size_t c = 0; c < planes.size(); ++c)
+            std::copy_n(planes[c].line(y), planes[c].nx, to.rows()[c]);
+        to.put_rows(y);
+    }
+    to.to_blocks();
 }
 
 } // namespace
@@ -120,16 +126,13 @@ double SpectralBlock::top_force() const {
 
 void SpectralBlock::gradient(Waves<double>& g) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites);
-    transform_.forward(
-        [&](int y, double* const* rows) {
-            for (int c = 0; c < components_; ++c)
-                copy_row(moving(force_.plane(0), c), y, rows[c]);
-        },
-        [&](int b, const double* force) {
-            stiffen<double>(b, waves_.block(b), -norm, force, g.block(b));
-            if (known_)
-                combine_row(1.0, known_->block(b), 1.0, g.block(b), static_cast<int>(g.length()));
-        });
+    put_planes(moving_planes(force_), transform_);
+#pragma omp parallel for schedule(static) num_threads(transform_.threads())
+    for (int b = 0; b < g.blocks(); ++b) {
+        stiffen<double>(b, waves_.block(b), -norm, transform_.get_block(b), g.block(b));
+        if (known_)
+            combine_row(1.0, known_->block(b), 1.0, g.block(b), static_cast<int>(g.length()));
+    }
     if (!slab_.holds_uniform()) return;
     double& mean = g.uniform(components_ - 1);
     mean += norm * constraint_.load();
@@ -226,17 +229,23 @@ BranchEnergies SpectralBlock::branch_energies() const {
 
 template <class From, class T>
 void SpectralBlock::at_sites(const Waves<From>& waves, SiteField<T>& field) const {
-    transform<T>().backward(
-        [&](int b, T* room) -> const T* {
-            if constexpr (std::is_same_v<From, T>) return waves.block(b);
-            combine_row(1.0, waves.block(b), 0.0, room, static_cast<int>(waves.length()));
-            return room;
-        },
-        [&](int y, T* const* rows) {
-            for (int c = 0; c < components_; ++c)
-                std::copy_n(rows[c], slab_.sites,
-                            field[static_cast<std::size_t>(c)].plane(0).line(y));
-        });
+    const SurfaceTransform<T>& by = transform<T>();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int b = 0; b < waves.blocks(); ++b) {
+        if constexpr (std::is_same_v<From, T>) {
+            by.put_block(b, waves.block(b));
+        } else {
+            combine_row(1.0, waves.block(b), 0.0, by.room(), static_cast<int>(waves.length()));
+            by.put_block(b, by.room());
+        }
+    }
+    by.to_rows();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int y = 0; y < slab_.rows; ++y) {
+        const T* const* rows = by.get_rows(y);
+        for (std::size_t c = 0; c < field.size(); ++c)
+            std::copy_n(rows[c], slab_.sites, field[c].plane(0).line(y));
+    }
 }
 template void SpectralBlock::at_sites(const Waves<float>&, SiteField<float>&) const;
 template void SpectralBlock::at_sites(const Waves<double>&, SiteField<float>&) const;
@@ -244,12 +253,14 @@ template void SpectralBlock::at_sites(const Waves<double>&, SiteField<double>&) 
 
 template <class T>
 void SpectralBlock::to_waves(const SiteField<T>& field, Waves<T>& waves) const {
-    transform<T>().forward(
-        [&](int y, T* const* rows) {
-            for (int c = 0; c < components_; ++c)
-                copy_row(field[static_cast<std::size_t>(c)].plane(0), y, rows[c]);
-        },
-        [&](int b, const T* block) { std::copy_n(block, waves.length(), waves.block(b)); });
+    const SurfaceTransform<T>& by = transform<T>();
+    std::vector<PlaneView<const T>> planes;
+    for (const Field<T>& component : field)
+        planes.push_back(component.plane(0));
+    put_planes(planes, by);
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int b = 0; b < waves.blocks(); ++b)
+        std::copy_n(by.get_block(b), waves.length(), waves.block(b));
 }
 template void SpectralBlock::to_waves(const SiteField<float>&, Waves<float>&) const;
 template void SpectralBlock::to_waves(const SiteField<double>&, Waves<double>&) const;
@@ -263,27 +274,32 @@ void SpectralBlock::displace(double t, const Waves<float>& d, const SiteField<fl
                         moving(layer_.plane(0), c).line(y), slab_.sites);
 }
 
-void SpectralBlock::respond(const Preconditioner& preconditioner, const Rows& use) const {
+void SpectralBlock::respond(const Preconditioner& preconditioner) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
     double mean = -norm * constraint_.load();
     if (constraint_.is_top()) mean += uniform_ * constraint_.value;
     const std::size_t normal = slab_.block_length(components_ - 1);
-    single_.through_waves(
-        [&](int y, float* const* rows) {
-            for (int c = 0; c < components_; ++c)
-                tie_row(k, norm, moving(layer_.plane(0), c).line(y),
-                        moving(force_.plane(0), c).line(y), rows[c], slab_.sites);
-        },
-        [&](int b, float* block) {
-            const bool uniform = b == 0 && slab_.holds_uniform();
-            if (uniform) block[normal] += static_cast<float>(mean);
-            if (known_)
-                combine_row(-1.0, known_->block(b), 1.0, block, static_cast<int>(known_->length()));
-            preconditioner.apply(b, block, 0.0, block);
-            if (uniform && constraint_.is_mean_height())
-                block[normal] = static_cast<float>(constraint_.value);
-        },
-        use);
+#pragma omp parallel for schedule(static) num_threads(single_.threads())
+    for (int y = 0; y < slab_.rows; ++y) {
+        for (int c = 0; c < components_; ++c)
+            tie_row(k, norm, moving(layer_.plane(0), c).line(y), moving(force_.plane(0), c).line(y),
+                    single_.rows()[c], slab_.sites);
+        single_.put_rows(y);
+    }
+    single_.to_blocks();
+#pragma omp parallel for schedule(static) num_threads(single_.threads())
+    for (int b = 0; b < slab_.blocks(); ++b) {
+        float* const waves = single_.get_block(b);
+        const bool uniform = b == 0 && slab_.holds_uniform();
+        if (uniform) waves[normal] += static_cast<float>(mean);
+        if (known_)
+            combine_row(-1.0, known_->block(b), 1.0, waves, static_cast<int>(known_->length()));
+        preconditioner.apply(b, waves, 0.0, waves);
+        if (uniform && constraint_.is_mean_height())
+            waves[normal] = static_cast<float>(constraint_.value);
+        single_.put_block(b, waves);
+    }
+    single_.to_rows();
 }
 
 void SpectralBlock::restore_mean_height() {
@@ -301,15 +317,11 @@ void SpectralBlock::restore_mean_height() {
 void SpectralBlock::apply_constraint() {
     restore_mean_height();
     const double sites = options_.sites;
-    transform_.forward(
-        [&](int y, double* const* rows) {
-            for (int c = 0; c < components_; ++c)
-                copy_row(moving(std::as_const(layer_).plane(0), c), y, rows[c]);
-        },
-        [&](int b, const double* block) {
-            combine_row(1.0 / (sites * sites), block, 0.0, waves_.block(b),
-                        static_cast<int>(waves_.length()));
-        });
+    put_planes(moving_planes(layer_), transform_);
+#pragma omp parallel for schedule(static) num_threads(transform_.threads())
+    for (int b = 0; b < waves_.blocks(); ++b)
+        combine_row(1.0 / (sites * sites), transform_.get_block(b), 0.0, waves_.block(b),
+                    static_cast<int>(waves_.length()));
     if (constraint_.is_mean_height() && slab_.holds_uniform())
         waves_.uniform(components_ - 1) = constraint_.value;
 }

@@ -121,18 +121,17 @@ public:
         return memory_ ? &memory_->extensions() : nullptr;
     }
 
-    /// Parts of fields and of waves, handed over in the cache (surface_transform.hpp).
-    using Rows = SurfaceTransform<float>::Rows;
-    using Blocks = SurfaceTransform<float>::Blocks;
-    using Give = SurfaceTransform<float>::Give;
-    /// Hands over where the sites would come to rest under the forces of gradient(), did a spring k
-    /// tie each to where it is: (S + k)^-1 (k u + F + load). The waves of the displacement are not
-    /// looked at. Collective.
-    void respond(const Preconditioner& preconditioner, const Rows& use) const;
-    /// Hands over N^2 times the waves of what change() makes of the field of some waves.
-    /// Collective.
-    void through_sites(const Give& give, const Rows& change, const Blocks& use) const {
-        single_.through_sites(give, change, use);
+    /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
+    /// to where it is: (S + k)^-1 (k u + F + load), whose rows transform<float>().get_rows() then
+    /// has. The waves of the displacement are not looked at. Collective.
+    void respond(const Preconditioner& preconditioner) const;
+    /// Between the sites and their waves.
+    template <class T>
+    const SurfaceTransform<T>& transform() const {
+        if constexpr (std::is_same_v<T, double>)
+            return transform_;
+        else
+            return single_;
     }
 
     /// The field of some waves. Collective.
@@ -179,12 +178,11 @@ private:
         const PlaneView<T> all[3] = {field.x, field.y, field.z};
         return all[component + 3 - components_];
     }
-    template <class T>
-    const SurfaceTransform<T>& transform() const {
-        if constexpr (std::is_same_v<T, double>)
-            return transform_;
-        else
-            return single_;
+    std::vector<PlaneView<const double>> moving_planes(const VectorField<double>& field) const {
+        std::vector<PlaneView<const double>> planes;
+        for (int c = 0; c < components_; ++c)
+            planes.push_back(moving(field.plane(0), c));
+        return planes;
     }
 
     BlockOptions options_;

@@ -27,7 +27,11 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
     std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
-    block_.respond(preconditioner, [&](int y, float* const* target) {
+    block_.respond(preconditioner);
+    const SurfaceTransform<float>& by = block_.transform<float>();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int y = 0; y < step_size.ny; ++y) {
+        const float* const* target = by.get_rows(y);
         BallRow row{};
         for (int c = 0; c < components; ++c) {
             row.target[c] = target[c];
@@ -36,7 +40,7 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
         }
         row.step_size = step_size.line(y);
         of_row[static_cast<std::size_t>(y)] = move_row(row, rule, components, step_size.nx);
-    });
+    }
     const double longest = *std::max_element(of_row.begin(), of_row.end());
     block_.restore_mean_height();
     return std::sqrt(block_.communicator().max(longest));

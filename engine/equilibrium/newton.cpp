@@ -34,33 +34,39 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
 double Newton::multiply(double keep) {
     const double n = block_.options().sites, norm = 1.0 / (n * n);
     OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
-    block_.through_sites(
-        [&](int b, float*) {
-            preconditioner_.apply(b, r_.block(b), keep, p_.block(b));
-            return p_.block(b);
-        },
-        [&](int y, float* const* rows) { stiffness_.apply_row(y, rows); },
-        [&](int b, const float* of_interface) {
-            block_.stiffen<float>(b, p_.block(b), norm, of_interface, q_.block(b));
-            *sums.part(b) = dot_of_block(b, p_, q_);
-        });
+    const SurfaceTransform<float>& by = block_.transform<float>();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int b = 0; b < p_.blocks(); ++b) {
+        preconditioner_.apply(b, r_.block(b), keep, p_.block(b));
+        by.put_block(b, p_.block(b));
+    }
+    by.to_rows();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int y = 0; y < block_.slab().rows; ++y) {
+        stiffness_.apply_row(y, by.get_rows(y));
+        by.put_rows(y);
+    }
+    by.to_blocks();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int b = 0; b < p_.blocks(); ++b) {
+        block_.stiffen<float>(b, p_.block(b), norm, by.get_block(b), q_.block(b));
+        *sums.part(b) = dot_of_block(b, p_, q_);
+    }
     return sums.total()[0];
 }
 
 double Newton::advance(double a, Waves<float>& d) {
     const int length = static_cast<int>(r_.length()), rows = r_.components() * r_.slab().sites;
     OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
-#pragma omp parallel
-    {
-        // Not kept: to make it again from r takes less time than to write it and to read it.
-        const AlignedArray<float> z = aligned_array<float>(r_.length());
-#pragma omp for schedule(static)
-        for (int b = 0; b < r_.blocks(); ++b) {
-            combine_row(a, p_.block(b), 1.0, d.block(b), length);
-            combine_row(-a, q_.block(b), 1.0, r_.block(b), length);
-            preconditioner_.apply(b, r_.block(b), 0.0, z.get());
-            *sums.part(b) = block_dot(r_.block(b), z.get(), rows, r_.slab().weights(b).data());
-        }
+    const SurfaceTransform<float>& by = block_.transform<float>();
+#pragma omp parallel for schedule(static) num_threads(by.threads())
+    for (int b = 0; b < r_.blocks(); ++b) {
+        combine_row(a, p_.block(b), 1.0, d.block(b), length);
+        combine_row(-a, q_.block(b), 1.0, r_.block(b), length);
+        // z is not kept: to make it again from r takes less time than to write it and to read it.
+        float* const z = by.room();
+        preconditioner_.apply(b, r_.block(b), 0.0, z);
+        *sums.part(b) = block_dot(r_.block(b), z, rows, r_.slab().weights(b).data());
     }
     return sums.total()[0];
 }

@@ -40,27 +40,26 @@ SiteField<T> field_on(const Slab& slab, int components) {
     return field;
 }
 
+/// Both ways, from and to fields and waves.
 template <class T>
-auto rows_of(SiteField<T>& field) {
-    return [&](int y, T* const* rows) {
+void forward(const SurfaceTransform<T>& by, const SiteField<T>& field, Waves<T>& waves) {
+    for (int y = 0; y < waves.slab().rows; ++y) {
         for (std::size_t c = 0; c < field.size(); ++c)
-            std::copy_n(field[c].plane(0).line(y), field[c].plane(0).nx, rows[c]);
-    };
+            std::copy_n(field[c].plane(0).line(y), waves.slab().sites, by.rows()[c]);
+        by.put_rows(y);
+    }
+    by.to_blocks();
+    for (int b = 0; b < waves.blocks(); ++b)
+        std::copy_n(by.get_block(b), waves.length(), waves.block(b));
 }
 template <class T>
-auto to_rows(SiteField<T>& field) {
-    return [&](int y, T* const* rows) {
+void backward(const SurfaceTransform<T>& by, const Waves<T>& waves, SiteField<T>& field) {
+    for (int b = 0; b < waves.blocks(); ++b)
+        by.put_block(b, waves.block(b));
+    by.to_rows();
+    for (int y = 0; y < waves.slab().rows; ++y)
         for (std::size_t c = 0; c < field.size(); ++c)
-            std::copy_n(rows[c], field[c].plane(0).nx, field[c].plane(0).line(y));
-    };
-}
-template <class T>
-auto blocks_of(const Waves<T>& waves) {
-    return [&](int b, T*) { return waves.block(b); };
-}
-template <class T>
-auto to_blocks(Waves<T>& waves) {
-    return [&](int b, const T* block) { std::copy_n(block, waves.length(), waves.block(b)); };
+            std::copy_n(by.get_rows(y)[c], waves.slab().sites, field[c].plane(0).line(y));
 }
 /// The waves that the ranks of `part` have between them are those of `whole`.
 template <class T>
@@ -117,11 +116,11 @@ TEST(Slabs, AreOfTheRanksTheyAreGiven) {
     auto mine = field_on<double>(slab, 1), all = field_on<double>(whole, 1);
     Waves<double> waves(slab, 1), of_all(whole, 1);
     const SurfaceTransform<double> transform(slab, 1), alone(whole, 1);
-    transform.forward(rows_of(mine), to_blocks(waves));
-    alone.forward(rows_of(all), to_blocks(of_all));
+    forward(transform, mine, waves);
+    forward(alone, all, of_all);
     expect_part(waves, of_all);
     const auto before = field_on<double>(slab, 1);
-    transform.backward(blocks_of(waves), to_rows(mine));
+    backward(transform, waves, mine);
     for (int y = 0; y < slab.rows; ++y)
         for (int x = 0; x < sites; ++x)
             EXPECT_NEAR(mine[0].plane(0)(x, y),
@@ -135,8 +134,8 @@ void transform_like_one_rank(double tolerance, int components) {
         auto mine = field_on<T>(slab, components), all = field_on<T>(whole, components);
         const SurfaceTransform<T> shared(slab, components), alone(whole, components);
         Waves<T> part(slab, components), waves(whole, components);
-        shared.forward(rows_of(mine), to_blocks(part));
-        alone.forward(rows_of(all), to_blocks(waves));
+        forward(shared, mine, part);
+        forward(alone, all, waves);
         expect_part(part, waves);
         EXPECT_EQ(dot(part, part), dot(waves, waves));
 
@@ -164,31 +163,34 @@ void transform_like_one_rank(double tolerance, int components) {
                                     factor * value(x, slab.first + y, c),
                                     10.0 * factor * tolerance);
         };
-        shared.backward(blocks_of(part), to_rows(mine));
+        backward(shared, part, mine);
         expect_times(n2);
-        // The same on one way, doubled on it.
-        mine = field_on<T>(slab, components);
-        shared.through_waves(
-            rows_of(mine),
-            [&](int, T* block) {
-                for (std::size_t i = 0; i < part.length(); ++i)
-                    block[i] *= T(2);
-            },
-            to_rows(mine));
-        expect_times(2.0 * n2);
-        // Of the waves, from the room where they are written, sixteen times smaller.
+        // From the room where waves are written, sixteen times smaller, and on from there.
+        for (int b = 0; b < part.blocks(); ++b) {
+            combine_row(0.0625, part.block(b), 0.0, shared.room(), static_cast<int>(part.length()));
+            shared.put_block(b, shared.room());
+        }
+        shared.to_rows();
+        for (int y = 0; y < slab.rows; ++y) {
+            T* const* rows = shared.get_rows(y);
+            for (int c = 0; c < components; ++c)
+                for (int x = 0; x < sites; ++x)
+                    rows[c][x] *= T(16.0 / n2);
+            shared.put_rows(y);
+        }
+        shared.to_blocks();
         Waves<T> back(slab, components);
-        shared.through_sites(
-            [&](int b, T* room) -> const T* {
-                combine_row(0.0625, part.block(b), 0.0, room, static_cast<int>(part.length()));
-                return room;
-            },
-            [&](int, T* const* rows) {
-                for (int c = 0; c < components; ++c)
-                    for (int x = 0; x < sites; ++x)
-                        rows[c][x] *= T(16.0 / n2);
-            },
-            to_blocks(back));
+        for (int b = 0; b < back.blocks(); ++b) {
+            T* const block = shared.get_block(b);
+            std::copy_n(block, back.length(), back.block(b));
+            shared.put_block(b, block); // as it is, or changed
+        }
+        shared.to_rows();
+        for (int y = 0; y < slab.rows; ++y)
+            for (int c = 0; c < components; ++c)
+                std::copy_n(shared.get_rows(y)[c], sites,
+                            mine[static_cast<std::size_t>(c)].plane(0).line(y));
+        expect_times(n2);
         combine(-1.0, part, 1.0, back);
         EXPECT_LT(dot(back, back), 100.0 * tolerance * tolerance * dot(part, part));
     }

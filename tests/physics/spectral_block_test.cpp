@@ -139,12 +139,12 @@ TEST(SpectralBlock, SitesRespondToTheGradientThroughThePreconditioner) {
             const Preconditioner preconditioner(block, k);
             auto waves = block.new_waves<float>();
             auto target = block.new_field<float>();
-            block.respond(preconditioner, [&](int y, float* const* rows) {
-                for (int c = 0; c < block.components(); ++c) {
-                    const PlaneView<float> to = target[static_cast<std::size_t>(c)].plane(0);
-                    std::copy_n(rows[c], to.nx, to.line(y));
-                }
-            });
+            block.respond(preconditioner);
+            for (int y = 0; y < block.slab().rows; ++y) {
+                const float* const* rows = block.transform<float>().get_rows(y);
+                for (std::size_t c = 0; c < target.size(); ++c)
+                    std::copy_n(rows[c], block.slab().sites, target[c].plane(0).line(y));
+            }
 
             auto g = block.new_waves<double>();
             block.gradient(g);
