@@ -139,15 +139,22 @@ inline KeptPath PathCase::approached(double tolerance, double step, double load,
     return approach;
 }
 
-/// The point before the first instability of an approach that has been started, which has then
-/// passed it.
-inline StepRecord before_the_first_fall(KeptPath& path) {
-    StepRecord before = path.now();
-    while (path.dissipation().events == 0) {
-        before = path.now();
+/// The first instability of an approach that has been started, and the point before it; the path
+/// has then passed it. One of no more than `least`, eV, does not count: just before a fold the
+/// force on the mean height changes so steeply that a step may miss some 1e-5 of what the fall
+/// loses.
+struct FirstFall {
+    StepRecord before;
+    Instability fall;
+};
+inline FirstFall first_fall(KeptPath& path, double least = 0.0) {
+    for (;;) {
+        const StepRecord before = path.now();
+        const std::size_t known = path.dissipation().jumps.size();
         EXPECT_EQ(path.advance(Segment::approach), QuasistaticPath::Outcome::point);
+        const std::vector<Instability>& jumps = path.dissipation().jumps;
+        if (jumps.size() > known && jumps.back().energy > least) return {before, jumps.back()};
     }
-    return before;
 }
 
 /// The strongest attraction of points.
