@@ -387,7 +387,6 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     else
         trail_.begin(at, force);
     last_.accept(at);
-    if (bracket_ && course_.direction * (bracket_->x - at) <= 0.0) bracket_.reset();
     ++record_.step;
     course_.relaxed += state.branches.dissipated;
     record_.relaxed += state.branches.dissipated;

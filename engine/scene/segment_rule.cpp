@@ -37,7 +37,7 @@ SegmentRule::End SegmentRule::look(double force, bool apart, double slack, bool 
         return End::no;
     }
     const bool there = beside && force >= aim() - slack;
-    if (force < std::min(load_, 0.0) - slack) attracted_ = true;
+    if (force < load_ - slack) attracted_ = true;
     if (!there) return End::no;
     if (load_ < -slack && !attracted_) refuse();
     return End::at_load;

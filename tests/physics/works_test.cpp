@@ -196,7 +196,7 @@ void expect_segments_of_the_series(const Path& run, bool in_time, bool mean_heig
         }
         if (path[k].kind == Segment::slide) {
             const double distance = std::abs(path[k].amount);
-            EXPECT_NEAR(of("friction") * distance, pushed, 0.05 * pushed);
+            EXPECT_NEAR(of("friction") * distance, pushed, 0.05 * std::abs(pushed));
             EXPECT_NEAR(of("largest_friction"), hardest, 1e-9);
             EXPECT_NEAR(written["slide"][0].get<double>(), slide[at], 1e-9);
         }
@@ -211,7 +211,8 @@ void expect_segments_of_the_series(const Path& run, bool in_time, bool mean_heig
 }
 
 TEST(Works, OfSegmentsAreThoseOfTheSeries) {
-    const std::string slid = "\"approach\", \"load 300 MPa\", \"slide x -1.2 Å\"",
+    const std::string slid =
+                          "\"approach\", \"load 300 MPa\", \"slide x -1.2 Å\", \"slide x 0.9 Å\"",
                       up = "\"load 100 MPa\", \"pull-off\"]\n", each = "\n[output]\nseries = 1\n";
     const auto run = [&](const std::string& middle, const std::string& mode) {
         return Path("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n[block]\nthickness = 8\n"
@@ -224,6 +225,33 @@ TEST(Works, OfSegmentsAreThoseOfTheSeries) {
                                   false);
     expect_segments_of_the_series(run("", "mode = \"quasistatic\"\ncontrol = \"mean-height\""),
                                   false, true);
+}
+
+TEST(Works, ContactAtTheEndOfASegmentIsCountedWhateverRowsTheSeriesHas) {
+    std::vector<std::vector<double>> fractions;
+    for (const char* rows : {"1", "1000"}) {
+        const Path run("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n[block]\nthickness = 16\n"
+                       "[drive]\npath = [\"approach\", \"hold 1 ps\"]\nvelocity = 100\n"
+                       "timestep = 20\n[output]\nseries = " +
+                       std::string(rows) + "\n");
+        auto& of_run = fractions.emplace_back();
+        for (const io::Json& segment : run.json["segments"])
+            of_run.push_back(segment.at("contact_fraction").get<double>());
+    }
+    EXPECT_GT(fractions[0][0], 0.1);
+    EXPECT_EQ(fractions[0], fractions[1]);
+}
+
+TEST(Works, WhatTheBlockDissipatesInACycleIsThatOfItsTwoSegments) {
+    const Path run("[surface]\nsites = 12\nrms = 0.5\nseed = 4\n"
+                   "[block]\nthickness = 8\nprony = [[1.0, \"1 ns\"]]\n"
+                   "[drive]\nmode = \"quasistatic\"\nvelocity = \"0.1 m/s\"\n"
+                   "path = [\"approach\", \"pull-off\", \"approach\", \"pull-off\"]\n");
+    const auto of = [&](std::size_t k) {
+        return run.json["segments"][k].at("dissipated_in_block").get<double>();
+    };
+    EXPECT_GT(of(0) + of(1), 0.01 * run("delta_gamma")) << "the case must tell";
+    EXPECT_NEAR(run("dissipated_in_block.cycle"), of(2) + of(3), 1e-9);
 }
 
 TEST(Works, OfASecondCycleKnowWhatStillMovedAfterTheFirst) {
