@@ -83,7 +83,7 @@ RunOptions run_options(const Arguments& given) {
         options.progress = *mode;
     else
         problems.add(io::Problem{"--progress " + given.progress, "is none of its choices",
-                                 "choices: auto, bar, lines, off", ""});
+                                 "the choices are auto, bar, lines and off", "give one of them"});
     if (options.resuming() && options.resume != "auto" && !std::filesystem::exists(options.resume))
         problems.add(io::Problem{"--resume " + options.resume, "there is no such file",
                                  "a checkpoint file or the word auto is needed",
@@ -173,11 +173,17 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     // The library would only say that a command is missing.
     if (argc > 1 && argv[1][0] != '-' &&
         std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-        const std::string near = io::nearest(argv[1], names);
+        const std::vector<std::string> of_script{"test", "bench"}; // ./asperity of the source tree
+        std::vector<std::string> all = names;
+        all.insert(all.end(), of_script.begin(), of_script.end());
+        const std::string near = io::nearest(argv[1], all);
+        const bool script = std::ranges::find(of_script, near) != of_script.end();
         throw io::SceneError(io::Problem{
             "command line", fmt::format("'{}' is no command", argv[1]),
-            fmt::format("commands: {}", fmt::join(names, ", ")),
-            near.empty() ? "asperity --help" : fmt::format("did you mean `asperity {}`?", near)});
+            fmt::format("the commands are {}; the script ./asperity of the source tree also has {}",
+                        fmt::join(names, ", "), fmt::join(of_script, ", ")),
+            near.empty() ? "asperity --help"
+                         : fmt::format("did you mean `{}asperity {}`?", script ? "./" : "", near)});
     }
     try {
         std::vector<std::string> words = spelt_out(argc, argv);

@@ -193,7 +193,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
                "{} precision\n",
                interface.wall ? "a wall; " : "", with_units(c.flat.work_of_adhesion),
                io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
-               interface.mixed ? "single" : "double");
+               interface.mixed ? "mixed" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.{}f} MB a rank\n", grid.describe(),
                threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6,
                bytes < 10'000'000 ? 1 : 0);

@@ -5,7 +5,6 @@
 #include "engine/path/guard.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/units.hpp"
-#include "io/units.hpp"
 
 #include <fmt/format.h>
 
@@ -70,14 +69,6 @@ void LedPath::set_load(double pressure) {
     target_ = {.load = pressure * units::megapascal * case_.area()};
 }
 
-void LedPath::set_load(const std::string& pressure) {
-    const io::ParsedQuantity parsed = io::parse_quantity(pressure, "MPa");
-    if (!parsed.why.empty())
-        refuse("load", fmt::format("\"{}\" cannot be read as a quantity", pressure), parsed.why,
-               parsed.fix);
-    set_load(parsed.value);
-}
-
 void LedPath::set_hold(double time) {
     if (!case_.effects.branches)
         refuse("hold", "has no effect on this block",
@@ -86,14 +77,6 @@ void LedPath::set_hold(double time) {
     if (!(time > 0.0) || !std::isfinite(time))
         refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");
     target_ = {.hold = time * units::picosecond};
-}
-
-void LedPath::set_hold(const std::string& time) {
-    const io::ParsedQuantity parsed = io::parse_quantity(time, "ps");
-    if (!parsed.why.empty())
-        refuse("hold", fmt::format("\"{}\" cannot be read as a quantity", time), parsed.why,
-               parsed.fix);
-    set_hold(parsed.value);
 }
 
 /// Work that is given up where look throws, and then rethrows it: the path is at its last point.

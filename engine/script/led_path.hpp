@@ -32,10 +32,8 @@ public:
     /// MPa; positive presses. Reached where the force comes to it, from below on the way in, from
     /// above on the way out.
     void set_load(double pressure);
-    void set_load(const std::string& pressure); ///< "100 MPa"
-    /// Stays where it is for so many ps, or "20 ns"; of a block that relaxes.
+    /// Stays where it is for so many ps; of a block that relaxes.
     void set_hold(double time);
-    void set_hold(const std::string& time);
 
     /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
     /// step (points) count from where the path began: beyond the interaction range, or the last

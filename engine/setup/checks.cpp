@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 #include <tuple>
 
 namespace asperity {
@@ -396,15 +397,23 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     }
     if (c.path.size() == 1 && c.starts_with(Segment::relax))
         idle("drive.control", "drive.path relaxes with nothing held");
-    if (!c.in_time && !c.effects.branches) idle("drive.velocity", "no time passes on this path");
-    if (!c.in_time)
+    if (!c.in_time) {
+        std::vector<std::string> timed; // of a scene that was dynamic, many: one note
         for (const char* key :
-             {"drive.temperature", "drive.seed", "drive.timestep", "drive.damping",
-              "drive.damping_from", "drive.ramp", "output.series", "block.atom_mass", "block.model",
-              "block.layers_per_level"})
-            idle(key, "no time passes on this path");
-    else
+             {"drive.velocity", "drive.temperature", "drive.seed", "drive.timestep",
+              "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
+              "block.atom_mass", "block.model", "block.layers_per_level"})
+            if (scene.positions.is_set(key) &&
+                !(c.effects.branches && std::string_view(key) == "drive.velocity"))
+                timed.push_back(key);
+        if (timed.size() == 1) idle(timed.front(), "no time passes on this path");
+        if (timed.size() > 1)
+            list.push_back(fmt::format("{} and {} have no effect: no time passes on this path",
+                                       fmt::join(timed.begin(), timed.end() - 1, ", "),
+                                       timed.back()));
+    } else {
         idle("drive.displacement_step", "drive.mode is \"dynamic\"");
+    }
     if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
     if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
     for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})

@@ -9,6 +9,7 @@
 #include "engine/units.hpp"
 #include "io/machine.hpp"
 #include "io/scene_reader.hpp"
+#include "io/units.hpp"
 
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
@@ -97,6 +98,33 @@ py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& 
     };
     return py::module_::import("asperity.engine")
         .attr("Components")(one(view->x), one(view->y), one(view->z));
+}
+
+/// What was given, for a message.
+std::string given_text(const py::handle& given) {
+    const auto text = py::repr(given).cast<std::string>();
+    return text.size() > 60 ? "a " + py::type::of(given).attr("__name__").cast<std::string>()
+                            : text;
+}
+
+/// A number in a unit, given so or as words with another: 12.5, "1.25 nm".
+double quantity(const char* where, const py::handle& given, const char* unit) {
+    if (py::isinstance<py::str>(given)) {
+        const auto text = given.cast<std::string>();
+        const io::ParsedQuantity parsed = io::parse_quantity(text, unit);
+        if (!parsed.why.empty())
+            throw io::SceneError(
+                {where, "\"" + text + "\" cannot be read as a quantity", parsed.why, parsed.fix});
+        return parsed.value;
+    }
+    const double value = PyFloat_AsDouble(given.ptr());
+    if (PyErr_Occurred()) {
+        PyErr_Clear();
+        throw io::SceneError(
+            {where, "is given " + given_text(given), std::string("it is one number, in ") + unit,
+             std::string("give one, or a text with a unit, for example ") + io::example_of(unit)});
+    }
+    return value;
 }
 
 /// One of the maps of a state, copied.
@@ -205,7 +233,11 @@ PYBIND11_MODULE(_engine, m) {
             "whether the nearest atom is in contact")
         .def_property_readonly(
             "pressure", [](const InterfaceMaps& of) { return array_of(of, of.pressure); },
-            "normal force on a site over its area, GPa; positive pushes apart");
+            "normal force on a site over its area, GPa; positive pushes apart")
+        .def("__repr__", [](const InterfaceMaps& of) {
+            return py::str("<SiteMaps: gap, contact, pressure of {} x {} sites>")
+                .format(of.ny, of.nx);
+        });
 
     py::class_<RestState>(m, "RestState",
                           "A state of force balance, of Simulation.relax() and Statics.free().")
@@ -359,8 +391,14 @@ PYBIND11_MODULE(_engine, m) {
                                [](const Sim& sim) { return sim.surface().length; })
         .def_property_readonly("_segment_number", &Sim::segment_number)
         .def_property_readonly("_top_then", [](const Sim& sim) { return sim.now().top; })
-        .def_property("_top_position", &Sim::top_position, &Sim::set_top_position)
-        .def_property("_top_velocity", &Sim::top_velocity, &Sim::set_top_velocity);
+        .def_property("_top_position", &Sim::top_position,
+                      [](Sim& sim, const py::object& z) {
+                          sim.set_top_position(quantity("top.position", z, "Å"));
+                      })
+        .def_property("_top_velocity", &Sim::top_velocity, [](Sim& sim, const py::object& v) {
+            sim.set_top_velocity(v.is_none() ? std::nullopt
+                                             : std::optional(quantity("top.velocity", v, "m/s")));
+        });
 
     using Point = LedPath::Point;
     py::class_<Point>(m, "Point", "A point of a quasi-static path: force balance at what is held.")
@@ -461,21 +499,35 @@ PYBIND11_MODULE(_engine, m) {
             "sites then stay.")
         .def("copy", &LedPath::copy,
              "Displacements of the sites and the top as a State, for restore().")
-        .def("restore", &LedPath::restore, py::arg("state"),
-             "Puts the sites where a State has them. The next relax() begins a path there: work, "
-             "dissipated and number\ncount from there.")
+        .def(
+            "restore",
+            [](LedPath& s, const py::object& state) {
+                if (!py::isinstance<State>(state))
+                    throw io::SceneError({"restore", "is given " + given_text(state),
+                                          "it takes a State, where the sites stand",
+                                          "give what copy() returned, or State(u, top)"});
+                s.restore(state.cast<const State&>());
+            },
+            py::arg("state"),
+            "Puts the sites where a State has them. The next relax() begins a path there: work, "
+            "dissipated and number\ncount from there.")
         .def(
             "maps", [](const LedPath& s) { return working([&] { return s.maps(); }); },
             "The SiteMaps of the sites there: gap, contact, pressure.")
         .def_property_readonly("now", &LedPath::now, "the Point of the last relax()")
         .def_property(
             "mean_height", [](const LedPath& s) { return s.now().mean_height; },
-            &LedPath::set_mean_height,
-            "mean height of the lowest layer above the substrate's zero, Å. Written: the one to "
+            [](LedPath& s, const py::object& z) {
+                s.set_mean_height(quantity("mean_height", z, "Å"));
+            },
+            "mean height of the lowest layer above the substrate's zero, Å. Written, a number or "
+            "\"0.3 nm\": the one to "
             "which the next relax() leads it")
         .def_property(
-            "top", [](const LedPath& s) { return s.now().top; }, &LedPath::set_top,
-            "displacement of the top plane since the start, Å. Written: the one to which the next "
+            "top", [](const LedPath& s) { return s.now().top; },
+            [](LedPath& s, const py::object& z) { s.set_top(quantity("top", z, "Å")); },
+            "displacement of the top plane since the start, Å. Written, a number or \"-1 nm\": the "
+            "one to which the next "
             "relax() leads it")
         .def_property_readonly(
             "_case", // what a search needs of it, in the units of the engine
@@ -497,8 +549,8 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "_substrate_height",
             [](const std::shared_ptr<LedPath>& s) { return heights_of(s->surface(), s); })
-        .def("_hold", py::overload_cast<double>(&LedPath::set_hold))
-        .def("_hold", py::overload_cast<const std::string&>(&LedPath::set_hold))
-        .def("_load", py::overload_cast<double>(&LedPath::set_load))
-        .def("_load", py::overload_cast<const std::string&>(&LedPath::set_load));
+        .def("_hold",
+             [](LedPath& s, const py::object& t) { s.set_hold(quantity("hold", t, "ps")); })
+        .def("_load",
+             [](LedPath& s, const py::object& p) { s.set_load(quantity("load", p, "MPa")); });
 }

@@ -84,7 +84,7 @@ class Simulation:
     _substrate_height: _Array
     _segment_number: int
     _top_then: float
-    _top_position: float
+    _top_position: Any
     _top_velocity: Any
 
 class Point:
@@ -118,8 +118,14 @@ class Statics:
     def restore(self, state: State) -> None: ...
     def maps(self) -> SiteMaps: ...
     now: Final[Point]
-    mean_height: float
-    top: float
+    @property
+    def mean_height(self) -> float: ...
+    @mean_height.setter
+    def mean_height(self, z: float | str) -> None: ...
+    @property
+    def top(self) -> float: ...
+    @top.setter
+    def top(self, z: float | str) -> None: ...
     _case: dict[str, Any]
     _substrate_height: _Array
     def _hold(self, time: float | str) -> None: ...

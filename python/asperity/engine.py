@@ -24,7 +24,7 @@ from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .scene import Overrides, SceneLike, assignments, scene_file
 from .terminal import Progress, number
-from .units import GIGAPASCAL, speed
+from .units import GIGAPASCAL
 
 NAME = "asperity._engine"
 
@@ -93,11 +93,12 @@ class Top:
 
     @property
     def position(self) -> float:
-        """Displacement since the start, Å. Written: the plane is there in the next step, without a way in between."""
+        """Displacement since the start, Å. Written, a number or "-1 nm": the plane is there in the next step, without a way
+        in between."""
         return self._simulation._top_position
 
     @position.setter
-    def position(self, z: float) -> None:
+    def position(self, z: float | str) -> None:
         self._simulation._top_position = z
 
     @property
@@ -108,7 +109,7 @@ class Top:
 
     @velocity.setter
     def velocity(self, v: float | str | None) -> None:
-        self._simulation._top_velocity = speed(v) if isinstance(v, str) else v
+        self._simulation._top_velocity = v
 
 
 class Substrate(NamedTuple):
@@ -118,6 +119,16 @@ class Substrate(NamedTuple):
     """Heights of its atoms, Å, a view [y, x] to be read."""
     edge: float
     """Edge of the periodic box, Å."""
+
+    def __repr__(self) -> str:
+        return f"<Substrate: {len(self.height)} x {len(self.height)} heights, edge {self.edge:.6g} Å>"
+
+
+class Columns(dict):
+    """Arrays by name; a wrong name is answered with those that there are."""
+
+    def __missing__(self, name: object) -> numpy.ndarray:
+        raise KeyError(f"no {name} in series; there are {', '.join(self)}")
 
 
 MPA = 1e3 / GIGAPASCAL
@@ -314,7 +325,7 @@ class Simulation(_engine.Simulation):
         """What observers returned: columns by name, a row for each step at which one did, beside the engine's own
         (step, time, force, ..., named and in units as in run.h5). nan: the row's step had no such value."""
         names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
-        return {name: numpy.array([row.get(name, numpy.nan) for row in self._rows]) for name in names}
+        return Columns((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
 
     def write(self, directory: str | os.PathLike) -> Path:
         """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,

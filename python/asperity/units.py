@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: MIT
 """Units that plots are drawn in. Results are in eV, Å, ps, GPa and meV/Å² (shared with engine/units.hpp)."""
 
-from .errors import SceneError
-
 ELECTRONVOLT = 1.602176634e-19
 """J"""
 NANONEWTON = 1e-19 / ELECTRONVOLT
@@ -19,17 +17,3 @@ def shown(unit: str) -> str:
     for power, sign in (("^2", "²"), ("^3", "³"), ("^4", "⁴")):
         unit = unit.replace(power, sign)
     return unit
-
-
-SPEEDS = {"m/s": 1.0, "km/s": 1e3, "mm/s": 1e-3, "nm/ns": 1.0, "nm/ps": 1e3, "Å/ps": 100.0, "Å/fs": 1e5}
-"""In m/s."""
-
-
-def speed(written: str) -> float:
-    """"2 m/s" in m/s. Raises SceneError."""
-    value, _, unit = written.strip().partition(" ")
-    try:
-        return float(value) * SPEEDS[unit.strip()]
-    except (ValueError, KeyError):
-        raise SceneError(repr(written), "is no velocity", "a velocity is a number and one of " + ", ".join(SPEEDS),
-                         'for example "2 m/s"') from None

@@ -259,6 +259,14 @@ def test_times_have_a_unit_of_their_size(path_run):
             assert style.drawn(ax).curves[0].x[-1] == pytest.approx(path_run.series["time"][-1])
 
 
+def test_fractions_have_no_ticks_above_one(path_run):
+    ax = axes()
+    ax.plot([0, 1], [0, 1], label="whole")
+    style.finish(ax, "x", "fraction", legend="above", most=1)
+    ticks = [*ax.get_yticks(), *ax.get_yticks(minor=True)]
+    assert ax.get_ylim()[1] > 1.05 and max(ticks) == pytest.approx(1.0)
+
+
 def test_the_way_through_empty_space_is_left_out_of_the_contact(path_run):
     run = asperity.load(path_run.directory)
     far = path_run.series["contact_fraction"] == 0

@@ -43,10 +43,39 @@ def test_objects_show_themselves_in_two_lines(path_run, tmp_path):
         for rms in (1.0, 2.0)], simulated=True)
     sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
     for thing in (path_run, path_run.series, path_run.fields["relaxed"], sweep, sim, statics, sim.energy, statics.now,
-                  path_run.plot, sim.top, statics.copy(), sweep.table):
+                  path_run.plot, sim.top, statics.copy(), statics.maps(), statics.free(), sim.substrate, sweep.table):
         shown = repr(thing)
         assert len(shown.splitlines()) <= 2 and len(shown) < 400 and " object at 0x" not in shown, shown
     assert "MPa" in repr(sim) and "MPa" in repr(statics) and "tiny" in repr(sim)
+
+
+def test_numbers_may_have_units():
+    sim, statics = asperity.Simulation(TINY), asperity.Statics(STATIC)
+    sim.top.position, sim.top.velocity = "-0.1 nm", "0.2 Å/ps"
+    assert (sim.top.position, sim.top.velocity) == (pytest.approx(-1.0), pytest.approx(20.0))
+    statics.mean_height = "1.2 nm"
+    assert statics.relax().mean_height == pytest.approx(12.0)
+    with_top = asperity.Statics(STATIC)
+    with_top.top = numpy.float32(-1.5)
+    assert with_top.relax().top == -1.5
+    with_top.top = "-0.2 nm"
+    assert with_top.relax().top == pytest.approx(-2.0)
+    for thing, name, called in ((statics, "mean_height", "mean_height"), (with_top, "top", "top"),
+                                (statics, "load", "load"), (sim.top, "position", "top.position"),
+                                (sim.top, "velocity", "top.velocity")):
+        for wrong, says in (("abc", '"abc" cannot be read as a quantity'), ("3 K", "3 K"), ([1, 2], "is given [1, 2]")):
+            with pytest.raises(asperity.SceneError, match="fix:") as error:
+                setattr(thing, name, wrong)
+            assert str(error.value).startswith(called) and says in str(error.value)
+    with pytest.raises(asperity.SceneError, match="restore: is given 3\n.*\n.*copy()"):
+        statics.restore(3)
+    with pytest.raises(asperity.SceneError, match="hold: is given None"):
+        statics.hold(None)
+
+
+def test_a_wrong_column_of_a_simulation_is_answered_with_those_that_there_are():
+    with pytest.raises(KeyError, match="no x in series; there are step, time, .*force"):
+        asperity.Simulation(TINY).series["x"]
 
 
 def test_geometry_and_stress():
@@ -78,7 +107,7 @@ def test_the_top_takes_a_velocity_in_words():
     assert sim.top.position - start == pytest.approx(-2.0 * 50 * 20e-15 * 1e10)  # m/s, steps, fs, Å
     sim.top.velocity = 3
     assert sim.top.velocity == 3.0
-    with pytest.raises(asperity.SceneError, match="is no velocity"):
+    with pytest.raises(asperity.SceneError, match="'furlongs' is no unit"):
         sim.top.velocity = "2 furlongs"
     with pytest.raises(AttributeError, match="speed"):
         sim.top.speed = 1.0

@@ -328,8 +328,8 @@ def test_bad_use(tmp_path):
         text = str(error.value)
         assert words in text and "fix:" in text, text
 
-    refused("has no time", lambda: tiny(drive__path='["relax"]'))
-    refused("has no time", lambda: tiny(drive__mode="quasistatic"))
+    refused("cannot step", lambda: tiny(drive__path='["relax"]'))
+    refused("cannot step", lambda: tiny(drive__mode="quasistatic"))
     refused("surface.sites", lambda: tiny(surface__sites=-3))
     refused("surface.sitess", lambda: tiny(surface__sitess=3))
     refused("timestep", lambda: tiny(drive__timestep=1000.0))

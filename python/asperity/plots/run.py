@@ -101,7 +101,7 @@ def contact(run: Result, ax: Axes) -> bool:
     if touching.size and np.ptp(touching) < 0.5 * np.ptp(top):  # most of the way is through empty space
         room = max(0.15 * np.ptp(touching), 0.01 * np.ptp(top))
         ax.set_xlim(touching.min() - room, touching.max() + room)
-    return finish(ax, TOP, "fraction of the sites", legend="above" if len(run.segment_names) > 2 else True)
+    return finish(ax, TOP, "fraction of the sites", legend="above" if len(run.segment_names) > 2 else True, most=1)
 
 
 def friction(run: Result, ax: Axes) -> bool:

@@ -123,9 +123,11 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
     drawn(ax).curves.append(Curve(plain(label), x, y, bars))
 
 
-def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True, zero: bool = False) -> bool:
+def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True, zero: bool = False,
+           most: float | None = None) -> bool:
     """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic
-    axes; zero: with a line at y = 0; legend: "above" the curves, where they fill the axes."""
+    axes; zero: with a line at y = 0; legend: "above" the curves, where they fill the axes; most: the largest value that there is, above which
+    the vertical axis has no ticks."""
     if zero:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
@@ -151,6 +153,10 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
         ax.set_ylim(low, high * (high / low) ** room if "y" in log else high + room * (high - low))
         ax.legend(handles, labels, loc="upper center", ncols=columns, fontsize=6.5, columnspacing=0.9, handlelength=2.0,
                   handletextpad=0.5, labelspacing=0.5 if rows < 4 else 0.25)
+        if most is not None and most < ax.get_ylim()[1]:
+            for set_locator, places in ((ax.yaxis.set_major_locator, ax.yaxis.get_majorticklocs()),
+                                        (ax.yaxis.set_minor_locator, ax.yaxis.get_minorticklocs())):
+                set_locator(ticker.FixedLocator([place for place in places if low <= place <= most + 1e-9]))
     elif legend and len(labels) > 0:
         ax.legend(handles, labels, loc="best", frameon=True, facecolor=PAPER, framealpha=0.8, edgecolor="none",
                   fontsize=7.5 if len(labels) < 5 else 6.5)

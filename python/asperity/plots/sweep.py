@@ -262,7 +262,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     low = min([0.0, *full])  # of the theory itself: full contact may go far below zero
     room = max(ys) - low
     ax.set_ylim(low - 0.02 * room, max(ys) + 0.05 * room if room else None)  # markers at the ends stay whole
-    if y in (GAMMA, CONTACT) and max(ys) <= 1.02:
+    most = 1.0 if y in (GAMMA, CONTACT) and max(ys) <= 1.02 else None
+    if most:
         ax.set_ylim(top=1.02)
     if y == LOST:
         millijoules(ax, MILLIJOULE, "mJ/m²")
@@ -275,7 +276,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     xs = [v for c in drawn(ax).curves for v in c.x]
     decades = all(isinstance(v, (int, float)) and v > 0 for v in xs) and max(xs) > 100 * min(xs)
     return finish(ax, _label_of(x), y, log="x" * decades,
-                  legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True)
+                  legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True, most=most)
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
