@@ -71,6 +71,29 @@ TEST(RunFiles, TheVelocityOfAFrameIsThatOfItsStep) {
     EXPECT_GT(backward, 20.0 * central);
 }
 
+TEST(RunFiles, TheMapsOfAPullOffAreOfTheLastOneWhereItAttractedMost) {
+    const auto run = [](const std::string& path) {
+        return test::Written("[surface]\nsites = 16\nrms = 1\nseed = 4\n[block]\nthickness = 16\n"
+                             "[drive]\nmode = \"quasistatic\"\ncontrol = \"mean-height\"\n"
+                             "path = [" +
+                             path + "]\n[output]\nfields = [\"pull-off\"]\n");
+    };
+    const std::string cycle = "\"approach\", \"pull-off\"", slide = "\"slide x 1.3 Å\"";
+    const auto gap = [](const test::Written& of) {
+        return of.file->read<double>("/fields/pull-off/gap");
+    };
+    // What comes after it changes nothing.
+    const auto once = run(cycle), slid = run(cycle + ", \"approach\", " + slide);
+    EXPECT_EQ(gap(once), gap(slid));
+    // Of two it is the last one, whichever attracted more; the map says where it was made.
+    const auto twice = run(cycle + ", \"approach\", " + slide + ", \"pull-off\"");
+    const auto attraction = [&](std::size_t segment) {
+        return twice.json["segments"][segment].at("largest_attraction").get<double>();
+    };
+    ASSERT_GT(attraction(1), attraction(4)) << "the case must tell";
+    EXPECT_EQ(twice.file->number_attribute("/fields/pull-off", "slide_x"), 1.3);
+}
+
 TEST(RunFiles, ThePathOverARidgeMovesAcrossItAndNotAlong) {
     const test::Written run =
         run_over_ridge("velocity = \"50 m/s\"\ntimestep = \"20 fs\"\n",
