@@ -392,8 +392,12 @@ def test_statics_meets_the_path_of_a_run(results, hold):
     column = {"top": "top_displacement"}.get(name, name)
     series, inwards = run.series, run.series["segment"] == 0
     scale, depth = abs(series["force"]).max(), abs(series["interface_energy"]).max()
+    # Each path knows the place of an instability to one of its steps: points beside one may be on either side of it.
+    top = series["top_displacement"]
+    unstable = top[1:][numpy.diff(series["dissipated"]) > 0]
+    clear = abs(top[:, None] - unstable).min(axis=1, initial=numpy.inf) > 0.01
     for way in (inwards, ~inwards):
-        for k in numpy.flatnonzero(way)[2::6]:
+        for k in numpy.flatnonzero(way & clear)[2::6]:
             setattr(statics, name, series[column][k])
             point = statics.relax()
             assert getattr(point, name) == pytest.approx(series[column][k], abs=1e-12)
