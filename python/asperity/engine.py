@@ -124,7 +124,7 @@ class Substrate(NamedTuple):
         return f"<Substrate: {len(self.height)} x {len(self.height)} heights, edge {self.edge:.6g} Å>"
 
 
-class Columns(dict):
+class NamedArrays(dict):
     """Arrays by name; a wrong name is answered with those that there are."""
 
     def __missing__(self, name: object) -> numpy.ndarray:
@@ -325,7 +325,7 @@ class Simulation(_engine.Simulation):
         """What observers returned: columns by name, a row for each step at which one did, beside the engine's own
         (step, time, force, ..., named and in units as in run.h5). nan: the row's step had no such value."""
         names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
-        return Columns((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
+        return NamedArrays((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
 
     def write(self, directory: str | os.PathLike) -> Path:
         """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,
