@@ -253,6 +253,9 @@ inline constexpr Quantity result_quantities[] = {
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},
+    {"interface.table_error", "1", "delta_gamma",
+     "bound of the error of energies of flat surfaces, and so of binding energies, that the spline "
+     "between the rows of these tables and the noise of the rows make"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},

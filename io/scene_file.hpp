@@ -32,8 +32,4 @@ std::string_view take_word(std::string_view& line);
 /// A number, or NaN for what no double holds; nothing if the word is none.
 std::optional<double> number_of(std::string_view word);
 
-/// The first two columns of numbers in a text file; what a row has beyond them is left out, and "#"
-/// begins a comment. Refused with the line where a row has one number, or where there are none.
-std::array<std::vector<double>, 2> read_two_columns(const std::string& file);
-
 } // namespace asperity::io

@@ -47,9 +47,11 @@ struct ZeroLoad {
 
 /// Where the block, undisplaced, feels the strongest attraction on its way down: the descent that
 /// starts there ends where a slow approach does, but for lateral forces on steep, soft surfaces.
+/// The descent ends where the force presses by more than `negligible`, eV/Å: rows of a table leave
+/// small forces of either sign beyond the attraction.
 /// Collective.
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom, double range);
+                                      double lowest_atom, double range, double negligible = 0.0);
 
 /// Of a tolerance that the rounding of numbers may keep a relaxation from, where sites stand as
 /// high as this, Å; else empty.

@@ -78,7 +78,8 @@ std::optional<LayerAtRest> StaticPath::find_state() {
 std::optional<ZeroLoad> StaticPath::state_from_here(double load, bool from_afar) {
     if (from_afar) {
         const double height = height_of_strongest_attraction(
-            block_, interface_, surface_.statistics.lowest, case_.scales.length);
+            block_, interface_, surface_.statistics.lowest, case_.scales.length,
+            case_.tolerance * surface_.sites * surface_.sites);
         block_.set_uniform(height - reference_height());
     }
     return find_zero_load(

@@ -176,6 +176,7 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (c.table_digest)
         result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
+    if (c.table_error) result.set("interface.table_error", *c.table_error);
     return result;
 }
 

@@ -49,6 +49,9 @@ struct Case {
     std::vector<std::string> types;            ///< of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files;      ///< of simulation.interface.tables
     std::optional<std::uint32_t> table_digest; ///< of the numbers in them
+    /// Bound of what their splines and noise change energies of flat surfaces by, over the work of
+    /// adhesion.
+    std::optional<double> table_error;
     Effects effects; ///< that the scene calls for; what follows is built from it
     SimulationOptions simulation;
     std::vector<LevelShape> levels;

@@ -318,8 +318,10 @@ void derive(Case& c, io::Problems& problems) {
     refuse_what_is_not_there_yet(c, refused);
     c.edge_pinning = edge_pinning(c.scene);
     refuse_pinned_edge(c, refused);
-    c.notes = notes_on_keys(c);
+    for (std::string& note : notes_on_keys(c))
+        c.notes.push_back(std::move(note));
     fill_interface(c);
+    if (!check_tables(c, problems)) return;
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);

@@ -13,6 +13,9 @@ namespace asperity {
 void find_potentials(Case& c, io::Problems& problems);
 /// The file that a key names, beside the scene or in the working directory; empty: there is none.
 std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);
+/// Compares the errors of tables of potentials with the work of adhesion: fills in table_error, adds
+/// notes. Returns false, with problems, if a table is too coarse or too noisy.
+bool check_tables(Case& c, io::Problems& problems);
 /// Fills in the scales but for the stiffness, and the tolerance; smallest_tension: the largest one
 /// of the type of atoms that attracts least, GPa (0: nothing attracts).
 void find_scales(Case& c, double smallest_tension);
