@@ -47,7 +47,9 @@ double length_unit(const std::string& unit, const std::string& where) {
     const std::optional<double> factor = conversion(unit, "Å");
     if (!factor || !std::isfinite(*factor) || !(*factor > 0.0))
         refuse(where, fmt::format("heights in '{}' cannot be read", unit.substr(0, 40)),
-               "that is no unit of length", "say which it is: file_unit = \"nm\"");
+               "that is no unit of length",
+               "say which it is: surface.file_unit = \"nm\", and surface.file_size if the file's "
+               "sizes are in that unit too");
     return *factor;
 }
 
@@ -84,7 +86,8 @@ std::optional<T> find(const std::map<std::string, T>& attributes, const char* na
     return found == attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-HeightMap read_map_hdf5(const std::string& file, const std::string& named, Units& units) {
+HeightMap read_map_hdf5(const std::string& file, const std::string& named,
+                        const std::string& unit_wanted, Units& units) {
     auto sets = read_numbers(
         file, {"the height map",
                [&](const Hdf5File& opened) { return std::vector{map_in(opened, named)}; },
@@ -112,6 +115,15 @@ HeightMap read_map_hdf5(const std::string& file, const std::string& named, Units
     std::optional<std::string> unit = find(set.texts, "size_unit");
     if (!unit) unit = units.unit;
     units.of_sizes = !unit;
+    const bool readable = !unit || conversion(*unit, "Å");
+    if (!readable && unit_wanted != "auto") {
+        map.notes.push_back(fmt::format("the file's sizes are in '{}', which is no unit of length: "
+                                        "they are not read (surface.file_size)",
+                                        unit->substr(0, 40)));
+        map.width.reset();
+        map.height.reset();
+        return map;
+    }
     const double factor = unit ? length_unit(*unit, map.source) : 1.0;
     *map.width *= factor;
     *map.height *= factor;
@@ -344,9 +356,10 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     return map;
 }
 
-HeightMap read_raw(const std::string& file, const std::string& dataset, Units& units) {
+HeightMap read_raw(const std::string& file, const std::string& dataset,
+                   const std::string& unit_wanted, Units& units) {
     const fs::path name(file);
-    if (is_hdf5(file)) return read_map_hdf5(file, dataset, units);
+    if (is_hdf5(file)) return read_map_hdf5(file, dataset, unit_wanted, units);
     if (!dataset.empty() || name.extension() == ".h5")
         refuse(file, "the height map cannot be read", "it is not an HDF5 file",
                "name another file; a text matrix must not be called .h5");
@@ -372,7 +385,7 @@ HeightMap read_map_file(const std::string& name, const std::string& unit) {
                fs::exists(file, error) ? "it is no file" : "there is no such file",
                "check surface.file");
     Units units;
-    HeightMap map = read_raw(file, dataset, units);
+    HeightMap map = read_raw(file, dataset, unit, units);
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
         refuse(map.source, "the height map is empty", "it holds no numbers", "");

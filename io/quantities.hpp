@@ -140,7 +140,14 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].friction", "eV/Å", per::block,
      "force against a slide: the work of what moves the block sideways, over the distance"},
     {"segments[].largest_friction", "eV/Å", per::block, "the largest force against the slide"},
-    {"segments[].pressure", "MPa", "", "at its end: of the substrate on the lowest layer"},
+    {"segments[].pressure", "MPa", "",
+     "at its end: of the substrate on the lowest layer; at a temperature the average by which the "
+     "segment ends"},
+    {"segments[].pressure_scatter", "MPa", "",
+     "thermal noise: rms of the force about that average"},
+    {"segments[].pressure_averaged_over", "ps", "",
+     "time of the average: one transit of sound, or a tenth of the potential's width at "
+     "drive.velocity if that is shorter"},
     {"segments[].mean_height", "Å", "", "at its end"},
     {"segments[].top_displacement", "Å", "", "at its end"},
     {"segments[].contact_fraction", "1", per::sites,

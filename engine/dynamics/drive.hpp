@@ -31,6 +31,9 @@ struct DriveOptions {
     double ramp = 0.0;       ///< time over which a velocity changes, fs
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
     double area = 1.0;       ///< of the interface, Å^2
+    /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
+    /// a warm block, whose force fluctuates.
+    double average_over = 0.0;
     /// Amounts in the units of the engine: a load in eV/Å, a hold in fs.
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
@@ -62,6 +65,26 @@ struct VelocityProfile {
     }
 };
 
+/// A force averaged over thermal noise: exponentially, twice, so that a steady change of the force
+/// does not lag behind.
+struct AveragedForce {
+    double once = 0.0, twice = 0.0, square = 0.0; ///< eV/Å, eV/Å, (eV/Å)^2
+    double last = 0.0;                            ///< time of the last step, fs
+
+    void look(double force, double time, double over);
+    double mean() const { return 2.0 * once - twice; } ///< eV/Å
+    /// Root mean square of the force about its mean, eV/Å.
+    double scatter() const { return std::sqrt(square); }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("once", once);
+        v("twice", twice);
+        v("square", square);
+        v("last", last);
+    }
+};
+
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
@@ -83,6 +106,10 @@ public:
         double time = 0.0, force = 0.0, top = 0.0;
         bool gone = false;
     };
+    /// The average by which segments of a warm block end; empty: the force of each step counts.
+    std::optional<AveragedForce> averaged() const {
+        return options_.average_over > 0.0 ? std::optional(average_) : std::nullopt;
+    }
     /// True at the step at which a segment ends. Throws io::PhysicsError where a pull that a
     /// segment leads to is not there.
     bool observe(const Felt& felt);
@@ -99,6 +126,7 @@ public:
         v("segment", at_);
         v("begun", begun_);
         v("rule", rule_);
+        v("average", average_);
         v("normal", normal_);
         v("slide_x", slide_[0]);
         v("slide_y", slide_[1]);
@@ -115,6 +143,7 @@ private:
     std::size_t at_ = 0;
     double begun_ = 0.0; ///< when the segment began, fs
     SegmentRule rule_;   ///< of one that a force ends
+    AveragedForce average_;
     VelocityProfile normal_;
     std::array<VelocityProfile, 2> slide_;
     std::optional<double> by_hand_;

@@ -61,6 +61,7 @@ private:
         v("simulation", simulation_);
         v("segment", segment_);
         v("end", end_);
+        v("scatter", scatter_);
         v("ended", ended_);
         v("concluding", concluding_);
         v("start", start_);
@@ -84,6 +85,7 @@ private:
     Works segment_start_;                    ///< since the start, where the segment began
     double interface_work_ = 0.0;            ///< int F dz to where the last segment ended, eV
     StepRecord end_;                         ///< the step that ended the last segment
+    std::optional<double> scatter_;          ///< SegmentResults::scatter of it, eV/Å
     std::optional<std::size_t> ended_;       ///< the segment that the last step ended
     std::optional<std::size_t> concluding_;  ///< the segment that ended the step before
     VectorField<double> layer_, velocities_; ///< at now(), once they were wanted

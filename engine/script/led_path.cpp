@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/script/led_path.hpp"
 
+#include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/units.hpp"
@@ -105,14 +106,17 @@ LedPath::Point LedPath::relax(const Look& look) {
         if (target_.hold) target_.hold = until - path_.now().time;
         guard(path_);
     };
+    Snapshot from;
+    from.take(path_);
     try { // a target is kept where look throws
         while_looking(look, [&] {
             if (target_.at) return path_.lead_to(*target_.at, at_point);
             if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
             return path_.lead({Segment::load, *target_.load}, at_point);
         });
-    } catch (const io::PhysicsError&) { // it cannot be reached
+    } catch (const io::PhysicsError&) { // it cannot be reached: the last point is again there
         target_ = {};
+        from.restore(path_);
         throw;
     }
     target_ = {};

@@ -44,8 +44,8 @@ public:
         double energy() const { return interface_energy + elastic_energy; }
     };
     /// Goes there, point by point; without a target: where it is. After what look throws, the same
-    /// call goes on. Throws io::PhysicsError where no equilibrium is found, or where the solids
-    /// part before a pull is reached.
+    /// call goes on. Throws io::PhysicsError if no equilibrium is found, or if the solids part
+    /// before a pull is reached; the path is then at its last point again, without a target.
     Point relax(const Look& look);
     Point now() const; ///< of the last relax()
     InterfaceMaps maps() const;

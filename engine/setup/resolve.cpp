@@ -267,6 +267,15 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
+    if (c.effects.temperature)
+        drive.average_over = c.scales.length > 0.0
+                                 ? std::min(crossing, 0.1 * c.scales.length / drive.velocity)
+                                 : crossing;
+    if (c.effects.temperature && c.in_time)
+        c.notes.push_back(fmt::format(
+            "the force of a warm block fluctuates: an approach or a load ends by its average over "
+            "{:.3g} ps (segments[].pressure, with pressure_scatter)",
+            drive.average_over / units::picosecond));
     drive.path = c.path;
     for (Segment& segment : drive.path) {
         if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
@@ -327,6 +336,7 @@ void derive(Case& c, io::Problems& problems) {
     note_coarse_tolerance(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
+    refuse_out_of_proportion(c, refused);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
     look_at_ranks(c, refused);

@@ -25,6 +25,8 @@ void check_keys(const Case& c, io::Problems& problems);
 std::vector<io::Problem> device_problems(const Case& c);
 /// What this release reads but cannot act upon yet: refused by a run.
 void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused);
+/// Values out of proportion with the box, the block or the step: refused by a run.
+void refuse_out_of_proportion(const Case& c, io::Problems& refused);
 /// What the keys alone tell (a block thinner than wide, keys without effect): one sentence each.
 std::vector<std::string> notes_on_keys(const Case& c);
 /// Where results mean little: roughness, velocity, time step; one sentence each.
