@@ -221,8 +221,10 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
         const bool one_number = digits.find_first_of(".eE") == std::string::npos &&
                                 name.find(',', 1) == std::string_view::npos;
         return one_number
-                   ? wrong("a comma is no decimal point",
-                           fmt::format("write \"{}.{}\"", digits, name.substr(1)))
+                   ? wrong("a comma is no decimal point, and one number is needed",
+                           fmt::format("write \"{}.{}\" if that is meant; several values "
+                                       "are for `asperity sweep`",
+                                       digits, name.substr(1)))
                    : wrong(
                          "it is a list, and one number is needed",
                          "give one of them; all of them are for `asperity sweep SCENE --set KEY=" +

@@ -147,6 +147,22 @@ void StaticPath::begin_by_hand(Constraint::Of held, std::optional<bool> remember
     }
 }
 
+StaticPath::KeptPoint StaticPath::keep_point() {
+    KeptPoint kept;
+    kept.fields.take(points_->states());
+    CollectNumbers collect;
+    collect("points", *points_);
+    kept.numbers = std::move(collect.numbers);
+    return kept;
+}
+
+void StaticPath::back_to(const KeptPoint& point) {
+    point.fields.restore(points_->states());
+    RestoreNumbers restore(point.numbers);
+    restore("points", *points_);
+    points_->resume();
+}
+
 bool StaticPath::lead_to(double at, const std::function<void()>& look) {
     points_->begin_to(at);
     return lead(look);

@@ -63,6 +63,13 @@ public:
     /// goes on. After each point `look` is called.
     bool lead_to(double at, const std::function<void()>& look);
     bool lead(const Segment& segment, const std::function<void()>& look);
+    /// Keeps the last point of a path by hand, to come back to it.
+    struct KeptPoint {
+        StateCopy fields;
+        StateNumbers numbers;
+    };
+    KeptPoint keep_point();
+    void back_to(const KeptPoint& point);
     /// The path of points has ended: the block is where the caller puts it.
     void end_points() { points_.reset(); }
     /// The state that the sites come to from where they are (from_afar: from the height of the

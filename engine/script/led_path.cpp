@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/script/led_path.hpp"
 
-#include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/units.hpp"
@@ -106,8 +105,7 @@ LedPath::Point LedPath::relax(const Look& look) {
         if (target_.hold) target_.hold = until - path_.now().time;
         guard(path_);
     };
-    Snapshot from;
-    from.take(path_);
+    const StaticPath::KeptPoint from = path_.keep_point();
     try { // a target is kept where look throws
         while_looking(look, [&] {
             if (target_.at) return path_.lead_to(*target_.at, at_point);
@@ -116,7 +114,7 @@ LedPath::Point LedPath::relax(const Look& look) {
         });
     } catch (const io::PhysicsError&) { // it cannot be reached: the last point is again there
         target_ = {};
-        from.restore(path_);
+        path_.back_to(from);
         throw;
     }
     target_ = {};

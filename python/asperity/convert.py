@@ -157,6 +157,23 @@ def _matrix_or_points(text: _Text) -> dict:
     return found
 
 
+def _column_names(text: _Text) -> str | None:
+    """Takes a first line of names off rows of numbers, where they are x, y and a height, and returns it. Refuses other names."""
+    if len(text.lines) < 2:
+        return None
+    (number, line), (_, following) = text.lines[:2]
+    numbers = re.fullmatch(r"[-+.\deE,;\s]*\d[-+.\deE,;\s]*", following)
+    words = re.split(r"[\s,;]+", line.strip(" \t,;"))
+    if not numbers or not all(re.match(r"[A-Za-z]", word) for word in words) or re.match(r"nan|inf|bad|void|ncols", line, re.I):
+        return None
+    kinds = [re.sub(r"[^a-z].*", "", word.lower()) for word in words]
+    if len(kinds) == 3 and kinds[:2] == ["x", "y"] and kinds[2] in ("z", "h", "height"):
+        del text.lines[0]
+        return ", ".join(words)
+    raise _refuse(f"{text.path}:{number}", "the line is no row of numbers", f"it names columns: {line[:60]}",
+                  "put a # before it where the rows are those of a map; points are read from the columns x, y, z alone")
+
+
 def _esri(text: _Text) -> dict:
     header = {}
     while text.lines and text.lines[0][1][0] not in "+-.0123456789":
@@ -340,11 +357,15 @@ def _found(source: str, channel: str | None) -> dict:
         if path.suffix.lower() in (".xyz", ".extxyz") and re.match(r"\s*\d+\s*\n", content):
             return _folded(path, _extended_xyz(path))
         text = _Text(path, content)
+        named = _column_names(text) if "\0" not in content else None
         first = text.lines[0][1] if text.lines and "\0" not in content else "no text"
         if not re.match(r"[-+.\d]|nan|inf|bad|void|ncols", first, re.I):
             return _instrument(path, channel)
-        return (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" else
-                _matrix_or_points)(text)
+        found = (_esri if first.lower().startswith("ncols") else _points if path.suffix == ".xyz" or named else
+                 _matrix_or_points)(text)
+        if named:
+            found.setdefault("notes", []).append(f"its columns are {named}")
+        return found
     except Error:
         raise
     except FileNotFoundError:

@@ -32,12 +32,12 @@ def _refuse(where: object, what: str, why: str, fix: str) -> InputOutputError:
     return InputOutputError(str(where), what, why, fix)
 
 
-def _length(where: object, unit: object, what: str) -> float:
+def _length(where: object, unit: object, what: str, fix: str) -> float:
     """Å of a unit of length."""
     unit = unit.decode() if isinstance(unit, bytes) else str(unit)
     if unit not in LENGTHS:
         raise _refuse(where, f"the unit of its {what}, {unit}, is none of length", "known: " + ", ".join(LENGTHS),
-                      "name the unit: --unit nm")
+                      fix)
     return 10.0 ** LENGTHS[unit]
 
 
@@ -79,9 +79,12 @@ def read_map(file: str, unit: str | None = None, size: float | None = None, chan
     told = found.get("unit") or unit
     if told is None:
         raise _refuse(file, "does not tell the unit of its heights", "", "name it: --unit nm")
-    heights = heights.astype(float) * (float(found.get("scale") or 1.0) * _length(file, told, "heights"))
+    heights = heights.astype(float) * (float(found.get("scale") or 1.0) * _length(
+        file, told, "heights", "take another channel (--channel NAME), or export the heights"))
     heights[~numpy.isfinite(heights)] = numpy.nan
-    edges = tuple(float(s) * _length(file, found.get("size_unit") or told, "size") for s in found.get("size") or ())
+    edges = tuple(float(s) * _length(
+        file, found.get("size_unit") or told, "size", "correct the attribute size_unit of the file, or remove size_x from it and name "
+        'the width: --size "100 nm"') for s in found.get("size") or ())
     if len(edges) == 1:
         edges *= 2
     if not edges and size:
