@@ -196,10 +196,11 @@ io::Schema bind(Scene& scene) {
     schema.choice<int>("potential", interface.potential, names,
                        "potential of the pairs, or of the atoms for which a smeared wall stands");
     each_potential(interface.potentials, [&](auto& p) { bind_potential(schema, p); });
-    schema.key(
-        "table", interface.table,
-        "file of potential = \"table\": a text file of two columns, distances in Å and energies "
-        "in eV; looked for beside the scene, then in the working directory");
+    schema.key("table", interface.table,
+               "file of potential = \"table\": text of distances in Å and energies in eV; of more "
+               "columns a "
+               "line above names them (\"# r F V\"); looked for beside the scene, then in the "
+               "working directory");
     schema.number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
                      "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
                      "four times the distance "

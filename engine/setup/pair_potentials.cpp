@@ -108,8 +108,9 @@ void find_potential(Case& c, io::Problems& problems) {
                              bad.why, bad.fix);
                 return;
             } catch (const std::invalid_argument& error) { // of the cutoff
-                problems.add("interface.cutoff", fmt::format(": {}", error.what()), table_format,
-                             "take a cutoff beyond the well; 4 r0 is usual");
+                problems.add("interface.cutoff",
+                             fmt::format("= {:.6g} Å leaves no attraction", keys.cutoff.value_or(0.0)),
+                             error.what(), "take a cutoff beyond the well; 4 r0 is usual");
                 return;
             }
         } else {

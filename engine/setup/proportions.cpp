@@ -172,7 +172,9 @@ void refuse_violence(const Case& c, io::Problems& refused) {
 } // namespace
 
 void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
+    const std::size_t before = refused.list().size();
     refuse_heights(c, refused);
+    if (refused.list().size() > before) return; // what follows has the same cause
     if (c.in_time)
         refuse_long_times(c, refused);
     else

@@ -163,7 +163,10 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     try {
         c.flat = flat_reference(interface, block.spacing, block.sites, c.substrate());
     } catch (const std::invalid_argument& e) {
-        problems.add("interface.potential", std::string(": ") + e.what());
+        problems.add("interface.potential", std::string(": ") + e.what(),
+                     "the lattices are too wide or too narrow for it, or it ends before it binds",
+                     "take a potential that is zero at about surface.spacing (interface.r0), and a "
+                     "cutoff of 1.5 times that at least; 4 r0 is usual");
     }
     const double area = block.spacing * block.spacing;
     c.scales.stiffness = c.flat.stiffness * area;

@@ -24,8 +24,8 @@ def test_messages_name_keys_that_exist():
     a number of a result."""
     known = set(asperity.program.schema()) | {re.sub(r"\[\]", "", name) for name in asperity.program.quantities()}
     parents = {name.rsplit(".", k)[0] for name in known for k in (1, 2)} | known
-    removed = {"block.seams", "interface.morse_r0", "numerics.accuracy", "drive.states", "surface.cutoff", "theory.renormalised",
-               "drive.distance"}
+    scene = (ROOT / "engine/scene/scene.cpp").read_text()
+    removed = {*re.findall(r'(?:removed\(|was = )\s*\{"([\w.]+)"', scene), "drive.distance"}
     for file in [*ROOT.glob("engine/**/*.cpp"), *ROOT.glob("io/*.cpp"), *ROOT.glob("python/asperity/**/*.py")]:
         for text in re.findall(r'"((?:[^"\\\n]|\\.)*)"', file.read_text()):
             for key in re.findall(rf"(?<![\w./-])((?:{SECTIONS})\.[a-z]\w*)(?![\w/(])", text):
@@ -62,7 +62,7 @@ def hdf5(name, **attributes):
     return name
 
 
-MAP = SMALL.replace("sites = 16", 'sites = 32\nspacing = "2 nm"\nkind = "file"\nfile = "map.h5"').replace("thickness = 16", "thickness = 32")
+MAP = (SMALL + '[interface]\nkind = "wall"\n').replace("sites = 16", 'sites = 32\nspacing = "2 nm"\nkind = "file"\nfile = "map.h5"').replace("thickness = 16", "thickness = 32")
 
 
 def test_a_unit_that_a_map_does_not_say_right(place):
