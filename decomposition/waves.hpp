@@ -152,12 +152,12 @@ double dot(const Waves<A>& a, const Waves<B>& with) {
     return sums.total()[0];
 }
 
-/// Sets to <- a from + keep to.
+/// Sets to <- a from + b to.
 template <class From, class To>
-void combine(double a, const Waves<From>& from, double keep, Waves<To>& to) {
+void combine(double a, const Waves<From>& from, double b, Waves<To>& to) {
 #pragma omp parallel for schedule(static)
-    for (int b = 0; b < from.blocks(); ++b)
-        combine_row(a, from.block(b), keep, to.block(b), static_cast<int>(from.length()));
+    for (int i = 0; i < from.blocks(); ++i)
+        combine_row(a, from.block(i), b, to.block(i), static_cast<int>(from.length()));
 }
 
 } // namespace asperity

@@ -36,7 +36,7 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
         const double m = level.mass(z);
         const double g = damped ? 0.5 * step.damping * step.dt : 0.0;
         Kick kick;
-        kick.keep = (1.0 - g) / (1.0 + g);
+        kick.velocity_factor = (1.0 - g) / (1.0 + g);
         kick.kick = step.dt / m / (1.0 + g);
         kick.drag_z = 2.0 * g * step.medium_velocity / (1.0 + g);
         kick.half_mass = 0.5 * m;
