@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
+//
 // Blocks of sites on packs for the sweeps over atoms: transfer of their sums, and the loop over a
 // tile's rows.
 #pragma once

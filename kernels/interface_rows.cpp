@@ -27,7 +27,7 @@ constexpr int row_lanes = 8;
 
 /// Adds sums by halving. They come in the order of number(): 0, 2, 1, 3 of four.
 template <class Sum, int count>
-struct HalvedSum {
+struct PairwiseSum {
     static constexpr int levels = count >= 4 ? 2 : count / 2;
     static_assert(count == 1 << levels);
 
@@ -127,7 +127,7 @@ struct AtomRows {
         const int j_below = static_cast<int>(std::floor(y * inverse_b));
         const double x_there = x - i_below * b, y_there = y - j_below * b; // from 0 to b
         const Aside aside(*this, y_there, chords);
-        HalvedSum<Sums, parts> over_parts;
+        PairwiseSum<Sums, parts> over_parts;
         Real nearest = pair.r2_cut;
         ASPERITY_UNROLL(1)
         for (int n = 0; n < parts; ++n) {

@@ -91,7 +91,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     };
     SpectralBlock block(c.simulation.block, ranks);
     InterfaceOptions options = c.simulation.interface;
-    options.rough_too = true;
+    options.mixed_on_request = true;
     Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
     interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)

@@ -25,7 +25,7 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
       heights_(map, tile, halo(cutoff_of(potential_), spacing)) {
     const bool formula = !std::holds_alternative<Tabulated>(potential_);
     mixed_ = options.mixed && formula;
-    if (mixed_ || (options.rough_too && formula)) make_fixed(tile);
+    if (mixed_ || (options.mixed_on_request && formula)) make_fixed(tile);
     const Offsets offsets(cutoff_of(potential_), spacing);
     for (int k = 0; k < offsets.cuts; ++k) {
         const double lateral = k / offsets.cuts_per_length + 1e-9;

@@ -48,7 +48,7 @@ Path::Made StaticPath::advance(const Wish&) {
     at_end_ = outcome != QuasistaticPath::Outcome::point;
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Made::nothing;
-    results_.feel(case_.path[segment_], now());
+    results_.record_force(case_.path[segment_], now());
     return Made::step;
 }
 

@@ -75,10 +75,10 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     if (drive.done()) return std::nullopt;
     const std::size_t number = drive.segment();
     const Segment& segment = case_.path[number];
-    results_.feel(segment, now);
+    results_.record_force(segment, now);
     if (drive.by_hand()) return std::nullopt;
-    const bool gone = beyond_range(now.top, now.force, results_.strongest, start_.force);
-    if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
+    const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
+    if (!drive.observe({now.time, now.force, now.top, apart})) return std::nullopt;
     end_ = now;
     interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) results_.contact_made = now.time;

@@ -207,7 +207,7 @@ double SteppedPath::top_velocity() const {
 
 void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
-    path_.simulation().drive().take_over(v ? std::optional(*v * units::metre_per_second)
+    path_.simulation().drive().set_velocity(v ? std::optional(*v * units::metre_per_second)
                                            : std::nullopt);
 }
 
@@ -356,7 +356,7 @@ struct SteppedPath::Saved {
         v("top.by_hand", by_hand);
         v("top.velocity", velocity);
         if constexpr (Visitor::restores)
-            drive.take_over(by_hand ? std::optional(velocity) : std::nullopt);
+            drive.set_velocity(by_hand ? std::optional(velocity) : std::nullopt);
         ExternalWork work{simulation};
         v("external", work);
         bool pushed = all.external_ != nullptr;

@@ -130,7 +130,7 @@ void fill_interface(Case& c) {
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
         c.notes.push_back("numerics.precision has no effect: pairs are in double precision " +
                           in_double);
-    options.rough_too = !c.in_time;
+    options.mixed_on_request = !c.in_time;
     if (i.kind == InterfaceKind::atoms) return;
     if (i.law == WallLawKind::smeared) {
         std::visit(
