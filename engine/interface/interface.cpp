@@ -60,7 +60,8 @@ namespace {
 /// other lengths are relaxed in double precision alone.
 InterfaceOptions within_single(InterfaceOptions options) {
     const double cutoff = options.pairs().cutoff;
-    options.mixed_on_request = options.mixed_on_request && cutoff > 0.5 && cutoff < 0.25 * fixed_depth;
+    options.mixed_on_request =
+        options.mixed_on_request && cutoff > 0.5 && cutoff < 0.25 * fixed_depth;
     return options;
 }
 

@@ -208,7 +208,7 @@ double SteppedPath::top_velocity() const {
 void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
     path_.simulation().drive().set_velocity(v ? std::optional(*v * units::metre_per_second)
-                                           : std::nullopt);
+                                              : std::nullopt);
 }
 
 SteppedPath::View SteppedPath::view_to_write(VectorField<double> Block::Level::*field) {
