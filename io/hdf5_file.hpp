@@ -115,7 +115,7 @@ public:
 private:
     struct Open;
 
-    /// Return the library's types.
+    /// Returns the library's type of a number.
     static std::int64_t type(double);
     static std::int64_t type(float);
     static std::int64_t type(std::int64_t);

@@ -53,7 +53,7 @@ struct SiteBlock {
             Real y_lanes = load(sites.displacement.y.line(y), lane);
             const Real uz = load(sites.displacement.z.line(y), lane);
             Real z_lanes = uz + Real(rise);
-            // Not-a-number or infinity in any component makes this not-a-number: a lane beyond.
+            // A not-a-number or infinity in any component makes this not-a-number: a lane beyond.
             const Real u2 = fma(x_lanes, x_lanes, y_lanes * y_lanes) + uz * Real(0.0);
             const Real kept =
                 select(z_lanes > Real(range.deepest),
@@ -104,7 +104,7 @@ struct Reach {
     /// Distance from the undisplaced site beyond which no atom matters; negative: none matters.
     double from_rest = -1.0;
     double from_site = 0.0; ///< the same distance from the displaced site
-    double inside = 1e6;    ///< from the undisplaced site: all nearer atoms are within the cutoff
+    double inside = 1e6;    ///< nearer atoms, from the undisplaced site, are within the cutoff
     bool close = false;     ///< some may be closer than any pair can be
 
     template <class Real, int size>

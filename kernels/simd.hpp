@@ -181,7 +181,7 @@ ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return Pack<T>::width - 1 + i; });
 }
 
-/// As many integers as a register has floats: fixed-point numbers, whose differences are exact.
+/// Integers, as many as a register has floats: fixed-point numbers, whose differences are exact.
 struct PackInt32 {
     FloatMask r;
 

@@ -95,7 +95,7 @@ public:
                 const V way = (spring * (target - g) + force(g) + pull) / (spring + slope(g));
                 g = max(floor, min(steepest, g + way));
             }
-            // Below the floor the law is linear.
+            // The law is linear below the floor.
             const V push = spring * (target - floor) + force(floor) + pull;
             const V inside = select(push < same<V>(0.0), floor + push / (spring + stiffness), g);
             return select(outside > steepest, outside, inside);

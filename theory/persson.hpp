@@ -63,7 +63,7 @@ struct ContactState {
     double elastic_energy = 0;    ///< U_el(1)/A0 [energy/area]
     double gamma_ratio_error = 0; ///< error of gamma_ratio: difference of the last two grids
     double area_error = 0;
-    bool converged = true; ///< both errors are below 1e-3 (that of a ratio above 1: relative)
+    bool converged = true; ///< the two errors are below 1e-3 (that of a ratio above 1: relative)
     std::vector<ProfilePoint> profile; ///< states on the finest grid, from ζ = 1 to ζ_1
 };
 

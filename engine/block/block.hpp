@@ -170,7 +170,7 @@ public:
     /// place of advance().
     void forces(std::vector<VectorField<double>>& out);
 
-    // This rank's shares of global values.
+    // Shares of this rank in global values:
     /// Adds this rank's share of the elastic force on the rigid top plane along z, eV/Å, after the
     /// last advance() or forces().
     void add_top_force(ExactSum& sum) const;

@@ -27,7 +27,7 @@ namespace asperity {
 /// Returns the name of a device: "none", "emulated", "NVIDIA H100 (device 0)".
 std::string describe_device(const DeviceChoice& choice);
 
-/// This rank's share of the sums of a step.
+/// Share of this rank in the sums of a step.
 struct DeviceSums {
     InterfaceSums interface;
     KickSums kick;

@@ -82,7 +82,7 @@ private:
     SpectralBlock& block_;
     Interface& interface_;
     Options options_;
-    Phases phases_; ///< of the relaxations; their lines are not lines of the step
+    Phases phases_; ///< clocks of the relaxations, apart from those of the step
     StateCopy state_;
     double at_ = 0.0;
     Along along_ = Along::z;

@@ -129,7 +129,7 @@ public:
     // The views point into the object's own arrays.
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
-    Interface(Interface&&) = default; ///< vectors keep their storage when moved
+    Interface(Interface&&) = default; // vectors keep their storage when moved
     Interface& operator=(Interface&&) = default;
 };
 

@@ -172,13 +172,13 @@ public:
     virtual ~Observer() = default;
     /// Returns the data that the observer needs of the next step.
     virtual Path::Wish wish(const Path&) const { return {}; }
-    /// Called after each step or point.
+    /// Looks at the path after each step or point.
     virtual void look(Path& path) = 0;
-    /// Called after look() if the step or point has ended a segment: path.at_end().
+    /// Looks at the path, after look(), if the step or point has ended a segment: path.at_end().
     virtual void look_at_end(Path&) {}
-    /// Called with a state of force balance that find_state() has found.
+    /// Looks at a state of force balance that find_state() has found.
     virtual void look_at_state(Path&, const LayerAtRest&) {}
-    /// Called when the run ends, whether or not the path has come to its end.
+    /// Ends the observation with the run, whether or not the path has come to its end.
     virtual void finish(Path&) {}
 };
 

@@ -34,7 +34,7 @@ public:
     const Surface& surface() const { return surface_; }
     const ProcessGrid& grid() const { return grid_; }
     io::Progress& progress() { return progress_; }
-    Phases& phases() { return phases_; } ///< relaxations, checkpoints, output
+    Phases& phases() { return phases_; } ///< returns the clocks of relaxations, checkpoints, output
     PathMaps& maps() { return maps_; }
     Recorder& recorder() { return *recorder_; }
 

@@ -43,7 +43,7 @@ enum class Control { top, mean_height };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
-/// Tuple with one of each kind of PairPotential.
+/// Returns a tuple with one of each kind of PairPotential (never called).
 template <class... P>
 std::tuple<P...> one_of_each(const std::variant<P...>&);
 using EachPotential = decltype(one_of_each(PairPotential()));

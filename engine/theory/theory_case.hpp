@@ -49,7 +49,7 @@ TheoryCase theory_case(const Case& c, const Surface* surface = nullptr);
 /// Results of the theory. Energies in meV/Å^2.
 struct TheoryNumbers {
     theory::ContactState state;
-    double h_rms = 0.0, rms_slope = 0.0; ///< of the solved spectrum: Å, -
+    double h_rms = 0.0, rms_slope = 0.0; ///< solved spectrum: Å, -
     double gamma_eff = 0.0;
     double gamma_full_contact = 0.0;
     std::optional<double> theta; ///< E* h^2 q0 / Δγ
