@@ -82,8 +82,8 @@ inline constexpr Quantity result_quantities[] = {
      "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
      "+ work_of_drive.pull_off"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "energy that still moves at the end of the approach (dynamic, at T = 0, without a load): "
-     "kinetic energy and that of vibrations, above the state at zero load"},
+     "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without "
+     "a load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
@@ -131,9 +131,9 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
      "what a block that relaxes has dissipated by that, beside lost"},
     {"segments[].kinetic", "meV/Å^2", per::area,
-     "energy that still moves at the end of an approach or a pull-off of a dynamic path at T = 0, "
-     "as "
-     "kinetic.*"},
+     "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
+     "path "
+     "at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "convergence of work_of_drive and lost (quasi-static), for the sequence of instabilities that "
      "the path takes"},

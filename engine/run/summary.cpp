@@ -118,10 +118,10 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
             "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
             "{}.\n",
             with_units(lost),
-            c.in_time ? "damped, or still moves at the end" : "lost at instabilities");
+            c.in_time ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-                   c.in_time ? "energy lost + energy that still moves" : "energy lost there",
+                   c.in_time ? "energy lost + energy left in motion" : "energy lost there",
                    c.in_time ? "" : "\n  = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.in_time)
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
@@ -264,7 +264,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy lost", "lost.approach", of("lost.approach"), of("lost.pull_off"));
         row("dissipated in the block", "dissipated_in_block.approach",
             of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"));
-        row("energy that still moves", "kinetic.approach", of("kinetic.approach"),
+        row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
             table.row({"convergence of the above, meV/Å²",
@@ -310,8 +310,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
     if (state || drive_in)
         fmt::print(to,
-                   "  Convergence is what the solver leaves. Cutoff, spacing, thickness, width, "
-                   "velocity and the choice of the\n  surface are not in it: asperity estimate.\n");
+                   "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
+                   "velocity and the choice of the\n  surface are not included: asperity estimate.\n");
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

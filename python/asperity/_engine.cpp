@@ -345,9 +345,8 @@ PYBIND11_MODULE(_engine, m) {
             "work of the drive on the solids, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
             "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
-            "energy lost over approach and pull-off, with what still moves at the end, meV/Å²; "
-            "None "
-            "until then")
+            "energy lost over approach and pull-off, with the kinetic energy left at the end, "
+            "meV/Å²; None until then")
         .def_property_readonly(
             "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
             "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; what is written is "
