@@ -70,7 +70,7 @@ bool Drive::observe(const Observation& step) {
     return true;
 }
 
-/// The next segment, from the velocity that the top plane has.
+/// Begins the next segment with the present velocity of the top plane.
 void Drive::begin(const Observation& step) {
     const Segment& next = options_.path[at_];
     const double from = normal_.at(step.time - begun_, options_.ramp), v = options_.velocity;

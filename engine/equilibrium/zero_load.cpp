@@ -46,8 +46,8 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     options.tolerance = c.tolerance;
     options.scales = c.scales;
     options.report = stop;
-    Phases own; // its lines are not lines of the step
-    block.begin_step(std::numeric_limits<double>::infinity()); // of what relaxes, at the end
+    Phases own;                                                // apart from the lines of the step
+    block.begin_step(std::numeric_limits<double>::infinity()); // branches have relaxed at the end
     const RelaxedState s =
         relax(block, interface, reference_height, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;

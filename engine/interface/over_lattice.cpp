@@ -54,7 +54,7 @@ std::size_t OverLattice::bytes() const {
            columns_.size() * sizeof(std::int32_t);
 }
 
-/// Heights in units of fixed_quantum, for the mixed sweep.
+/// Makes heights in units of fixed_quantum, for the mixed sweep.
 void OverLattice::make_fixed(const Tile& tile) {
     const int halo = heights_.field().halo();
     fixed_ = Field<std::int32_t>(tile, 1, halo);
