@@ -17,7 +17,7 @@
 #include <malloc.h>
 #include <omp.h>
 
-/// Defined if a sanitizer has replaced malloc().
+/// Returns the allocated bytes; defined if a sanitizer has replaced malloc().
 extern "C" [[gnu::weak]] std::size_t __sanitizer_get_current_allocated_bytes();
 
 namespace asperity {
