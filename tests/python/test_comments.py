@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("engine", "decomposition", "kernels", "io", "theory")
 # Headers and sources that are not written in this way yet, without their endings.
 OPEN = {
-    "engine/block/spectral_block", "engine/block/block_memory", "decomposition/surface_transform",
+    "engine/waves/spectral_block", "engine/waves/block_memory", "engine/waves/response", "decomposition/surface_transform",
     "engine/equilibrium/heavy_ball", "engine/equilibrium/newton", "engine/equilibrium/wall_minimiser",
     "engine/equilibrium/wall_law", "engine/equilibrium/relaxation", "engine/equilibrium/quasistatic",
     "engine/equilibrium/step_decision", "engine/setup/scales", "engine/interface/potential_table",
