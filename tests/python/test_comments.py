@@ -16,7 +16,7 @@ FOLDERS = ("engine", "decomposition", "kernels", "io", "theory")
 OPEN = {
     "engine/waves/spectral_block", "engine/waves/block_memory", "engine/waves/response", "decomposition/surface_transform",
     "engine/equilibrium/heavy_ball", "engine/equilibrium/newton", "engine/equilibrium/wall_minimiser",
-    "engine/equilibrium/wall_law", "engine/equilibrium/relaxation", "engine/equilibrium/quasistatic",
+    "engine/equilibrium/relaxation", "engine/equilibrium/quasistatic",
     "engine/equilibrium/step_decision", "engine/setup/scales", "engine/interface/potential_table",
     "io/result_directory", "io/map_file",
 }
