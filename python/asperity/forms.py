@@ -20,7 +20,7 @@ __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "l
 
 
 def _plot_of_run(self: Result):
-    """Plots of the run: result.plot.separation(ax), .energy, .map("gap"), ..."""
+    """Returns the plots of the run: result.plot.separation(ax), .energy, .map("gap"), ..."""
     from .plots.run import RunPlots
 
     return RunPlots(self)

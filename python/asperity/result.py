@@ -207,7 +207,7 @@ def read_json(path: Path) -> Values:
 
 
 def expect(directory: Path, *files: str) -> None:
-    """Raises InputOutputError unless the directory holds one of these files."""
+    """Checks that the directory holds one of these files. Raises InputOutputError."""
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
         raise InputOutputError(str(directory), "is no result directory",
@@ -228,7 +228,7 @@ class RunFile:
     """
 
     def __init__(self, path: Path, unread: str = ""):
-        """unread: why the file is not read; "": it is."""
+        """Keeps the path. unread: why the file is not read; "": it is."""
         self.path, self.unread = path, unread
 
     def lacks(self, what: str, there: list[str]) -> KeyError:

@@ -21,8 +21,8 @@ from .terminal import progress_shown
 
 
 def launcher(ranks: int) -> list[str]:
-    """The words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
-    the MPI that the program was built with, where several are installed. Raises InputOutputError if it is not there."""
+    """Returns the words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
+    the MPI that the program was built with, if several are installed. Raises InputOutputError if there is none."""
     if ranks == 1:
         return []
     words, names = os.environ.get("ASPERITY_MPIRUN", "").split(), ()

@@ -229,7 +229,7 @@ def load_sweeps(directory: Path) -> list[Sweep]:
 # From scenes to sweeps.
 
 def _default_axis(file: str, fixed: list[str]) -> Axis:
-    """Without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
+    """Returns the axis without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
@@ -241,7 +241,7 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
 
 def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_only: bool,
           say: Callable[[str], None]) -> tuple[list[Axis], list[str], dict]:
-    """The axes, the overrides of every point, and the scene as the program reads it with these and the first values of
+    """Returns the axes, the overrides of every point, and the scene as the program reads it with these and the first values of
     the axes (the file alone need be no scene: it may lack what is swept)."""
     axes, fixed = axes_of(sets, of_scene)
     base = program.check(file, fixed + points_of(axes)[0])
@@ -265,7 +265,7 @@ def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_onl
 
 
 def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
-    """A point of sweep.json from the program's answer."""
+    """Returns a point of sweep.json from the program's answer."""
     scene = Values(point["scene"])
     return {"set": {axis.key: scene.find(axis.key) for axis in axes},
             "delta_gamma": point.get("delta_gamma"), "theory": point["theory"]}
@@ -273,7 +273,7 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
 
 def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]],
                    needs_surface: bool) -> list[dict[str, Any]]:
-    """The theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
+    """Returns the theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
     if x is None or not any("gamma_eff" in p["theory"].get("persson", {}) for p in points):  # none applies to these scenes
         return []
@@ -290,7 +290,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
 
 
 def _point_name(point: dict[str, Any]) -> str:
-    """The directory of a point: "rms=3,seed=1". Sections only where two keys share a name."""
+    """Returns the directory of a point: "rms=3,seed=1". Sections only where two keys share a name."""
     last = [key.partition(".")[2] for key in point["set"]]
     parts = [f"{key if last.count(short) > 1 else short}={shown(value)}"
              for (key, value), short in zip(point["set"].items(), last)]
@@ -299,7 +299,7 @@ def _point_name(point: dict[str, Any]) -> str:
 
 def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, prefix: str, theory_only: bool,
              say: Callable[[str], None]) -> tuple[Sweep, list[Job]]:
-    """A scene's points, read and checked, and the runs that they need. prefix: of their names."""
+    """Returns a scene's points, read and checked, and the runs that they need. prefix: of their names."""
     axes, fixed, base = _axes(file, sets, found["sweep"], theory_only, say)
     before = [] if theory_only else _points_before(place, base["scene"], [axis.key for axis in axes])
     overrides = [fixed + point for point in points_of(axes)]
@@ -327,7 +327,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
 
 
 def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[dict[str, Any]]:
-    """The points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
+    """Returns the points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
     of another scene or over other keys: before anything is computed."""
     if not (place / "sweep.json").exists():
         return []
@@ -343,7 +343,7 @@ def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[
                          f"this one is over {', '.join(axes)}, and the points of a table have the same keys", remedy)
 
     def fixed(keys: dict[str, Any]) -> dict[str, Any]:
-        """The keys that are no axes."""
+        """Returns the keys that are no axes."""
         sections = {name: dict(section) if isinstance(section, dict) else section for name, section in keys.items()}
         for section, _, key in (axis.partition(".") for axis in axes):
             if isinstance(sections.get(section), dict):
@@ -365,7 +365,7 @@ def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[
 # Carrying them out.
 
 def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[str], None]) -> Path:
-    """Where the sweep goes. Of the theory alone, nothing is resumed: a directory of its own."""
+    """Returns the directory of the sweep. The theory alone resumes nothing: it has a directory of its own."""
     place = files.chosen(asked, f"results/{name}{'-theory' * theory_only}-sweep")
     if not theory_only or not (place / "sweep.json").exists():
         return place
@@ -412,7 +412,7 @@ class Carried:
             self._write()
 
     def _write(self) -> None:
-        """The tables with what there is."""
+        """Writes the tables of the finished points."""
         self.written = time.monotonic()
         outcomes = iter(self.outcomes)
         for sweep, count in zip(self.sweeps, self.counts):
@@ -431,7 +431,7 @@ class Carried:
 
 
 def _values(given: Any) -> str:
-    """As behind --set: of several values, in whatever holds them, each; of one, it."""
+    """Returns values as they stand behind --set: each of several values, in whatever holds them; or the single one."""
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
     if isinstance(given, (str, os.PathLike)) or not isinstance(given, Iterable):
         given = [given]
