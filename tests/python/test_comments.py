@@ -30,6 +30,7 @@ parses passes places plans prints puts reads records refuses relaxes removes ren
 resumes returns rounds runs saves selects sends sets shows simulates solves starts stops stores sums sweeps takes tells throws
 transfers transforms unrolls updates waits writes
 advances binds carries completes concludes follows goes indents integrates limits notes prepares spells
+averages escapes exports subtracts yields
 """.split())
 
 COMMENT = re.compile(r"^\s*//(/?<?)(?!/)\s?(.*)$")
@@ -205,3 +206,22 @@ def test_docstrings_of_the_compiled_module_have_sections():
             if callable(thing) and name != "save" and name != "restore" and "Returns\n---" not in text:
                 found.append(f"{kind.__name__}.{name} has no Returns")
     assert not found, "\n".join(found)
+
+
+# Modules whose docstrings are not written in this way yet.
+OPEN_DOCSTRINGS = {*OPEN_MODULES, "convert", "estimate_parts", "files", "sentences", "report_estimate"}
+
+
+def test_docstrings_of_all_modules_begin_with_a_verb():
+    found, read = [], 0
+    for path in sorted((ROOT / "python/asperity").rglob("*.py")):
+        if path.stem in OPEN_DOCSTRINGS:
+            continue
+        for thing in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(thing, (ast.FunctionDef, ast.ClassDef)) and (text := ast.get_docstring(thing)):
+                read += 1
+                word = re.match(r"\W*(\w*)", text)[1].lower()
+                noun = isinstance(thing, ast.ClassDef) or any("property" in ast.unparse(d) for d in thing.decorator_list)
+                if word in REFUSED or not noun and word not in VERBS:
+                    found.append(f"{path.name}:{thing.lineno} {thing.name}: {text[:60]}")
+    assert read > 300 and not found, "\n".join(found)
