@@ -69,6 +69,8 @@ struct Case {
     /// What a run would refuse; theory and surface can do with the case.
     std::vector<io::Problem> refused;
 
+    /// Paths of the files that were read: the scene, the map or the atoms, tables.
+    std::vector<std::string> inputs() const;
     bool has(Segment::Kind kind) const;
     /// The path does more than to approach and to pull off.
     bool guided() const;
