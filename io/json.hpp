@@ -18,6 +18,11 @@ using Json = nlohmann::ordered_json;
 std::string json_text(const Json& value, int indent = -1);
 /// Parses a text. Throws FileError with `file` and the place of the mistake.
 Json parse_json(std::string_view text, const std::string& file);
+/// Returns an object as the text of a file, whose last member `digest` is of all bytes before the
+/// comma in front of it.
+std::string sealed_json(const Json& object);
+/// Returns true if a text ends in the digest of what is before it.
+bool is_sealed_json(std::string_view text);
 /// Returns a member by its path, find(json, "energy.residual"); nullptr if there is none.
 const Json* find(const Json& object, std::string_view path);
 

@@ -95,11 +95,7 @@ Json Result::json() const {
 std::string Result::text(int indent) const { return json_text(json(), indent) + "\n"; }
 
 void write_result(const Directory& directory, const Result& result) {
-    std::string text = result.text();
-    text.resize(text.rfind("\n}"));
-    text += fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
-                        digest_of(std::as_bytes(std::span(text))));
-    write_whole({directory, "result.json"}, text);
+    write_whole({directory, "result.json"}, sealed_json(result.json()));
 }
 
 } // namespace asperity::io

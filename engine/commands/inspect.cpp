@@ -194,7 +194,8 @@ void print_map_file(const Case& c) {
 
 void write_surface(const Case& c, const Surface& surface, const std::string& out) {
     const Scene& scene = c.scene;
-    const io::ResultDirectory place({out, scene.name + "-surface"});
+    const io::ResultDirectory place(
+        {out, scene.name + "-surface", false, false, {"heights.h5", "result.json"}, c.inputs()});
 
     const SurfaceStatistics& statistics = surface.statistics;
     const std::string file = place.directory() / "heights.h5";

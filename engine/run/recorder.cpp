@@ -343,7 +343,7 @@ void Recorder::write_if_cheap() {
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
     free_kept_arrays();
-    io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
+    io::Hdf5File file({directory_, io::run_file::series}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {

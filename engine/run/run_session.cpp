@@ -37,7 +37,7 @@ void print_unless_closed(const Print& print) {
 
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
     : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
-      grid_(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
+      grid_(c.grid(ranks.rank())), storage_(options, c, ranks),
       interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
       progress_(options.progress, !ranks.root()), maps_(*this),
       fingerprint_(physics_of(c, surface_)) {
@@ -247,7 +247,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
     result.set("run.processor_seconds", processor_seconds());
     add_phases(phases_, result);
     if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
-    if (const auto digest = io::sealed_digest(storage_.directory(), "run.h5"))
+    if (const auto digest = io::sealed_digest(storage_.directory(), io::run_file::series))
         result.set("run.file_digest", fmt::format("crc32:{:08x}", *digest));
     if (failure) {
         result.set("failure.exit_code", failure->code);

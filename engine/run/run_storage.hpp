@@ -32,7 +32,7 @@ namespace asperity {
 class RunStorage {
 public:
     /// Takes the directory. Collective.
-    RunStorage(const RunOptions& options, const std::string& name, const Communicator& ranks);
+    RunStorage(const RunOptions& options, const Case& c, const Communicator& ranks);
 
     // Functions for the root only.
     const std::string& path() const { return directory().path(); }

@@ -346,6 +346,12 @@ ProcessGrid Case::grid(int rank) const {
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
 }
 
+std::vector<std::string> Case::inputs() const {
+    std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
+    files.insert(files.end(), table_files.begin(), table_files.end());
+    return files;
+}
+
 bool Case::has(Segment::Kind kind) const {
     return std::any_of(path.begin(), path.end(), [&](const Segment& s) { return s.kind == kind; });
 }

@@ -9,16 +9,17 @@ from .cost import TARGETS, Cost, target_of
 from .cost_parameters import cost_case
 from .errors import SceneError
 from .estimates import Estimating
-from .plots.sweep import write_plots
+from .plots.sweep import plot_files, write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
-from .report_cost import answer_of, text_of, write
+from .report_cost import FILES, answer_of, text_of, write
+from .scene import inputs_of
 from .sweeps import TABLES, Carried
 from .variations import Runs
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
     """Carries out `asperity sweep`. Returns the exit code: 75 if stopped early, else that of the first failure."""
-    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
+    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True), plot_files(not theory_only))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
         print()
@@ -56,6 +57,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     cost = Cost(case, asked)
     directory = files.chosen(out, f"results/{found['name']}-cost")
     print(f"reference: {case.reference_text}", flush=True)
+    files.require_free({directory: FILES}, inputs=inputs_of(scene, found["scene"]))
     with files.in_use(directory):
         runs = Runs(scene, overrides, directory, options)
         complete = runs.run(cost.rows)
@@ -82,7 +84,7 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
     def say(text: str) -> None:
         print(text, flush=True)
 
-    making = Estimating(scene, overrides, out, options, seeds, parts, say=say)
+    making = Estimating(scene, overrides, out, options, seeds, parts, say=say, also=report_estimate.FILES)
     say(making.told())
     if plan:
         return 0

@@ -368,13 +368,12 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
     if target.suffix.lower() not in (".h5", ".hdf5"):
         raise _refuse(target, "is no name of an HDF5 file", "what is written is HDF5",
                       f"for example {target.with_suffix('.h5')}")
-    if target.exists():
-        raise _refuse(target, "is there already", "", "name another file, or remove it")
+    files.require_new(target)
     found = _found(source, channel)
     if channel is not None and not any(note.startswith("channel") for note in found.get("notes", [])):
         raise _refuse(source, f"has no channel '{channel}'", "it is no file of an instrument: it holds one map",
                       "leave --channel out")
-    with files.replacing(target) as beside:
+    with files.new(target) as beside:
         with h5py.File(beside, "w", libver="earliest") as file:
             file.attrs["origin"] = found.get("origin", Path(source).name)
             if "heights" in found:

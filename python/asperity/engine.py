@@ -424,21 +424,25 @@ class Simulation(_engine.Simulation):
         units = {name: unit for name, (unit, _) in SERIES.items()}
         with files.in_use(place):
             if (place / "result.json").exists():
-                raise SceneError(str(place), "already holds a result", "results are not written over",
+                raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                                  "name another directory, or remove this one")
-            with files.replacing(place / "run.h5") as beside, h5py.File(beside, "w") as file:
-                parts = {**{f"series/{name}": (values, units.get(name)) for name, values in self.series.items()},
-                         **{f"fields/now/{name}": (maps[name], unit) for name, unit in MAPS.items()},
-                         "substrate/height": (self.substrate.height, "Å")}
-                for name, (values, unit) in parts.items():
-                    file[name] = values
-                    if unit:
-                        file[name].attrs["unit"] = unit
-                file["substrate"].attrs["edge"] = self.substrate.edge
-            files.write(place / "result.json", files.sealed_json({
-                "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
-                "scene": tomllib.loads(self._scene)}))
+            with files.outputs(place, ("run.h5", "result.json"), renew=False) as written:
+                self._write_files(written, maps, units)
         return place
+
+    def _write_files(self, written: files.Outputs, maps: dict[str, numpy.ndarray], units: dict[str, str]) -> None:
+        with written.replacing("run.h5") as beside, h5py.File(beside, "w") as file:
+            parts = {**{f"series/{name}": (values, units.get(name)) for name, values in self.series.items()},
+                     **{f"fields/now/{name}": (maps[name], unit) for name, unit in MAPS.items()},
+                     "substrate/height": (self.substrate.height, "Å")}
+            for name, (values, unit) in parts.items():
+                file[name] = values
+                if unit:
+                    file[name].attrs["unit"] = unit
+            file["substrate"].attrs["edge"] = self.substrate.edge
+        written.write("result.json", files.sealed_json({
+            "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
+            "scene": tomllib.loads(self._scene)}))
 
 
 class Statics(_engine.Statics):

@@ -22,7 +22,7 @@ from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
 from .estimate_parts import CURVED, FLAT, Found, Part, Plan, SpacingAlso, edges, is_coarse, number_of, places, plan_of
 from .pool import DONE, PoolOptions, refuse_jobs
 from .result import Values, read_json
-from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
+from .scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from .terminal import duration
 from .variations import Runs, Setting, Variation, Variations
 
@@ -109,10 +109,8 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 # Planning.
 
-def _file_of(name: str, scene: str) -> str:
-    """A file that a scene names, as the program finds it: beside the scene, or in the working directory."""
-    beside = Path(scene).parent / name
-    return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
+MAP_FILES = [f"{stem}.{kind}" for stem in ("mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+"""What the parts of a measured map are written to, in the folder maps."""
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | None) -> tuple[Part, ...]:
@@ -121,7 +119,9 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
     of = Values(keys)
     sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
     unit = of.text("surface.file_unit")
-    there = maps.read_map(_file_of(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
+    inputs = inputs_of(scene, keys)
+    files.require_free({place: MAP_FILES}, inputs=inputs)
+    there = maps.read_map(file_beside(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
     heights = maps.square(there.heights)
     size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
     if size > 1.005 * edge:  # the program takes its middle
@@ -130,7 +130,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
         heights = heights[start:start + n, start:start + n]
     if of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
-        made["surface"].update(rms=None, file=str(Path(_file_of(of.text("surface.file"), scene)).resolve()))
+        made["surface"].update(rms=None, file=str(Path(file_beside(of.text("surface.file"), scene)).resolve()))
         with scene_file(made) as file:
             heights = heights * (of.number("surface.rms") / surface_made(file)[0])
 
@@ -147,12 +147,12 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
-                made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
+                made["interface"]["table"] = str(Path(file_beside(of.text("interface.table"), scene)).resolve())
             made.pop("sweep", None)
-            files.directory(place)
-            with files.replacing(place / f"{stem}.npy") as beside, open(beside, "wb") as file:
-                np.save(file, piece)
-            files.write(place / f"{stem}.toml", toml_of(made))
+            with files.outputs(place, (f"{stem}.npy", f"{stem}.toml"), inputs=inputs) as written:
+                with written.replacing(f"{stem}.npy") as beside, open(beside, "wb") as file:
+                    np.save(file, piece)
+                written.write(f"{stem}.toml", toml_of(made))
             rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
         return rows
 
@@ -233,7 +233,8 @@ class Estimating:
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
-                 say: Callable[[str], None] = print):
+                 say: Callable[[str], None] = print, also: Iterable[str] = ()):
+        """also: names of files that the caller will write there."""
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -247,6 +248,8 @@ class Estimating:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
         self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
         self.place = files.chosen(out, f"results/{self.name}-estimate")
+        self.inputs = inputs_of(scene, keys)
+        files.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
         of_file = keys["surface"]["kind"] == "file"
         map_parts = _map_parts(keys, scene, self.place / "maps", spacing_also(2) if is_coarse(varied) else None) if of_file else ()
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
@@ -300,7 +303,8 @@ class Estimating:
                             | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
                                zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
         if complete:
-            files.write(self.place / RESULT, files.sealed_json(estimate.json()))
+            with files.outputs(self.place, [RESULT], inputs=self.inputs) as written:
+                written.write(RESULT, files.sealed_json(estimate.json()))
         return estimate, complete
 
 

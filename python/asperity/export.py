@@ -16,6 +16,7 @@ from __future__ import annotations
 import base64
 import struct
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -159,8 +160,11 @@ class Export:
     def _strange(self, what: str, why: str) -> InputOutputError:
         return InputOutputError(str(self.run.file.path), what, why, "was the file written by another program?")
 
-    def _path(self, name: str) -> Path:
-        return files.directory(self.run.directory / "export") / name
+    def _outputs(self, names: Iterable[str]) -> AbstractContextManager[files.Outputs]:
+        return files.outputs(self.run.directory, [f"export/{name}" for name in names])
+
+    def _paths(self, names: Iterable[str]) -> list[Path]:
+        return [self.run.directory / "export" / name for name in names]
 
     def _frames(self) -> int:
         steps = self.run.file.members(TRAJECTORY + "/position")
@@ -215,29 +219,29 @@ class Export:
 
     def atoms(self) -> list[Path]:
         """Writes every state and the trajectory."""
-        written = []
-
-        def save(name: str, frames: Iterable[Atoms]) -> None:
-            path = self._path(name)
-            with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
-                for frame in frames:
-                    write_xyz(file, frame)
-            written.append(path)
-
-        for state in self.run.fields.values():
-            save(file_name(state.name) + ".xyz", [self._state_atoms(state)])
+        frames: dict[str, Callable[[], Iterable[Atoms]]] = {
+            file_name(state.name) + ".xyz": partial(lambda one: [self._state_atoms(one)], state)
+            for state in self.run.fields.values()}
         if self._frames():
-            save("trajectory.xyz", self._trajectory_atoms())
-        return written
+            frames["trajectory.xyz"] = self._trajectory_atoms
+        with self._outputs(frames) as out:
+            for name, of_file in frames.items():
+                with out.replacing(f"export/{name}") as beside, open(beside, "w", encoding="utf-8") as file:
+                    for frame in of_file():
+                        write_xyz(file, frame)
+        return self._paths(frames)
 
     def pictures(self) -> list[Path]:
+        made = {f"{name}-{file_name(state.name)}": (state, name) for state in self.run.fields.values()
+                for name in ("gap", "pressure", "contact")}
         written = []
-        for state in self.run.fields.values():
-            for name in ("gap", "pressure", "contact"):
+        with self._outputs(file for stem in made for file in figures.files_of(stem)) as out:
+            for stem, (state, name) in made.items():
                 fig = figures.make(partial(map_of, self.run, state, name))
                 if fig is not None:
-                    written += figures.save(fig, self._path(f"{name}-{file_name(state.name)}"))
-        return written
+                    figures.save(fig, out, f"export/{stem}")
+                    written += figures.files_of(stem)
+        return self._paths(written)
 
     def images(self) -> list[Path]:
         n = len(self.run.substrate.height)
@@ -248,21 +252,23 @@ class Export:
             if set(DISPLACEMENT) <= set(state):
                 maps["displacement (Å)"] = np.dstack([state[name] for name in DISPLACEMENT])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
-        for name, text in texts.items():
-            files.write(self._path(name + ".vti"), text)
-        return [*(self._path(name + ".vti") for name in texts), *self._film()]
+        film = self._frames() > 0
+        frames = [f"trajectory/{number:05}.vtp" for number in range(self._frames())]
+        written = [name + ".vti" for name in texts] + ["trajectory.pvd"] * film
+        with self._outputs([*written, *frames]) as out:
+            for name, text in texts.items():
+                out.write(f"export/{name}.vti", text)
+            if film:
+                self._film(out, frames)
+        return self._paths(written)
 
-    def _film(self) -> list[Path]:
-        """Writes the frames as points, and trajectory.pvd with their times."""
-        if not self._frames():
-            return []
-        place, frames = files.directory(self._path("trajectory")), []
-        for number, (_, time, layer, more) in enumerate(self._trajectory()):
-            frames.append((time, f"trajectory/{number:05}.vtp"))
-            files.write(place / f"{number:05}.vtp",
-                        points_text(layer, {f"{name} (Å/ps)": values for name, values in more.items()}))
-        files.write(self._path("trajectory.pvd"), _text("trajectory.pvd", frames=frames))
-        return [self._path("trajectory.pvd")]
+    def _film(self, out: files.Outputs, names: list[str]) -> None:
+        """Writes the frames as points, and trajectory.pvd, which has their times."""
+        frames = []
+        for name, (_, time, layer, more) in zip(names, self._trajectory()):
+            frames.append((time, name))
+            out.write(f"export/{name}", points_text(layer, {f"{key} (Å/ps)": values for key, values in more.items()}))
+        out.write("export/trajectory.pvd", _text("trajectory.pvd", frames=frames))
 
 
 def _title(name: str) -> str:

@@ -19,9 +19,9 @@ import numpy as np
 from . import files, maps, program, report_estimate
 from .errors import BY_CODE, InternalError, SceneError, Stopped
 from .estimate_parts import SpacingAlso
-from .estimates import Estimate, Estimating, surface_made
+from .estimates import MAP_FILES, RESULT, Estimate, Estimating, surface_made
 from .pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
-from .report import write_run_page
+from .report import run_page_files, write_run_page
 from .result import Result, Values
 from .scene import scene_file, toml_of
 
@@ -171,17 +171,17 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         heights = flat
     notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
                  "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
-    files.directory(place)
-    stem = re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
-    with files.replacing(place / "map.npy") as beside, open(beside, "wb") as opened:
-        np.save(opened, heights)
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
                          "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited"},
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True},
              "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
-    files.write(place / f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
+    stem = _stem(file)
+    with files.outputs(place, ("map.npy", f"{stem}.toml"), inputs=[file]) as out:
+        with out.replacing("map.npy") as beside, open(beside, "wb") as opened:
+            np.save(opened, heights)
+        out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
     kept = surface_made(str(place / f"{stem}.toml"))[1]
     if n < points:
@@ -212,6 +212,7 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
     program.refuse_ranks()
     refuse_jobs(jobs)
     place = files.chosen(None if out is None else str(out), _place(str(map)))
+    _require_free(place, str(map))
     scene, notes, also = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel,
                                   sites=sites)
     making = Estimating(str(scene), [], str(place), PoolOptions(jobs=jobs, progress="off"), None, (), also, notes, lambda _: None)
@@ -222,6 +223,18 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
         outcome = making.plan.scene.outcome
         raise BY_CODE.get(outcome.exit_code, InternalError)(str(place), "the run of the map failed", outcome.reason)
     return Adhesion(found, Result(place / "scene"), notes, scene, place)
+
+
+def _stem(file: str) -> str:
+    """The name of the scene of a map."""
+    return re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
+
+
+def _require_free(place: Path, file: str) -> None:
+    """Raises SceneError with the files that are in the way of those that are known beforehand: all but the runs'."""
+    page = [] if files.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
+    files.require_free({place: ["map.npy", f"{_stem(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
+                        place / "scene": page}, inputs=[file])
 
 
 def _place(file: str) -> str:
@@ -242,6 +255,7 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
 def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
     """`asperity adhesion`: its exit code."""
     place = files.chosen(out, _place(file))
+    _require_free(place, file)
     scene, notes, also = scene_of(file, young, poisson, work, place, **more)
     print(f"{file}: a scene of it is {scene}", *(f"note: {note}" for note in notes), sep="\n", flush=True)
     making = Estimating(str(scene), [], str(place), options, None, (), also, notes, lambda text: print(text, flush=True))

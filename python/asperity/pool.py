@@ -32,11 +32,12 @@ from typing import Any, NamedTuple
 from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .result import Values, read_json
+from .scene import inputs_of
 from .terminal import Progress, duration, environment_alone
 
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
-RESULT = "result.json"
+RESULT, LOG = "result.json", "log.txt"
 FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "interface.table_digest": "scene.interface.table"}
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1
@@ -124,8 +125,19 @@ def look_at(job: Job) -> Outcome:
 
 
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
-    """Returns the outcome of each job; reports a result that cannot be read."""
+    """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError with the files that are in
+    the way of the jobs that wait."""
     outcomes = [look_at(job) for job in jobs]
+    problems = []
+    for job, outcome in zip(jobs, outcomes):
+        if outcome.status == WAITING:
+            aside = (RESULT, "run.h5") if outcome.damaged and files.is_named(job.directory, RESULT) else ()
+            names = [name for name in (*files.RUN_FILES, files.LOCK) if name not in aside]
+            inputs = inputs_of(job.file, job.answer["scene"])
+            problems += files.in_the_way(job.directory, names, renew=False, inputs=inputs)
+            problems += files.in_the_way(job.directory, [LOG], inputs=inputs)
+    if problems:
+        raise SceneError.of(problems)
     for job, outcome in zip(jobs, outcomes):
         if outcome.damaged:
             say(f"note: {job.directory / RESULT} cannot be read ({outcome.damaged}): this run is repeated")
@@ -164,9 +176,15 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
     if told:
         return Ended(STOPPED)
     try:
-        files.directory(place)
+        with files.outputs(place, [LOG]) as out:
+            return _run(words, folder, out, threads, overrule, going)
     except Error as error:
         return Ended(error.code, 0.0, str(error).splitlines()[0])
+
+
+def _run(words: list[str], folder: str, out: files.Outputs, threads: str, overrule: bool, going: str) -> Ended:
+    """The same, when the directory is free."""
+    told = ""
     environment = environment_alone()
     if threads and (overrule or "OMP_NUM_THREADS" not in environment):
         environment["OMP_NUM_THREADS"] = threads
@@ -181,7 +199,7 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
 
     start = time.monotonic()
     try:
-        with open(place / "log.txt", "ab") as log:
+        with out.append(LOG) as log:
             # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
             child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=folder,
                                      env=environment, start_new_session=True, preexec_fn=prepare)
@@ -253,7 +271,7 @@ def _signals() -> Iterator[list[int]]:
 def _last_line(job: Job) -> str:
     """Returns the last line that the run of a job has written."""
     try:
-        text = (job.directory / "log.txt").read_text("utf-8", "replace")
+        text = (job.directory / LOG).read_text("utf-8", "replace")
     except OSError:
         return ""
     return text.rstrip().rpartition("\n")[2].strip()
@@ -283,8 +301,9 @@ class Pool:
 
     def run(self, done: Callable[[], None] = lambda: None) -> bool:
         """Runs the jobs and calls done() after each. Returns False if stopped before all of them had run."""
-        for old in self.place.glob("going-*"):  # of one that was killed, whose workers may live
-            old.unlink()
+        for old in self.place.glob("going-" + 32 * "[0-9a-f]"):  # of one that was killed, whose workers may live
+            if not old.is_symlink() and old.stat().st_size <= len("kill"):
+                old.unlink()
         with contextlib.ExitStack() as stack:
             signals = stack.enter_context(_signals())
             executor = self.options.executor or stack.enter_context(ThreadPoolExecutor(self.options.jobs))
@@ -313,7 +332,7 @@ class Pool:
         threads = options.threads or (0 if options.launch else equal)
         try:
             if self.outcomes[i].damaged:  # moved away, or its run would be refused
-                files.set_aside(job.directory / RESULT)
+                files.set_aside(job.directory, (RESULT, "run.h5"))
             return executor.submit(run_task, words, os.getcwd(), directory, str(threads or ""), options.threads > 0,
                                    str(self.going))
         except (Error, BrokenExecutor) as error:  # of the latter all workers were lost

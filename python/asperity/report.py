@@ -7,11 +7,11 @@ These files are the report's own: a second report writes them anew.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
 
 from . import program, scene, sentences, terminal, theories
-from .page import Page, file_name, minus
+from .page import Page, file_name, minus, page_files
 from .plots import run as plots
 from .plots.style import KINDS
 from .result import Result, State, Values
@@ -192,6 +192,13 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
     page.add("paragraph", "Name the program with its version, and the paper whose system it simulates; with the "
              "theory’s numbers, also the theory.")
     page.add("lists", [("", sentences.citations(result))])
+
+
+def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> list[str]:
+    """The names of all files that write_run_page() may write for a run with these states."""
+    of_state = [one[0] for one in (*MAPS, *DISTRIBUTIONS)]
+    return page_files([*(figure[0] for _, figures in FIGURES.values() for figure in figures),
+                       *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)
 
 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:

@@ -46,15 +46,20 @@ def csv_of(cost: Cost) -> str:
            *row.error.values(), *row.front.values()] for row in cost.rows)])
 
 
+FILES = ["cost.csv", *(file for question in ASKED for file in figures.files_of(f"cost-{question}"))]
+"""The names of all files that write() may write."""
+
+
 def write(cost: Cost, directory: Path) -> list[str]:
     """Writes the files and returns their names."""
-    files.write(files.directory(directory) / "cost.csv", csv_of(cost))
     written = ["cost.csv"]
-    for question in ASKED:
-        fig = figures.make(lambda ax: error_against_time(cost, question, ax)) if cost.answered(question) else None
-        if fig is not None:
-            figures.save(fig, directory / f"cost-{question}")
-            written.append(f"cost-{question}.svg")
+    with files.outputs(directory, FILES) as out:
+        out.write("cost.csv", csv_of(cost))
+        for question in ASKED:
+            fig = figures.make(lambda ax: error_against_time(cost, question, ax)) if cost.answered(question) else None
+            if fig is not None:
+                figures.save(fig, out, f"cost-{question}")
+                written.append(f"cost-{question}.svg")
     return written
 
 

@@ -10,10 +10,10 @@ import re
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import terminal
+from . import files, terminal
 from .estimates import Estimate, Number
 from .estimate_parts import GROUPS
-from .page import Page, minus
+from .page import Page, minus, page_files
 from .plots import style as figures
 from .plots.style import BLUE, INK, Curve, drawn, finish
 from .sentences import ALWAYS_LEFT_OUT
@@ -159,9 +159,14 @@ def page_of(estimate: Estimate) -> Page:
     return page
 
 
+FILES = [*figures.files_of("estimate", ("png",)), *page_files(["budget"])]
+"""The names of the files that write() writes."""
+
+
 def write(estimate: Estimate) -> list[str]:
     """The chart and the page beside estimate.json; names of what there is."""
     fig = figures.make(lambda ax: chart(estimate, ax))
-    figures.save(fig, estimate.directory / "estimate", ("png",))
+    with files.outputs(estimate.directory, figures.files_of("estimate", ("png",))) as out:
+        figures.save(fig, out, "estimate", ("png",))
     page_of(estimate).write()
     return ["estimate.json", "estimate.png", "report.html"]

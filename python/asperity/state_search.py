@@ -15,8 +15,9 @@ import math
 import os
 import sys
 import time
+import tomllib
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ import numpy
 from . import files, program
 from .engine import State, Statics
 from .errors import PhysicsError, SceneError
-from .scene import Overrides, SceneLike, assignments
+from .scene import Overrides, SceneLike, assignments, inputs_of
 from .terminal import Progress, millijoules, table
 from .units import MILLIJOULE
 
@@ -200,9 +201,9 @@ class Search:
                 "points": len(log["points"]), "step": self.case["step"], "innermost": innermost,
                 "pressed_to": log["pressed_to"], "ended": log["ended"], "may_miss": misses, "units": UNITS}
 
-    def save(self, place: Path) -> None:
+    def save(self, out: files.Outputs) -> None:
         states = {**self.kept, "here": self.statics.copy()}
-        with files.replacing(place) as beside, open(beside, "wb") as file:
+        with out.replacing(UNFINISHED) as beside, open(beside, "wb") as file:
             numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]),
                         **{name: state.u for name, state in states.items()})
 
@@ -234,23 +235,28 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     """
     program.refuse_ranks()
     place = None if out is None else files.chosen(os.fspath(out), "")
-    with contextlib.nullcontext() if place is None else files.in_use(place):
+    with contextlib.ExitStack() as stack:
+        if place:
+            stack.enter_context(files.in_use(place))
         if place and (place / RESULT).exists():
-            raise SceneError(str(place), "already holds a result", "results are not written over",
+            raise SceneError(str(place), "already holds a result, states.json", "results are not written over",
                              "name another directory, or remove this one")
         relaxed = [*assignments(overrides), "block.prony=[]", "drive.path=relax"]  # the block has relaxed
         search, saved = Search(Statics(scene, relaxed), starts), time.monotonic()
+        if place:
+            inputs = () if isinstance(scene, Mapping) else inputs_of(str(scene), tomllib.loads(search.case["scene"]))
+            out = stack.enter_context(files.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
         if place and (place / UNFINISHED).exists():
             search.resume(place / UNFINISHED)
         while search.advance():
             if report:
                 report(f"{search.log['stage']}, {search.now['z']:.2f} Å, states: {len(search.log['states'])}")
             if place and time.monotonic() - saved >= SAVE_EVERY:
-                search.save(place / UNFINISHED)
+                search.save(out)
                 saved = time.monotonic()
         found = search.result()
         if place:
-            files.write(place / RESULT, files.sealed_json({"name": search.case["name"], **found}))
+            out.write(RESULT, files.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
     return found
 

@@ -29,10 +29,11 @@ from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from .result import Result, Values, read_json
-from .scene import SceneLike, scene_file
+from .scene import SceneLike, inputs_of, scene_file
 from .tables import Columns, Table, columns_of, text_of
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
+TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
 
 
 @dataclass
@@ -128,8 +129,13 @@ class Sweep:
         return {**found, "run": {**self.run, **_build()}}
 
     def write(self) -> None:
-        """Writes the tables in their present state: sweep.csv, sweep-mean.csv, sweep.h5 and, last, sweep.json."""
-        place, table = files.directory(self.directory), self.table
+        """Writes the tables into its directory."""
+        with files.outputs(self.directory, TABLE_FILES) as out:
+            self.write_to(out)
+
+    def write_to(self, out: files.Outputs) -> None:
+        """Writes the tables as they are at this moment. sweep.json is written last."""
+        table = self.table
         means = table.means()
 
         def csv(columns: Mapping, last: str, words: list[str]) -> str:
@@ -137,12 +143,11 @@ class Sweep:
                 [*(shown(column[row]) if name in self.axes else column[row] for name, column in columns.items()), word]
                 for row, word in enumerate(words))])
 
-        files.write(place / "sweep.csv", csv(table, "status", table.status))
+        out.write("sweep.csv", csv(table, "status", table.status))
         if self.simulated and any(is_seed(key) for key in self.axes):
             done = [str(sum(table.status[i] == DONE for i in rows)) for _, rows in table.groups]
-            files.write(place / "sweep-mean.csv", csv({n: c for n, c in means.items() if not n.endswith(".count")},
-                                                      "points", done))
-        with files.replacing(place / "sweep.h5") as beside, h5py.File(beside, "w") as file:
+            out.write("sweep-mean.csv", csv({n: c for n, c in means.items() if not n.endswith(".count")}, "points", done))
+        with out.replacing("sweep.h5") as beside, h5py.File(beside, "w") as file:
             for group, columns in (("points", table), ("means", means)):
                 made, units = file.create_group(group), columns.units
                 for name, values in columns.items():
@@ -150,7 +155,7 @@ class Sweep:
                         made.attrs[name] = np.array(values, dtype=h5py.string_dtype())
                     else:
                         made.create_dataset(name, data=np.asarray(values, float)).attrs["unit"] = units[name]
-        files.write(place / "sweep.json", files.sealed_json(self.json(table)))
+        out.write("sweep.json", files.sealed_json(self.json(table)))
 
     def print_table(self) -> None:
         """Prints the table: at most about 25 lines, evenly chosen; the files have all of them."""
@@ -370,7 +375,7 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
     if not theory_only or not (place / "sweep.json").exists():
         return place
     if asked is not None:
-        raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
+        raise SceneError(f"--out {asked}", "already holds a sweep, sweep.json", "results are not written over",
                          "name another directory, or remove this one")
     free = files.numbered(place, lambda one: (one / "sweep.json").exists())
     say(f"note: {place} already holds a sweep; this one goes to {free}")
@@ -381,7 +386,8 @@ class Carried:
     """The sweeps of some scenes, carried out. complete: every point was run."""
 
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
-                 say: Callable[[str], None]):
+                 say: Callable[[str], None], also: Iterable[str] = ()):
+        """also: names of files that the caller will write."""
         axes, fixed = axes_of(sets, [])
         found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
         names = [found[file]["name"] for file in scenes]
@@ -392,7 +398,13 @@ class Carried:
         several = len(scenes) > 1
         self.place = _directory(out, "+".join(names), theory_only, say)
         self.start, self.written = time.monotonic(), 0.0
-        with files.in_use(self.place):
+        inputs = [one for file in scenes for one in inputs_of(file, found[file]["scene"])]
+        places = [self.place / name if several else self.place for name in names]
+        with contextlib.ExitStack() as stack:
+            stack.enter_context(files.in_use(self.place))
+            tables = {place: [*TABLE_FILES, *also] for place in (self.place, *places)}
+            files.require_free(tables, renew=not theory_only, inputs=inputs)
+            self.outputs = [stack.enter_context(files.outputs(place, TABLE_FILES)) for place in places]
             prepared = [_prepare(file, found[file], sets, self.place / name if several else self.place,
                                  f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
             self.sweeps = [sweep for sweep, _ in prepared]
@@ -415,7 +427,7 @@ class Carried:
         """Writes the tables of the finished points."""
         self.written = time.monotonic()
         outcomes = iter(self.outcomes)
-        for sweep, count in zip(self.sweeps, self.counts):
+        for sweep, count, out in zip(self.sweeps, self.counts, self.outputs):
             programs: Counter[str] = Counter()
             for point, outcome in zip(sweep.points[len(sweep.points) - count:], outcomes):
                 point["status"] = outcome.status
@@ -427,7 +439,7 @@ class Carried:
                     programs[git] += 1
             sweep.run["programs"] = dict(programs)
             sweep.run["wall_seconds"] = time.monotonic() - self.start
-            sweep.write()
+            sweep.write_to(out)
 
 
 def _values(given: Any) -> str:

@@ -14,6 +14,7 @@ import h5py
 from . import files, program, terminal, theories
 from .errors import SceneError
 from .result import Values
+from .scene import inputs_of
 
 STATUS = {
     "adhesive": "the surfaces adhere without load",
@@ -28,14 +29,14 @@ def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
     if not (place / "result.json").exists() and not (place / "run.journal").exists():
         return place, []
     if asked is not None:
-        raise SceneError(str(place), "already holds a result", "results are not written over",
+        raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                          "name another directory (--out), or remove this one")
     free = files.numbered(place, lambda one: (one / "result.json").exists())
     return free, [f"{place} already holds a result; this one goes to {free}"]
 
 
-def _write_profile(path: Path, columns: list[dict[str, Any]]) -> None:
-    with files.replacing(path) as beside, h5py.File(beside, "w") as file:
+def _write_profile(out: files.Outputs, columns: list[dict[str, Any]]) -> None:
+    with out.replacing("theory.h5") as beside, h5py.File(beside, "w") as file:
         for column in columns:
             made = file.create_dataset(f"profile/{column['name']}", data=column["values"])
             made.attrs["unit"], made.attrs["meaning"] = column["unit"], column["meaning"]
@@ -125,9 +126,10 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
         print(json.dumps(point, ensure_ascii=False))
         return 0
     place, said = _directory(out, values.text("name"))
-    with files.in_use(place):
-        _write_profile(place / "theory.h5", profile)
-        files.write(place / "result.json", files.sealed_json(point))
+    names = ("theory.h5", "result.json")
+    with files.in_use(place), files.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
+        _write_profile(written, profile)
+        written.write("result.json", files.sealed_json(point))
     print(text)
     for note in filter(None, [*notes, *said]):
         print(f"  note: {note}")

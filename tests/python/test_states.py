@@ -11,6 +11,7 @@ from conftest import command, started, wait_for
 
 import asperity
 import asperity.state_search
+from asperity import files
 
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
@@ -90,7 +91,7 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
     for number in (1, 30, 25):
         with pytest.raises(KeyboardInterrupt):
             asperity.states("hill.toml", out="parts", report=until(number))
-    assert [path.name for path in Path("parts").iterdir()] == ["states-unfinished.npz"]
+    assert {path.name for path in Path("parts").iterdir()} == {"states-unfinished.npz", files.RECORD}
     with pytest.raises(asperity.SceneError, match="another scene"):
         asperity.states("hill.toml", {"surface.seed": 3}, out="parts")
     parts = asperity.states("hill.toml", out="parts")
@@ -98,9 +99,10 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
     for one, other in zip(parts["states"], whole["states"], strict=True):
         for key in ("binding_energy", "mean_height", "contact_fraction"):
             assert one[key] == pytest.approx(other[key], abs=1e-3)
-    assert [path.name for path in Path("parts").iterdir()] == ["states.json"]
+    assert {path.name for path in Path("parts").iterdir()} == {"states.json", files.RECORD}
     Path("broken").mkdir()
     Path("broken/states-unfinished.npz").write_bytes(b"PK no such file")
+    files._update(Path("broken"), lambda _: {"states-unfinished.npz": files.UNFINISHED})
     with pytest.raises(asperity.SceneError, match="cannot be read"):
         asperity.states("hill.toml", out="broken")
 

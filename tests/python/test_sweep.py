@@ -146,7 +146,7 @@ def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path / "out"
     sweep.write()
-    assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json"}
+    assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json", files.RECORD}
     rows = numbers(sweep.directory)
     assert list(rows[0])[:5] == ["surface.rms", "surface.seed", "delta_gamma", "binding_energy", "binding_energy_ratio"]
     assert rows[7]["surface.rms"] == "3.5" and rows[8]["status"] == "waiting" and rows[8]["binding_energy"] == ""

@@ -15,9 +15,8 @@ import io
 import itertools
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -216,7 +215,8 @@ def make(draw: Callable[[Axes], bool]) -> Figure | None:
         return fig if draw(fig.add_axes((0.165, 0.155, 0.805, 0.815))) else None
 
 
-def _bytes(fig: Figure, kind: str) -> bytes:
+def picture(fig: Figure, kind: str) -> bytes:
+    """A figure as the content of a file: "png", "pdf" or "svg"."""
     kept = _made.setdefault(fig, {})  # the SVG is wanted twice
     if kind not in kept:
         stream = io.BytesIO()
@@ -227,13 +227,15 @@ def _bytes(fig: Figure, kind: str) -> bytes:
     return kept[kind]
 
 
-def save(fig: Figure, stem: Path, kinds: tuple[str, ...] = KINDS) -> list[Path]:
-    """Writes stem.png, .pdf, .svg; their paths."""
-    written = []
+def files_of(stem: str, kinds: Iterable[str] = KINDS) -> list[str]:
+    """The names of the files of a figure: stem.png, .pdf, .svg."""
+    return [f"{stem}.{kind}" for kind in kinds]
+
+
+def save(fig: Figure, out: files.Outputs, stem: str, kinds: Iterable[str] = KINDS) -> None:
+    """Writes the files of a figure."""
     for kind in kinds:
-        written.append(stem.with_name(f"{stem.name}.{kind}"))
-        files.write(written[-1], _bytes(fig, kind))
-    return written
+        out.write(f"{stem}.{kind}", picture(fig, kind))
 
 
 def csv(fig: Figure) -> str:
@@ -257,7 +259,7 @@ def csv(fig: Figure) -> str:
 
 def inline_svg(fig: Figure) -> str:
     """Returns the figure as SVG whose colours are those of the page around it (var(--ink), var(--c0), ...)."""
-    text = _bytes(fig, "svg").decode()
+    text = picture(fig, "svg").decode()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
     text = re.sub(r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"([^>]*?) width="[^"]*"',

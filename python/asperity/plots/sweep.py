@@ -24,7 +24,7 @@ from ..sweeps import Sweep
 from ..tables import Table
 from ..units import MILLIJOULE, NANONEWTON
 from ..units import shown as shown_unit
-from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish, make,
+from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, files_of, finish, make,
                     millijoules, save)
 
 MOST_CURVES = len(COLOURS)
@@ -285,14 +285,18 @@ def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
                       f"plots: {', '.join(names(sweeps))}")
 
 
+def plot_files(simulated: bool) -> list[str]:
+    """The names of all files that write_plots() may write."""
+    return [file for name in (SIMULATED if simulated else OF_THEORY) for file in files_of(name)]
+
+
 def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], str]:
     """Writes gamma.svg, .pdf, .png and the others into the directory. Returns the SVG files, and the reason why a sweep is
     left out."""
     note = parts_of(sweeps)[2]
-    written = []
-    for name in names(sweeps):
-        fig = make(lambda ax: plot(sweeps, name, ax))
-        if fig is not None:
-            save(fig, files.directory(directory) / name)
-            written.append(directory / f"{name}.svg")
-    return written, note
+    figures = {name: fig for name in names(sweeps) if (fig := make(lambda ax, name=name: plot(sweeps, name, ax))) is not None}
+    if figures:
+        with files.outputs(directory, [file for name in figures for file in files_of(name)]) as out:
+            for name, fig in figures.items():
+                save(fig, out, name)
+    return [directory / f"{name}.svg" for name in figures], note
