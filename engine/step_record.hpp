@@ -36,6 +36,9 @@ struct StepRecord : ContactCount {
     // Only where the step was observed, like the contacts:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
+    /// At a temperature: -(dt^2/8) sum of F^2/m. With it the energies are what the leapfrog
+    /// conserves over springs (thermostat.hpp).
+    double time_step_energy = 0.0;
     /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
     /// what the block had at the start, and what was written to its fields.
     double work = 0.0;
@@ -45,7 +48,8 @@ struct StepRecord : ContactCount {
     /// path what was dissipated at instabilities.
     double damped = 0.0;
     double interface_work = 0.0; ///< int F dz of the mean height, likewise
-    /// (work - energy - damped) over the largest of the energies and of the work so far.
+    /// (work - energy - time_step_energy - damped) over the largest of the energies and of the
+    /// work so far.
     double residual = 0.0;
 
     double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
@@ -65,6 +69,7 @@ struct StepRecord : ContactCount {
         v("interface_energy", interface_energy);
         v("elastic_energy", elastic_energy);
         v("kinetic_energy", kinetic_energy);
+        v("time_step_energy", time_step_energy);
         ContactCount::visit(v);
         v("work", work);
         v("branch_energy", branch_energy);

@@ -31,7 +31,8 @@ std::string describe_device(const DeviceChoice& choice);
 struct DeviceSums {
     InterfaceSums interface;
     KickSums kick;
-    ExactSum top_force, lowest_z, elastic, heat;
+    NoiseSums noise;
+    ExactSum top_force, lowest_z, elastic;
 };
 
 /// Where the arrays lie in device memory. It follows from the options alone, so it also says how

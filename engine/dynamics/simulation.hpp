@@ -68,6 +68,10 @@ public:
     const StepRecord& step(bool observe);
 
     const StepRecord& now() const { return record_; }
+    /// Changes v, the mean of the lowest layer's velocities half a step before and after now(), to
+    /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
+    /// noise have acted (thermostat.hpp).
+    void take_to_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return balance_; }
     const SimulationOptions& options() const { return options_; }
     double reference_height() const { return reference_height_; }
@@ -88,8 +92,8 @@ public:
         return block_;
     }
     /// Forces on the sites of this rank's tile beside the substrate's, eV/Å, at each step from the
-    /// next one on; null: none. The field is read where it is. Its work is counted, but for that on
-    /// displacements by a thermostat's noise. Not with a device.
+    /// next one on; null: none. The field is read where it is. Its work is counted. Not with a
+    /// device.
     void push(const VectorField<double>* external) { external_ = external; }
     /// After fields were written to from outside, which is no work: the energy balance starts anew
     /// with the next observed step.
@@ -114,6 +118,7 @@ private:
     void step_on_processor(bool observe);
     void download() const;
     double velocity_of_top() const;
+    ThermalNoise noise() const;
     bool slides() const { return options_.interface.slides; }
     void slide();
     void update_slide();
@@ -157,7 +162,8 @@ private:
     // Sums of the step under way, this rank's share.
     InterfaceSums interface_sums_;
     KickSums kick_sums_;
-    ExactSum top_force_, lowest_z_, elastic_, heat_;
+    NoiseSums noise_sums_;
+    ExactSum top_force_, lowest_z_, elastic_;
     std::array<ExactSum, 2> lateral_; ///< of a path that slides
 };
 

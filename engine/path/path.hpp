@@ -111,7 +111,8 @@ public:
     virtual std::size_t segment() const = 0;
     /// Displacements of the lowest layer at now(), Å, if they were wanted.
     virtual VectorPlane<const double> layer() const = 0;
-    /// Its velocities, Å/fs: the mean of those half a step before and after now(). Not of points.
+    /// Returns its velocities at now(), Å/fs: the mean of those half a step before and after; at a
+    /// temperature those before friction and noise act (Simulation::take_to_step()). Not of points.
     virtual VectorPlane<const double> velocities() const { return {}; }
     /// As it was at now().
     virtual const Interface& interface() const = 0;

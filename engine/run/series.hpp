@@ -16,8 +16,9 @@
 namespace asperity {
 
 struct SeriesColumn {
-    /// time: where it passes; sliding: where the path slides; relaxing: where the block does.
-    enum In { both, dynamic, quasistatic, time, sliding, relaxing };
+    /// time: where it passes; sliding: where the path slides; relaxing: where the block does;
+    /// thermal: where the scene has a temperature.
+    enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal };
     In in;
     io::Quantity quantity; ///< its name is that of the data set, "series/force"
     /// At path.now(). Collective: the same on all ranks.

@@ -59,7 +59,7 @@ struct NodeRanges {
 
 /// Sums of one launch over its nodes.
 struct PassSums {
-    static constexpr int sums = 5;
+    static constexpr int sums = 6;
     ExactSum sum[sums];
     double count[2] = {0.0, 0.0};
     double least = no_pair;
@@ -70,7 +70,7 @@ struct ForceSum {
     enum { in_contact, repulsive };
 };
 struct AdvanceSum {
-    enum { kinetic, dissipated, dragged, elastic, heat };
+    enum { kinetic, of_step, dissipated, dragged, elastic, heat };
 };
 
 /// What every launch is handed, by value.
