@@ -166,7 +166,7 @@ class Search:
 
     def _random(self) -> None:
         """Relaxes one more random start. The starts are independent of each other and of the path."""
-        if self.log["tried"] == self.starts:
+        if self.log["tried"] == self.starts or not self.case["scale"]:  # without attraction there is one state
             self.log["stage"] = "done"
             return
         self.log["tried"] += 1
@@ -226,7 +226,8 @@ class Search:
         misses = [f"states whose force passes the load and comes back within {self.case['step']:.3g} Å",
                   f"branches that no instability of this path leads to, or one that loses less than {LEAST_LOSS:.1%} "
                   "of the energies met", f"states below a mean height of {innermost:.2f} Å"]
-        misses += [f"deeper states: a further random start ends in one with a probability of at most {1.0 / (made + 1):.2g}"]
+        misses += [f"deeper states: a further random start ends in one with a probability of at most "
+                   f"{1.0 / (made + 1):.2g}"] * (made > 0)
         misses += [f"the ends of {log['failed']} relaxations that did not reach drive.tolerance"] * (log["failed"] > 0)
         return {"states": [{**{name: s[name] for name in NUMBERS}, "barrier": s.get("barrier"), "found": s["found"]}
                            for s in states],
@@ -317,8 +318,9 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
                  "to the next, MPa", "found by"], rows, left=(6,)))
     deepest = found["states"][found["deepest_found"]]["binding_energy"]
     print(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "
-          f"({millijoules(deepest)} mJ/m²); {found['starts_at_deepest']} of the starts ended within {NEAR:.0%} of it. A further start "
-          f"ends deeper with a probability of at most {found['deeper_next']:.2g}.")
+          f"({millijoules(deepest)} mJ/m²)" + (
+              f"; {found['starts_at_deepest']} of the starts ended within {NEAR:.0%} of it. A further start ends deeper with a "
+              f"probability of at most {found['deeper_next']:.2g}." if found["starts"] else "."))
     print(f"The path went in to a mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; "
           f"it ended because: {found['ended']}.")
     if found["approach_less_run"]:

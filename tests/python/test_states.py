@@ -42,7 +42,7 @@ def place(place):
 
 def test_two_states_and_the_work_between_them(whole, place):
     first, deeper = whole["states"]
-    assert whole["deepest_found"] == 1 and first["found"] == ["run", "approach"] and whole["approach_less_run"] == 0.0
+    assert whole["deepest_found"] == 1 and first["found"][:2] == ["run", "approach"] and whole["approach_less_run"] == 0.0
     assert first["binding_energy"] == asperity.run("hill.toml").binding_energy < deeper["binding_energy"] / 2
     # A path from the one to the other: no force at both ends, between them the work and the barrier.
     statics = asperity.Statics("hill.toml", {"drive.control": "mean-height"})
@@ -61,7 +61,7 @@ def test_two_states_and_the_work_between_them(whole, place):
 def test_a_state_before_a_point_that_is_refused():
     """Rubber is not pressed as far in as a step leads."""
     found = asperity.states(Path(__file__).parents[2] / "scenes/rubber.toml", {"surface.sites": 32})
-    assert found["states"][0]["found"] == ["run", "approach"]
+    assert found["states"][0]["found"][:2] == ["run", "approach"]
     assert found["ended"].startswith("the next point inwards failed: a mean height of ")
     assert " lies too far inside the substrate (flat surfaces at this distance press with " in found["ended"]
 
@@ -141,21 +141,22 @@ def test_lateral_forces_on_a_soft_steep_surface(place):
 def test_random_starts_lie_on_the_substrate(place):
     """No site is nearer to the substrate than flat solids at rest, on either side of it; over a wall none moves sideways."""
     for kind, sideways in (("atoms", 1.3), ("wall", 0.0)):
-        statics = asperity.Statics({"surface.sites": 16, "surface.rms": 4, "block.young": 8, "block.thickness": 16,
+        statics = asperity.Statics({}, {"surface.sites": 16, "surface.rms": 4, "block.young": 8, "block.thickness": 16,
                                         "interface.kind": kind, "drive.path": "relax"})
         search, heights = asperity.state_search.Search(statics, 1), np.asarray(statics.substrate.height)
         search.log["datum"] = datum = statics.mean_height
-        levels = []
+        levels, touching = [], 0
         for seed in range(30):
             u = search.laid(np.random.default_rng(seed)).u
             z, apart = u[2] + datum, search.case["separation"]
             below = heights if kind == "wall" else _bilinear(heights, u, statics.spacing)
-            assert (z - below).min() > apart - 1e-9 and np.isclose(z - below, apart).any()
+            assert (z - below).min() > apart - 1e-9
+            touching += np.isclose(z - below, apart).any()
             flat = z[~np.isclose(z - below, apart)]
             assert flat.size == 0 or np.ptp(flat) < 1e-9
             assert np.abs(u[:2]).max() <= sideways and (kind == "wall" or np.ptp(u[0]) > 0.0)
             levels.append(flat.mean() if flat.size else z.min())
-        assert np.ptp(levels) > 0.8 * np.ptp(heights)
+        assert np.ptp(levels) > 0.8 * np.ptp(heights) and touching > 20
 
 
 def _bilinear(heights, u, spacing):
