@@ -153,6 +153,7 @@ void Simulation::integrate_external_work() {
 
 void Simulation::add_noise() {
     noise_sums_ = thermostat_->kick(block_, noise(), options_.damping_from);
+    kick_sums_.kinetic.merge(noise_sums_.kinetic); // one sum, as on a device
 }
 
 ThermalNoise Simulation::noise() const {
@@ -222,13 +223,13 @@ void Simulation::begin_record(bool observe) {
 
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums = global_sums(
-        communicator(),
-        std::array{interface_sums_.force_z, lowest_z_, top_force_, kick_sums_.dissipated,
-                   kick_sums_.dragged, noise_sums_.heat, interface_sums_.energy, elastic_,
-                   kick_sums_.kinetic, kick_sums_.of_step, noise_sums_.kinetic});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic, of_step,
-                kinetic_by_noise] = sums;
+    const auto sums =
+        global_sums(communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                               kick_sums_.dissipated, kick_sums_.dragged,
+                                               noise_sums_.heat, interface_sums_.energy, elastic_,
+                                               kick_sums_.kinetic, kick_sums_.of_step});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
+                of_step] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -260,7 +261,7 @@ void Simulation::update_energy_balance() {
     static_cast<ContactCount&>(record_) = count_contacts(interface_sums_, communicator());
     record_.interface_energy = lj;
     record_.elastic_energy = elastic;
-    record_.kinetic_energy = kinetic + kinetic_by_noise;
+    record_.kinetic_energy = kinetic;
     record_.time_step_energy = thermostat_ ? of_step : 0.0;
     const double energy = record_.energy() + record_.time_step_energy;
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
