@@ -206,10 +206,10 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     }
     const double kt = units::boltzmann * options.temperature, n = static_cast<double>(k.size());
     std::vector<double> kinetic, elastic, at_step;
-    VectorField<double> mean(simulation.block().grid().tile(0), 1);
+    VectorField<double> velocities(simulation.block().grid().tile(0), 1);
     const auto layer = [&](const auto& visit) {
         const auto v = simulation.block().levels().front().v.view()[0];
-        const auto to = mean.plane(0);
+        const auto to = velocities.plane(0);
         for (const auto& [a, b] : {std::pair{&to.x, &v.x}, {&to.y, &v.y}, {&to.z, &v.z}})
             for (int y = 0; y < a->ny; ++y)
                 for (int x = 0; x < a->nx; ++x)
@@ -222,7 +222,7 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
         const StepRecord& now = simulation.step(true);
         if (step < warm_up) continue;
         layer([](double& kept, double v) { kept = 0.5 * (kept + v); });
-        simulation.take_to_step(mean.plane(0));
+        simulation.take_to_step(velocities.plane(0));
         double squares = 0.0;
         layer([&](double& v, double) { squares += v * v; });
         at_step.push_back(squares * levels[0].mass(0) / (3.0 * 64.0 * kt));
