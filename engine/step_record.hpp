@@ -36,6 +36,9 @@ struct StepRecord : ContactCount {
     // Numbers of observed steps only, like the contacts:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
+    /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m: with it the energies are
+    /// what the leapfrog conserves over springs (thermostat.hpp).
+    double time_step_energy = 0.0;
     /// Work of the drive and of forces from outside on the solids, from rest apart: it includes the
     /// energy of the block at the start, and that of values written to its fields.
     double work = 0.0;
@@ -44,9 +47,9 @@ struct StepRecord : ContactCount {
     /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
     /// the energy dissipated at instabilities.
     double damped = 0.0;
-    double interface_work = 0.0; ///< int F dz of the mean height since the start
-    /// Residual of the energy balance: (work - energy - damped) over the largest of the energies
-    /// and of the work so far.
+    double interface_work = 0.0; ///< int F dz of the mean height, likewise
+    /// Residual of the energy balance: (work - energy - time_step_energy - damped) over the largest
+    /// of the energies and of the work so far.
     double residual = 0.0;
 
     double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
@@ -66,6 +69,7 @@ struct StepRecord : ContactCount {
         v("interface_energy", interface_energy);
         v("elastic_energy", elastic_energy);
         v("kinetic_energy", kinetic_energy);
+        v("time_step_energy", time_step_energy);
         ContactCount::visit(v);
         v("work", work);
         v("branch_energy", branch_energy);

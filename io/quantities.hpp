@@ -127,7 +127,8 @@ inline constexpr Quantity result_quantities[] = {
      "∫ F dz of the mean height; left out at a controlled top on quasi-static paths"},
     {"segments[].lost", "meV/Å^2", per::area,
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
-     "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
+     "net heat, damped less what the thermostat's noise gives: at rest it fluctuates as the energy "
+     "does and does not grow, and the first segment includes what warms the block from 0 K"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
      "what a block that relaxes has dissipated by that, beside lost"},
     {"segments[].kinetic", "meV/Å^2", per::area,
@@ -224,15 +225,20 @@ inline constexpr Quantity result_quantities[] = {
      "curved)"},
     {"relaxed.residual_force", "eV/Å", "", "largest force left on a node"},
     {"energy.balance_error", "1", "largest term",
-     "energy balance: energy.work - kinetic - elastic - interface - damped, at the "
-     "last recorded step, over the largest energy or work so far"},
+     "energy balance: energy.work - kinetic - elastic - interface - damped (- time_step at a "
+     "temperature), at the last recorded step, over the largest energy or work so far"},
     {"energy.work", "eV", per::block,
      "work of the drive on the solids since they were at rest apart: it includes the energy that "
      "they have where the path starts"},
-    {"energy.kinetic", "eV", per::block, "kinetic energy at the last recorded step"},
+    {"energy.kinetic", "eV", per::block,
+     "kinetic energy of the velocities at the last recorded step; at rest at a temperature T it is "
+     "(3/2) N k T on average"},
     {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
     {"energy.interface", "eV", per::block,
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
+    {"energy.time_step", "eV", per::block,
+     "at a temperature: -(dt²/8) Σ F²/m at the last recorded step; with it the energies are what "
+     "the time step conserves"},
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped on dynamic paths (less the heat of the thermostat's "
      "noise), dissipated at instabilities on quasi-static ones"},

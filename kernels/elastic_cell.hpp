@@ -80,17 +80,20 @@ struct Kick {
     bool damped = false;    ///< sum the dissipated energy
     bool observed = false;  ///< sum the kinetic energy at the whole step
     double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
+    double per_force = 0.0; ///< -dt^2 / 8m, for the energy of the time step, Å^2/eV
 };
 
 /// Sums of a kick at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
 struct KickSums {
     ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
+    ExactSum of_step;    ///< sum of -dt^2 F_n^2 / 8m, eV (observed planes)
     ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
     /// Sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to the medium.
     ExactSum dragged;
 
     void merge(const KickSums& other) {
         kinetic.merge(other.kinetic);
+        of_step.merge(other.of_step);
         dissipated.merge(other.dissipated);
         dragged.merge(other.dragged);
     }

@@ -62,9 +62,9 @@ template <class V, bool damped, bool observed>
 class Kicker {
 public:
     ASPERITY_INLINE Kicker(const Kick& plan, const VectorVolume<double>& v)
-        : velocity_factor_(plan.velocity_factor), kick_(plan.kick), drag_(plan.drag_z),
-          medium_(2.0 * plan.medium_z), kinetic_weight_(0.25 * plan.half_mass),
-          loss_weight_(0.25 * plan.drag), given_weight_(0.5 * plan.drag), x_(v.x.origin),
+        : velocity_factor_(plan.velocity_factor), kick_(plan.kick), drag_(plan.drag_z), medium_(2.0 * plan.medium_z),
+          kinetic_weight_(0.25 * plan.half_mass), loss_weight_(0.25 * plan.drag),
+          given_weight_(0.5 * plan.drag), per_force_(plan.per_force), x_(v.x.origin),
           y_(v.y.origin), z_(v.z.origin) {}
 
     /// Kicks the first count nodes from element `at` of the volume under the force f. Returns their
@@ -97,7 +97,12 @@ public:
             wz = first_lanes(wz, count);
             rz = first_lanes(rz, count);
         }
-        if constexpr (observed) kinetic_.add(kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
+        if constexpr (observed) {
+            kinetic_.add(kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
+            V squares = fma(f.x, f.x, fma(f.y, f.y, f.z * f.z));
+            if (count < V::width) squares = first_lanes(squares, count);
+            of_step_.add(per_force_, squares);
+        }
         if constexpr (damped) {
             dissipated_.add(loss_weight_, fma(wx, wx, fma(wy, wy, rz * rz)));
             dragged_.add(given_weight_, rz);
@@ -108,11 +113,13 @@ public:
     /// Ends a row: moves the sums out of the bins, which keeps them in their range.
     ASPERITY_INLINE void end_row() {
         if constexpr (observed) kinetic_.close();
+        if constexpr (observed) of_step_.close();
         if constexpr (damped) dissipated_.close();
         if constexpr (damped) dragged_.close();
     }
     ASPERITY_INLINE void add_to(KickSums& sums) const {
         if constexpr (observed) collect(kinetic_.sum(), sums.kinetic);
+        if constexpr (observed) collect(of_step_.sum(), sums.of_step);
         if constexpr (damped) {
             collect(dissipated_.sum(), sums.dissipated);
             collect(dragged_.sum(), sums.dragged);
@@ -120,9 +127,9 @@ public:
     }
 
 private:
-    V velocity_factor_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_;
+    V velocity_factor_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_, per_force_;
     double *x_, *y_, *z_;
-    ProductSum<V> kinetic_, dissipated_, dragged_;
+    ProductSum<V> kinetic_, of_step_, dissipated_, dragged_;
 };
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -75,25 +75,47 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
     return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
 }
 
-/// Adds `add` to the velocity v(n+1/2) of a node and the resulting displacement to u(n+1). old:
-/// v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the second is minus
-/// the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the mean w of old and
-/// v; the other half is part of the work of the force at n+1.
-ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, double& u,
-                            double add) {
-    const double w = 0.5 * (old + v);
-    v = v + add;
-    u = u + noise.dt * add;
-    return add * ((2.0 - noise.drag) * w + 0.5 * add);
+/// Changes that the noise of a step makes in the sums of that step, eV, or eV per mass.
+struct NoiseEnergies {
+    double heat = 0.0;    ///< energy given to the nodes
+    double kinetic = 0.0; ///< of the kinetic energy at the whole step
+};
+ASPERITY_INLINE NoiseEnergies operator+(const NoiseEnergies& a, const NoiseEnergies& b) {
+    return {a.heat + b.heat, a.kinetic + b.kinetic};
 }
 
-/// Adds the noise of one node of mass m (eV fs^2/Å^2) to v and u. Returns the energy given, eV.
-ASPERITY_INLINE double add_noise(const ThermalNoise& noise, double m, const Triple<double>& xi,
-                                 const Triple<double>& old, Triple<double>& v, Triple<double>& u) {
-    const double sigma = std::sqrt(noise.strength / m) / noise.drag;
-    const double x = push(noise, old.x, v.x, u.x, sigma * xi.x);
-    const double y = push(noise, old.y, v.y, u.y, sigma * xi.y);
-    return m * (x + y + push(noise, old.z, v.z, u.z, sigma * xi.z));
+/// Adds `add` to the velocity v(n+1/2) of a node along one axis and dt add to its displacement
+/// u(n+1). old: v(n-1/2). medium: velocity of the damping medium V. Returns energies per mass.
+///
+/// Friction and noise act at the fixed place u(n): without them half a kick of the force F leads
+/// from v(n-1/2) to p = v(n-1/2) + dt F/2m, and from p' = v(n+1/2) - dt F/2m to v(n+1/2). They
+/// change the kinetic energy by m (p'^2 - p^2)/2, exactly, and the kinetic energy of the whole step
+/// is the mean m (p^2 + p'^2)/4. With w = (old + v)/2 before the noise, g = Gamma dt/2,
+/// p' - p = add - 2 g (w - V) and p' + p = 2 w + add. What remains without noise is summed by the
+/// kick (kick.hpp).
+ASPERITY_INLINE NoiseEnergies push(const ThermalNoise& noise, double old, double& v, double& u,
+                                   double add, double medium) {
+    const double w = 0.5 * (old + v), lost = (noise.drag - 1.0) * (w - medium);
+    const double jump = add - 2.0 * lost;
+    v = v + add;
+    u = u + noise.dt * add;
+    return {add * (w - lost + 0.5 * add), 0.5 * (add * w + 0.25 * add * add + 0.25 * jump * jump)};
+}
+
+/// Returns the change of velocity of a node of mass m (eV fs^2/Å^2) by noise, Å/fs, for each unit of xi.
+ASPERITY_INLINE double noise_speed(const ThermalNoise& noise, double m) {
+    return std::sqrt(noise.strength / m) / noise.drag;
+}
+
+/// Adds the noise of one node of mass m (eV fs^2/Å^2) to v and u. Returns energies, eV.
+ASPERITY_INLINE NoiseEnergies add_noise(const ThermalNoise& noise, double m,
+                                        const Triple<double>& xi, const Triple<double>& old,
+                                        Triple<double>& v, Triple<double>& u) {
+    const double sigma = noise_speed(noise, m);
+    const NoiseEnergies x = push(noise, old.x, v.x, u.x, sigma * xi.x, 0.0);
+    const NoiseEnergies y = push(noise, old.y, v.y, u.y, sigma * xi.y, 0.0);
+    const NoiseEnergies all = x + y + push(noise, old.z, v.z, u.z, sigma * xi.z, noise.medium_z);
+    return {m * all.heat, m * all.kinetic};
 }
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -178,6 +178,8 @@ public:
     void add_elastic_energy(ExactSum& sum) const;
     /// Adds this rank's share of the sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
+    /// Returns the mass of all nodes that move, of all ranks, eV fs^2/Å^2. Not collective.
+    double mass() const;
     std::size_t bytes() const;
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 

@@ -18,6 +18,16 @@ double Block::Level::mass(int z) const {
     return 0.75 * node_mass;
 }
 
+double Block::mass() const {
+    double sum = 0.0;
+    for (const Level& level : levels_) {
+        const double nodes = options_.sites >> level.shape.level;
+        for (int z = 0; z < level.shape.cells; ++z)
+            sum += nodes * nodes * level.mass(z);
+    }
+    return sum;
+}
+
 ElasticLevel Block::Level::view(double a) {
     return {shape.cells, u.view(), v.view(), transferred.plane(0), upper_force.plane(0), lower,
             inner,       upper,    cell(a)};
@@ -44,6 +54,7 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
         kick.damped = damped;
         kick.observed = step.observe;
         kick.drag = m * step.damping * step.dt;
+        kick.per_force = -0.125 * step.dt * step.dt / m;
         return kick;
     };
     const int from = step.damping > 0.0

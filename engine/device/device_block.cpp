@@ -312,10 +312,11 @@ DeviceSums DeviceBlock::step(const Block& block, double reference_height,
     result.lowest_z = forces.sum[ForceSum::lowest_z];
     result.top_force = forces.sum[ForceSum::top_z];
     result.kick.kinetic = moved.sum[AdvanceSum::kinetic];
+    result.kick.of_step = moved.sum[AdvanceSum::of_step];
     result.kick.dissipated = moved.sum[AdvanceSum::dissipated];
     result.kick.dragged = moved.sum[AdvanceSum::dragged];
     result.elastic = moved.sum[AdvanceSum::elastic];
-    result.heat = moved.sum[AdvanceSum::heat];
+    result.noise.heat = moved.sum[AdvanceSum::heat];
     return result;
 }
 

@@ -31,7 +31,8 @@ std::string describe_device(const DeviceChoice& choice);
 struct DeviceSums {
     InterfaceSums interface;
     KickSums kick;
-    ExactSum top_force, lowest_z, elastic, heat;
+    NoiseSums noise;
+    ExactSum top_force, lowest_z, elastic;
 };
 
 /// Places of the arrays in device memory. They follow from the options alone, so the layout also

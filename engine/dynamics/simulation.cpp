@@ -72,6 +72,7 @@ void Simulation::step_on_processor(bool observe) {
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { advance_block(observe); });
     if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
+    if (external_) external_after_ = power_of_external();
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
 }
 
@@ -81,17 +82,17 @@ void Simulation::step_on_device(bool observe) {
     host_is_newer_ = false;
     device_is_newer_ = true;
     const double velocity = velocity_of_top();
-    const DeviceSums sums = device_->step(
-        block_, reference_height_,
-        {options_.dt, options_.damping, options_.damping_from, velocity, observe},
-        thermostat_ ? std::optional(thermostat_->noise(options_.dt, step_)) : std::nullopt);
+    const DeviceSums sums =
+        device_->step(block_, reference_height_,
+                      {options_.dt, options_.damping, options_.damping_from, velocity, observe},
+                      thermostat_ ? std::optional(noise()) : std::nullopt);
     block_.note_top(block_.top() + options_.dt * velocity);
     interface_sums_ = sums.interface;
     kick_sums_ = sums.kick;
     top_force_ = sums.top_force;
     lowest_z_ = sums.lowest_z;
     elastic_ = sums.elastic;
-    heat_ = sums.heat;
+    noise_sums_ = sums.noise;
     begin_record(observe);
 }
 
@@ -151,7 +152,19 @@ void Simulation::integrate_external_work() {
 }
 
 void Simulation::add_noise() {
-    heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
+    noise_sums_ = thermostat_->kick(block_, noise(), options_.damping_from);
+    kick_sums_.kinetic.merge(noise_sums_.kinetic); // one sum, as on a device
+}
+
+ThermalNoise Simulation::noise() const {
+    return thermostat_->noise(options_.dt, step_, velocity_of_top());
+}
+
+void Simulation::take_to_step(const VectorPlane<double>& v) const {
+    if (!thermostat_) return;
+    const double medium = drive_.velocity((static_cast<double>(record_.step) + 0.5) * options_.dt);
+    thermostat_->take_to_step(block_, thermostat_->noise(options_.dt, record_.step, medium),
+                              options_.damping_from, v);
 }
 
 /// Returns the velocity of the top plane in the middle of this step, Å/fs.
@@ -165,7 +178,6 @@ void Simulation::advance_block(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
-    if (external_) external_after_ = power_of_external();
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);
@@ -211,11 +223,13 @@ void Simulation::begin_record(bool observe) {
 
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums = global_sums(communicator(),
-                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
+    const auto sums =
+        global_sums(communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                               kick_sums_.dissipated, kick_sums_.dragged,
+                                               noise_sums_.heat, interface_sums_.energy, elastic_,
+                                               kick_sums_.kinetic, kick_sums_.of_step});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
+                of_step] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -225,12 +239,12 @@ void Simulation::update_energy_balance() {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         balance_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         balance_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
-        // The medium's terms likewise, half at each end; noise given after n-1 was observed is part
-        // of n's energy, that of n is not yet.
+        // What the medium takes and gives at a step, and what the noise gives there, likewise: half
+        // of it before the energies of the step, half of it after.
         balance_.damped += 0.5 * (dissipated + pending_.dissipated);
         balance_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
-        balance_.heat += pending_.heat;
     }
+    balance_.heat += 0.5 * (heat + pending_.heat); // of the first step, half
 
     if (slides()) update_slide();
     if (external_ || external_pending_ != 0.0) integrate_external_work();
@@ -248,12 +262,14 @@ void Simulation::update_energy_balance() {
     record_.interface_energy = lj;
     record_.elastic_energy = elastic;
     record_.kinetic_energy = kinetic;
-    const double energy = record_.energy();
+    record_.time_step_energy = thermostat_ ? of_step : 0.0;
+    const double energy = record_.energy() + record_.time_step_energy;
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
     record_.work = balance_.work() + *energy_brought_;
     record_.interface_work = balance_.interface;
     record_.damped = balance_.net_damped();
-    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(record_.work)});
+    scale_ =
+        std::max({scale_, std::abs(lj), elastic, record_.kinetic_energy, std::abs(record_.work)});
     const double balance = record_.work - energy - record_.damped;
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }

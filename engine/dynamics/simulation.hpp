@@ -72,6 +72,10 @@ public:
     const StepRecord& step(bool observe);
 
     const StepRecord& now() const { return record_; }
+    /// Changes v, the mean of the lowest layer's velocities half a step before and after now(), to
+    /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
+    /// noise have acted (thermostat.hpp).
+    void take_to_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return balance_; }
     const SimulationOptions& options() const { return options_; }
     double reference_height() const { return reference_height_; }
@@ -92,8 +96,8 @@ public:
         return block_;
     }
     /// Adds forces on the sites of this rank's tile to those of the substrate, eV/Å, from the next
-    /// step on; null: none. The field is read in place at each step. Its work is counted, except
-    /// the work on displacements by a thermostat's noise. Not available with a device.
+    /// step on; null: none. The field is read in place at each step. Its work is counted. Not
+    /// available with a device.
     void push(const VectorField<double>* external) { external_ = external; }
     /// Begins a new energy balance with the next observed step, because writing to the fields from
     /// outside is not work.
@@ -118,6 +122,7 @@ private:
     void step_on_processor(bool observe);
     void download() const;
     double velocity_of_top() const;
+    ThermalNoise noise() const;
     bool slides() const { return options_.interface.slides; }
     void slide();
     void update_slide();
@@ -163,7 +168,8 @@ private:
     // Sums of the current step, this rank's share.
     InterfaceSums interface_sums_;
     KickSums kick_sums_;
-    ExactSum top_force_, lowest_z_, elastic_, heat_;
+    NoiseSums noise_sums_;
+    ExactSum top_force_, lowest_z_, elastic_;
     std::array<ExactSum, 2> lateral_; ///< force along x and y, of a path that slides
 };
 

@@ -28,7 +28,7 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
     if (mixed_ || (options.mixed_on_request && formula)) make_fixed(tile);
     const Offsets offsets(cutoff_of(potential_), spacing);
     for (int k = 0; k < offsets.cuts; ++k) {
-        const double lateral = k / offsets.cuts_per_length + 1e-9;
+        const double lateral = k / offsets.cuts_per_length + 1e-9 * spacing;
         for (int n = 1; n <= offsets.half; ++n) {
             const auto within = [&](int m) {
                 return std::hypot((m - 0.5) * spacing, (n - 0.5) * spacing) < lateral;

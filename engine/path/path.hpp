@@ -114,8 +114,9 @@ public:
     virtual std::size_t segment() const = 0;
     /// Returns the displacements of the lowest layer at now(), Å, if they were wished for.
     virtual VectorPlane<const double> layer() const = 0;
-    /// Returns the velocities of the lowest layer, Å/fs: the mean of those half a step before and
-    /// after now(). Dynamic paths only.
+    /// Returns the velocities of the lowest layer at now(), Å/fs: the mean of those half a step
+    /// before and after; at a temperature those before friction and noise act
+    /// (Simulation::take_to_step()). Dynamic paths only.
     virtual VectorPlane<const double> velocities() const { return {}; }
     /// Returns the interface as it was at now().
     virtual const Interface& interface() const = 0;

@@ -34,16 +34,16 @@ Path::Made TimePath::advance(const Wish& wish) {
             for (int y = 0; y < to->ny; ++y)
                 for (int x = 0; x < to->nx; ++x)
                     (*to)(x, y) = 0.5 * ((*to)(x, y) + (*from)(x, y));
+        simulation_.take_to_step(v);
     }
     if (now.step == 0) {
-        const BlockOptions& block = case_.simulation.block;
-        const double v = case_.simulation.drive.velocity, sites = block.sites;
-        // Kinetic energy of a block that starts at full speed; of one that starts at rest, by its
-        // mass.
+        const double v = case_.simulation.drive.velocity;
+        // The energy of a block that starts at full speed is that of the first step, unless noise
+        // is part of it.
+        const bool as_seen =
+            simulation_.drive().velocity(0.0) != 0.0 && case_.scene.drive.temperature == 0.0;
         kinetic_at_full_speed_ =
-            simulation_.drive().velocity(0.0) != 0.0
-                ? now.kinetic_energy
-                : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
+            as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
         // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));

@@ -150,7 +150,8 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
 void put_gap_density(io::PayloadWriter& record, const std::vector<double>& gap) {
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     constexpr std::size_t bins = 200;
-    const double width = std::max((*greatest - *least) / bins, 1e-12);
+    const double size = std::max(std::abs(*least), std::abs(*greatest));
+    const double width = std::max((*greatest - *least) / bins, size > 0.0 ? 1e-12 * size : 1.0);
     std::vector<double> density(bins, 0.0), edge(bins + 1);
     for (std::size_t i = 0; i <= bins; ++i)
         edge[i] = *least + width * static_cast<double>(i);

@@ -307,8 +307,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,
                    "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
-                   "energy {},\n  to {:.1e} of the largest so far.\n",
-                   of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
+                   "energy {}{},\n  to {:.1e} of the largest so far.\n",
+                   of("dissipated.energy") ? "dissipated" : "damped",
+                   of("energy.time_step") ? " + energy of the time step" : "", std::abs(*residual));
     if (state || drive_in)
         fmt::print(
             to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "

@@ -59,7 +59,7 @@ struct NodeRanges {
 
 /// Sums of one launch over its nodes.
 struct PassSums {
-    static constexpr int sums = 5;
+    static constexpr int sums = 6;
     ExactSum sum[sums];
     double count[2] = {0.0, 0.0};
     double least = no_pair;
@@ -71,7 +71,7 @@ struct ForceSum {
 };
 /// Indices of the sums of the launch `advance` in PassSums.
 struct AdvanceSum {
-    enum { kinetic, dissipated, dragged, elastic, heat };
+    enum { kinetic, of_step, dissipated, dragged, elastic, heat };
 };
 
 /// Arguments of every launch, passed by value.

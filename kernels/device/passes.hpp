@@ -257,8 +257,10 @@ struct Advance {
             if (kick.damped) {
                 Triple<double> speed = {v.x.r, v.y.r, v.z.r};
                 const auto xi = normals(s.noise, level.number, level.x0 + x, level.y0 + y, z);
-                sums.sum[AdvanceSum::heat].add(
-                    add_noise(s.noise, 2.0 * kick.half_mass, xi, old, speed, moved));
+                const NoiseEnergies given =
+                    add_noise(s.noise, 2.0 * kick.half_mass, xi, old, speed, moved);
+                sums.sum[AdvanceSum::heat].add(given.heat);
+                if constexpr (observe) sums.sum[AdvanceSum::kinetic].add(given.kinetic);
                 level.v.x.origin[of_v] = speed.x;
                 level.v.y.origin[of_v] = speed.y;
                 level.v.z.origin[of_v] = speed.z;
@@ -282,6 +284,7 @@ private:
         kicker.end_row();
         kicker.add_to(added);
         if constexpr (observe) sums.sum[AdvanceSum::kinetic].merge(added.kinetic);
+        if constexpr (observe) sums.sum[AdvanceSum::of_step].merge(added.of_step);
         if constexpr (damped) {
             sums.sum[AdvanceSum::dissipated].merge(added.dissipated);
             sums.sum[AdvanceSum::dragged].merge(added.dragged);

@@ -118,8 +118,8 @@ def _parser() -> argparse.ArgumentParser:
                  "A path at a held mean height goes inwards and back; the states are told with the pressures between\n"
                  "them. The same command goes on where it was stopped.")
     scene(states, "results/<scene>-states")
-    states.add_argument("--starts", type=_many, default=3, metavar="N",
-                        help="states from so many random lateral displacements")
+    states.add_argument("--starts", type=_many, default=20, metavar="N",
+                        help="states from so many layers laid on the substrate at random heights")
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")

@@ -553,6 +553,8 @@ PYBIND11_MODULE(_engine, m) {
                     // Atoms anywhere can bind more than a flat layer does.
                     "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
                     "spacing"_a = c.scene.surface.spacing, "scale"_a = c.flat.work_of_adhesion,
+                    "separation"_a = c.flat.separation,
+                    "wall"_a = c.scene.interface.kind == InterfaceKind::wall,
                     "lateral"_a = !c.scene.interface.frictionless &&
                                   c.scene.interface.kind != InterfaceKind::wall);
             })

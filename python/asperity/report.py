@@ -76,7 +76,8 @@ def _words(run: Result) -> dict[str, str]:
     return {"path": path, "contact": contact,
             "energy": "Work of the drive = interface + elastic + dissipated" + relaxes + ". Steps of the curves are "
                       "instabilities." if static else
-                      "Work of the drive = interface + elastic + kinetic + damped. The drive is the top plane, and the "
+                      "Work of the drive = interface + elastic + kinetic + damped" +
+                      " + the energy of the time step" * ("time_step_energy" in run.series) + ". The drive is the top plane, and the "
                       "medium of the damping that moves with it.",
             "loading": "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "

@@ -60,7 +60,8 @@ public:
     void expect_printed_balance() const {
         const Path& of = *this;
         const double left = of("energy.work") - of("energy.kinetic") - of("energy.elastic") -
-                            of("energy.interface") - of("energy.damped");
+                            of("energy.interface") - of("energy.damped") -
+                            (holds("energy.time_step") ? of("energy.time_step") : 0.0);
         double largest = 0.0;
         for (const char* column : {"work", "elastic_energy", "interface_energy", "kinetic_energy"})
             if (file->exists(std::string("/series/") + column))
