@@ -62,10 +62,10 @@ template <class V, bool damped, bool observed>
 class Kicker {
 public:
     ASPERITY_INLINE Kicker(const Kick& plan, const VectorVolume<double>& v)
-        : velocity_factor_(plan.velocity_factor), kick_(plan.kick), drag_(plan.drag_z), medium_(2.0 * plan.medium_z),
-          kinetic_weight_(0.25 * plan.half_mass), loss_weight_(0.25 * plan.drag),
-          given_weight_(0.5 * plan.drag), per_force_(plan.per_force), x_(v.x.origin),
-          y_(v.y.origin), z_(v.z.origin) {}
+        : velocity_factor_(plan.velocity_factor), kick_(plan.kick), drag_(plan.drag_z),
+          medium_(2.0 * plan.medium_z), kinetic_weight_(0.25 * plan.half_mass),
+          loss_weight_(0.25 * plan.drag), given_weight_(0.5 * plan.drag),
+          per_force_(plan.per_force), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
 
     /// Kicks the first count nodes from element `at` of the volume under the force f. Returns their
     /// new velocities.
@@ -127,7 +127,8 @@ public:
     }
 
 private:
-    V velocity_factor_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_, per_force_;
+    V velocity_factor_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_,
+        per_force_;
     double *x_, *y_, *z_;
     ProductSum<V> kinetic_, of_step_, dissipated_, dragged_;
 };
