@@ -10,6 +10,7 @@
 // HDF5: the data set named after a colon ("map.h5:/NAME"), else /heights, else the only one of
 // numbers with two dimensions; attribute origin says whose map it is. Sizes are in size_unit, else
 // in the unit of the heights; an attribute that the data set has not is looked for at the file.
+// A number is `scale` units, whoever says the unit. Numbers of 1e30 and more are missing points.
 // Text: one row of the map a line, numbers separated by blanks; # starts a comment. Row r is y = r,
 // column c is x = c. A map of n points is n pixels wide. Files of other formats are converted first
 // (python/asperity/convert.py).
@@ -32,19 +33,22 @@ struct HeightMap {
     std::string unit = "Å";              ///< of the heights in the file: "nm", "0.03 nm"
     bool unit_assumed = false;           ///< neither the file nor the scene says it: Å
     std::size_t missing = 0;             ///< points without a finite height
-    std::string first_missing;      ///< the place of the first: file:line:column or [row, column]
-    std::string first_missing_text; ///< what stands there
-    std::vector<std::string> notes; ///< what was assumed, filled or cut, one sentence each
+    std::string first_missing;       ///< the place of the first: file:line:column or [row, column]
+    std::string first_missing_text;  ///< what stands there
+    std::vector<std::string> doubts; ///< what may be wrong with the file, one sentence each
+    std::vector<std::string> notes;  ///< what was assumed, filled or cut, one sentence each
 };
 
+/// What the scene says of a map. Unit and size hold over what the file says; doubts name both.
 struct MapOptions {
-    std::string unit = "auto"; ///< of the heights; "auto": what the file says, else Å
-    bool fill = false;         ///< missing points: by Laplace's equation; else they are refused
-    bool crop = false;         ///< not square: the middle; else it is refused
+    std::string unit = "auto";    ///< of the heights; "auto": what the file says, else Å
+    bool fill = false;            ///< missing points: by Laplace's equation; else they are refused
+    bool crop = false;            ///< not square: the middle; else it is refused
+    std::optional<double> size{}; ///< the shorter edge, Å; empty: what the file says
 };
 
 /// What the file holds; name: a file, or file:/dataset. Throws SceneError.
-HeightMap read_map_file(const std::string& name, const std::string& unit = "auto");
+HeightMap read_map_file(const std::string& name, const MapOptions& said = {});
 /// What a scene takes of it: a map that is square, whole and finite. Throws SceneError, told with
 /// the line and column, or the row and column in HDF5.
 HeightMap read_height_map(const std::string& name, const MapOptions& options = {});

@@ -21,8 +21,10 @@ int init_command(const std::string& file, const Communicator& world);
 int check_command(const Case& c, bool json, const Communicator& world);
 /// `asperity plan`, for the ranks of the case.
 int plan_command(const Case& c, const Communicator& world);
-/// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface).
-int surface_command(const Case& c, const std::string& out, const Communicator& world);
+/// `asperity surface`: heights.h5 and result.json in `out` (empty: results/<scene>-surface). json:
+/// rms height (Å), rms slope of neighbours, notes, and those on the file of a map (doubts), as one
+/// line.
+int surface_command(const Case& c, const std::string& out, bool json, const Communicator& world);
 /// `asperity defaults`: as TOML, with or without explanations, or as the page
 /// docs/reference/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);

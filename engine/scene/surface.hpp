@@ -13,6 +13,8 @@
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
 #pragma once
 
+#include "engine/scene/line_noise.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -37,6 +39,8 @@ struct SurfaceOptions {
     double radius = 0.0;   ///< of the spherical cap, Å; 0: none
     bool detrend = false;  ///< measured maps: remove the mean plane
     bool periodic = false; ///< measured maps: remove the jumps between opposite edges
+    LineNoise line_noise =
+        LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
     double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
 };
 
@@ -77,7 +81,8 @@ struct Surface {
     std::string origin; ///< of a measured map: whose it is, where its file says so
     /// Of a map or atoms from a file: CRC-32 of what was read, before anything was made of it.
     std::optional<std::uint32_t> file_digest;
-    std::vector<std::string> notes; ///< what was clipped or resampled, in words
+    std::vector<std::string> doubts; ///< what may be wrong with the map of a file, in words
+    std::vector<std::string> notes;  ///< what was clipped or resampled, in words
 };
 
 /// The flat or self-affine surface that the options describe. Throws std::invalid_argument for
