@@ -23,14 +23,14 @@ constexpr double largest_height = 1e9; // Å
 constexpr double largest_pixel = 1e6, smallest_pixel = 0.05; // Å
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Å per unit; empty if it is no length.
+/// Returns the length of a unit, Å; empty if it is no length.
 std::optional<double> length_of(const std::string& unit) {
     const std::optional<double> factor = conversion(unit, "Å");
     return factor && std::isfinite(*factor) && *factor > 0.0 ? factor : std::nullopt;
 }
 
-/// Å per unit, refused if it is no length. key: the key of the scene that says it in place of the
-/// file.
+/// Returns the length of a unit, Å. Throws SceneError if it is no length. key: the key of the scene
+/// that says it in place of the file.
 double length_unit(const std::string& unit, const std::string& where, const char* what,
                    const char* key) {
     const std::optional<double> factor = length_of(unit);
@@ -42,8 +42,8 @@ double length_unit(const std::string& unit, const std::string& where, const char
 constexpr const char* say_unit = "surface.file_unit = \"nm\"";
 constexpr const char* say_size = "surface.file_size = \"100 nm\", its edge";
 
-/// Sizes in Å: what the scene says, else the file; with a note if they differ. Of a map that is not
-/// square the scene's size is the shorter edge.
+/// Converts the sizes to Å: what the scene says, else the file; with a note if they differ. Of a
+/// map that is not square the scene's size is the shorter edge.
 void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said) {
     std::optional<double> factor;
     if (units.of_sizes)

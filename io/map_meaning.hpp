@@ -15,11 +15,11 @@ namespace asperity::io {
 /// double (SDF). No height of a surface is 1e30 of any unit.
 constexpr double no_height = 1e30;
 
-/// What a file says of its units.
+/// Units that a file states.
 struct MapUnits {
-    std::optional<std::string> unit;       ///< of the heights
+    std::optional<std::string> unit;       ///< unit of the heights
     double scale = 1.0;                    ///< a number of the file is so many units
-    std::optional<std::string> of_sizes{}; ///< of width and height; empty: that of the heights
+    std::optional<std::string> of_sizes{}; ///< unit of width and height; empty: that of the heights
 };
 
 /// Converts heights and sizes of a map to Å and counts its missing points. What the scene says of

@@ -88,8 +88,8 @@ void skip_blanks(std::string_view& text) {
     }
 }
 
-/// How it may be written too: superscripts, "**", the dot of a product, and "µ" in UTF-8 that a
-/// program took for Latin-1 (in files of SUR).
+/// Other spellings: superscripts, "**", the dot of a product, and "µ" in UTF-8 that a program took
+/// for Latin-1 (in files of SUR).
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
     {"⁰", "^0"},  {"¹", "^1"},
     {"²", "^2"},  {"³", "^3"},
@@ -108,7 +108,7 @@ std::string plain(std::string_view unit) {
     return text;
 }
 
-/// The power behind a symbol: ^2, ^-1; 1 if there is none.
+/// Returns the power behind a symbol: ^2, ^-1; 1 if there is none.
 std::optional<int> take_power(std::string_view& text) {
     if (!skip(text, "^")) return 1;
     const int sign = skip(text, "-") ? -1 : 1;
@@ -137,7 +137,7 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"eV/Å", "\"0.1 meV/Å\""},
 };
 
-/// What the units of a dimension measure.
+/// Names of the dimensions.
 constexpr std::pair<std::array<int, 4>, const char*> measures[] = {
     {number, "a bare number"},
     {length, "a length"},

@@ -61,7 +61,7 @@ Differences differences(const std::vector<double>& h, int n, bool along_y) {
     return sum;
 }
 
-/// The waves of a map without its mean plane and the jumps between its edges.
+/// Returns the waves of a map without its mean plane and the jumps between its edges.
 std::vector<Complex> waves_of(std::vector<double> h, int n) {
     heights::remove_plane(h, n, n);
     heights::remove_jumps(h, n, n);
@@ -79,7 +79,7 @@ Wave wave_at(int i, int k, int n) {
     return {along, across, std::hypot(along, across)};
 }
 
-/// sum q |h_q|^2 of the waves that `kept` x `kept` points hold, up to a factor.
+/// Returns sum q |h_q|^2 of the waves that `kept` x `kept` points hold, up to a factor.
 double flattening_energy(const std::vector<double>& h, int n, int kept) {
     const std::vector<Complex> wave = waves_of(h, n);
     const Lines at = lines_of(n, true);
@@ -149,7 +149,7 @@ ExcessOfLines make_isotropic(std::vector<double>& h, int n, bool along_y, int ke
         int waves = 0;
     };
     const auto ring = [](const Wave& w) { return static_cast<std::size_t>(std::lround(w.q)); };
-    std::vector<Sum> rings(static_cast<std::size_t>(n) + 1); // of waves along the lines
+    std::vector<Sum> rings(static_cast<std::size_t>(n) + 1); // waves along the lines
     const auto each = [&](const auto& visit) {
         for (int i = 0; i < n; ++i)
             for (int k = 0; k < n; ++k)
@@ -186,7 +186,7 @@ ExcessOfLines make_isotropic(std::vector<double>& h, int n, bool along_y, int ke
         const double own = w.q * std::norm(wave[j]);
         if (counts) found.whole += own;
         const Sum b = comparable(w) ? boxes[box(w)] : Sum{};
-        // Of b.waves / 2 independent ones, because h_-q is the conjugate of h_q.
+        // Only b.waves / 2 are independent, because h_-q is the conjugate of h_q.
         const double ratio = b.waves > 0 ? b.power / b.waves : 1.0;
         const bool excess = ratio > 2.0 && ratio > 1.0 + 5.0 * std::sqrt(2.0 / b.waves);
         if (excess && counts) removed[ring(w)] += own * (1.0 - 1.0 / ratio);

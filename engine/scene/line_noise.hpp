@@ -32,7 +32,7 @@ struct LineNoiseStatistics {
     bool along_y = true;      ///< the lines follow one another along y (else along x)
     double slope_ratio = 1.0; ///< rms difference of neighbours across the lines over that along
                               ///< them, at least 1
-    double correlation = 0.0; ///< of successive differences, of the excess (see above)
+    double correlation = 0.0; ///< correlation of successive differences, of the excess (see above)
     /// Returns true if the excess of variance is more than half of the variance along the lines and
     /// its correlation is below -0.4 (H of 0.13).
     bool found() const;
@@ -44,19 +44,19 @@ LineNoiseStatistics line_noise_statistics(const std::vector<double>& h, int n);
 /// less its straight line. along_y: the lines follow one another along y.
 void align_rows(std::vector<double>& h, int n, bool along_y);
 
-/// What make_isotropic() takes off, of the waves that are counted.
+/// Energy that make_isotropic() takes off, in the waves that are counted.
 struct ExcessOfLines {
     double energy = 0.0;     ///< sum q |h_q|^2 that is taken off, up to the factor of the transform
     double whole = 0.0;      ///< the same sum of all waves: flattens the map (full contact)
     double wavelength = 0.0; ///< 90 % of the energy is in waves shorter than this, in pixels
     double share() const { return whole > 0.0 ? energy / whole : 0.0; }
 };
-/// Scales the waves across the lines down to the power of those along the lines at the same |q|, in
-/// boxes of waves (octaves along the lines, half octaves across) that hold more than twice this
-/// power and more than five standard errors of it. Waves longer than an eighth of the map stay; so
-/// do the mean plane and the smooth part that carries the jumps between opposite edges. Returns
-/// what that takes off among the waves that `kept` x `kept` points hold. along_y: as for
-/// align_rows().
+/// Takes off the excess of the waves across the lines: scales them down to the power of those along
+/// the lines at the same |q|, in boxes of waves (octaves along the lines, half octaves across) that
+/// hold more than twice this power and more than five standard errors of it. Waves longer than an
+/// eighth of the map stay; so do the mean plane and the smooth part that carries the jumps between
+/// opposite edges. Returns what that takes off among the waves that `kept` x `kept` points hold.
+/// along_y: as for align_rows().
 ExcessOfLines make_isotropic(std::vector<double>& h, int n, bool along_y, int kept);
 
 /// Looks for line noise in a map, treats it as asked, and returns one note on it, or none. pixel:

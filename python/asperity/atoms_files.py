@@ -77,7 +77,7 @@ def extended_xyz(path: Path) -> dict:
 
 
 def folded(path: Path, atoms: dict) -> dict:
-    """Positions from the box's lower corner, folded into it, along x and y."""
+    """Returns positions from the box's lower corner, folded into it, along x and y."""
     place, width = numpy.array(atoms["position"], dtype=float), atoms["width"]
     if not (abs(place) <= FARTHEST).all() or not 0.0 < min(width[:2]) <= max(width) <= FARTHEST:
         raise refuse(path, "the atoms or their box have no size", f"coordinates up to {abs(place).max():g} Å in a box "

@@ -32,7 +32,7 @@ def _told(array: h5py.Dataset, file: h5py.File) -> dict[str, Any]:
 
 
 def _jpk(file: h5py.File) -> list[Channel]:
-    """Maps of .h5-jpk: Measurement_*/Channel_*/<name>, [pixel][frame], which a multiplier and an offset make heights."""
+    """Returns the maps of .h5-jpk: Measurement_*/Channel_*/<name>, [pixel][frame], which a multiplier and an offset make heights."""
     found = []
     for measurement in (file[name] for name in file if name.startswith("Measurement")):
         grid = {key.rpartition(".")[2]: value for key, value in measurement.attrs.items() if key.startswith("position-pattern.grid.")}
@@ -58,7 +58,7 @@ def _jpk(file: h5py.File) -> list[Channel]:
 
 
 def _topostats(file: h5py.File) -> tuple[list[Channel], int | None]:
-    """Maps of .topostats; those called image are heights in nm."""
+    """Returns the maps of .topostats; those called image are heights in nm."""
     pixel = float(file["pixel_to_nm_scaling"][()])
     found = []
     for name, array in _arrays(file):

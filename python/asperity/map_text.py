@@ -31,7 +31,7 @@ class Text:
         self.separators = str.maketrans(",;\t", "   ")
 
     def take_commas(self) -> None:
-        """As decimal points, where all of them can be and tabs or semicolons separate the numbers."""
+        """Takes commas as decimal points if all of them can be and tabs or semicolons separate the numbers."""
         body = "\n".join(line for _, line in self.lines)
         if "," not in body or re.search(r"(?<!\d),|,(?!\d)|,[^\s;,]*,", body) or not re.search(r"[ \t;]", body):
             return
@@ -66,8 +66,8 @@ class Text:
         return heights
 
     def translate(self) -> str | None:
-        """Gwyddion writes its headers in the language of its user, always in this order: title, width, height, unit
-        of the heights. Gives them their English names; returns the title."""
+        """Returns the title and gives the headers their English names. Gwyddion writes them in the language of its user,
+        always in this order: title, width, height, unit of the heights."""
         if {"width", "height", "value units"} & self.header.keys():
             return self.header.get("channel")
         said = list(self.header.items())
@@ -79,7 +79,7 @@ class Text:
         return self.header.get("channel")
 
     def unused(self) -> list[str]:
-        """Headers that state a length, of which nothing was taken."""
+        """Returns headers that state a length, of which nothing was taken."""
         def states(text: str) -> bool:
             size = re.fullmatch(SIZE, text)
             return text in LENGTHS or bool(size and size[2] in LENGTHS)
@@ -89,7 +89,7 @@ class Text:
                 if key not in HEADERS and text not in taken and states(text)]
 
     def size(self, keys: tuple[str, ...], unit: str | None) -> float | None:
-        """Å, by the first header that gives a number: with its unit, or in this one."""
+        """Returns the size, Å, by the first header that gives a number: with its unit, or in this one."""
         for key in keys:
             if found := re.fullmatch(SIZE, self.header.get(key, "")):
                 value, unit = float(found[1].replace(",", ".")), found[2] or unit
@@ -101,7 +101,7 @@ class Text:
 
 
 def parts(path: Path, content: str) -> list[Text]:
-    """Splits a text where lines without numbers stand between those with numbers. What stands there is the header of
+    """Returns the parts of a text, split where lines without numbers stand between those with numbers. What stands there is the header of
     the following part; behind the last part it belongs to that."""
     found, header, between = [], {}, True
     for number, line in enumerate(content.split("\n"), 1):
@@ -149,7 +149,7 @@ def _maps_of(found: list[Text]) -> list[Text]:
 
 
 def _matrix(text: Text) -> dict:
-    """With the headers of Gwyddion ("# Value units: nm") and SPIP ("# Bit2nm = 0.03"), or without."""
+    """Returns a matrix with the headers of Gwyddion ("# Value units: nm") and SPIP ("# Bit2nm = 0.03"), or without."""
     text.take_commas()
     text.translate()
     said = {key: value for key, value in text.header.items() if value}
@@ -185,7 +185,7 @@ def _esri(text: Text) -> dict:
 
 
 def _points(text: Text, columns: tuple[int, int, int] = (0, 1, 2), count: int = 3) -> dict:
-    """XYZ: the points of a grid in any order; those that are not given are missing. columns: of x, y and height, of so
+    """Returns the map of XYZ: the points of a grid in any order; those that are not given are missing. columns: of x, y and height, of so
     many."""
     def on_no_grid(why: str) -> InputOutputError:
         return refuse(text.path, "the points of the map are on no grid", why, "interpolate them onto a grid before")
@@ -219,7 +219,7 @@ def _points(text: Text, columns: tuple[int, int, int] = (0, 1, 2), count: int = 
 
 
 def _matrix_or_points(text: Text) -> list[Channel]:
-    """More than three rows of three numbers are the points of a map where they lie on a grid; of four to ten numbers,
+    """Returns the maps of plain rows. More than three rows of three numbers are the points of a map where they lie on a grid; of four to ten numbers,
     the points of several."""
     found = _matrix(text)
     rows, columns = found["heights"].shape
@@ -239,7 +239,7 @@ def _matrix_or_points(text: Text) -> list[Channel]:
 
 
 def _named(line: str) -> list[tuple[str, str | None]]:
-    """Names of columns with their units: "x (nm), y [nm], phase/deg"."""
+    """Returns the names of columns with their units: "x (nm), y [nm], phase/deg"."""
     words = re.split(r"\s*[,;\t]\s*", line.strip(" ,;\t")) if re.search(r"[,;\t]", line) else re.split(r"\s+(?![(\[/])", line)
     found = []
     for word in words:
@@ -254,7 +254,7 @@ def _named(line: str) -> list[tuple[str, str | None]]:
 
 
 def _table(text: Text) -> list[Channel]:
-    """Points under a line of names; none if the first line is no such line."""
+    """Returns the maps of points under a line of names; none if the first line is no such line."""
     names = _named(text.lines[0][1])
     below = Text(text.path, text.header, text.lines[1:])
     below.take_commas()

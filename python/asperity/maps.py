@@ -59,14 +59,14 @@ def read_map(file: str, unit: str | None = None, size: float | None = None, chan
 
 
 def square(heights: numpy.ndarray) -> numpy.ndarray:
-    """Its middle."""
+    """Returns the middle of a map that is not square."""
     n = min(heights.shape)
     y, x = ((length - n) // 2 for length in heights.shape)
     return heights[y:y + n, x:x + n]
 
 
 def without_plane(heights: numpy.ndarray) -> numpy.ndarray:
-    """Less the plane of least squares through what is there."""
+    """Subtracts the plane of least squares through the heights that exist."""
     y, x = numpy.indices(heights.shape).reshape(2, -1)
     terms = numpy.stack([numpy.ones(x.size), x, y], axis=1)
     there = numpy.isfinite(heights.ravel())
@@ -75,7 +75,7 @@ def without_plane(heights: numpy.ndarray) -> numpy.ndarray:
 
 
 def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
-    """Less the plane that makes opposite edges meet on the mean, as those of a periodic map do; and less its mean."""
+    """Subtracts the plane that makes opposite edges meet on the mean, as those of a periodic map do, and the mean."""
     found = heights
     for axis in (0, 1):
         first, second, before, last = (numpy.take(found, k, axis) for k in (0, 1, -2, -1))
@@ -87,7 +87,7 @@ def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
 
 
 def jump(heights: numpy.ndarray) -> float:
-    """The rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
+    """Returns the rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
     across = numpy.concatenate([heights[0] - heights[-1], heights[:, 0] - heights[:, -1]])
     inside = numpy.concatenate([numpy.diff(heights, axis=axis).ravel() for axis in (0, 1)])
     rms = numpy.sqrt(numpy.nanmean(inside**2))
@@ -95,12 +95,12 @@ def jump(heights: numpy.ndarray) -> float:
 
 
 def quarters(heights: numpy.ndarray) -> list[numpy.ndarray]:
-    """Of an odd number of points they share the middle row and column."""
+    """Returns the quarters of a map; with an odd number of points they share the middle row and column."""
     half = (len(heights) + 1) // 2
     return [heights[y, x] for y in (slice(half), slice(-half, None)) for x in (slice(half), slice(-half, None))]
 
 
 def mirrored(heights: numpy.ndarray) -> numpy.ndarray:
-    """Four times the area, periodic without a jump."""
+    """Returns the map with its mirror images: four times the area, periodic without a jump."""
     wide = numpy.concatenate([heights, heights[:, ::-1]], axis=1)
     return numpy.concatenate([wide, wide[::-1]], axis=0)
