@@ -81,9 +81,10 @@ std::vector<Command> all_commands() {
          }},
         {"surface",
          "make or read the surface, print and write its statistics and heights",
-         {takes::scene, takes::set, takes::out("results/<scene>-surface")},
+         {takes::scene, takes::set, takes::out("results/<scene>-surface"), takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return surface_command(surface_case_of(given, world.size()), given.out, world);
+             return surface_command(surface_case_of(given, world.size()), given.out, given.json,
+                                    world);
          }},
         {"theory", "the theories of a scene, without simulating it", {}},
         {"theory-points",

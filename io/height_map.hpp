@@ -11,8 +11,9 @@
 // HDF5: the data set is that named after a colon ("map.h5:/NAME"), else /heights, else the only one
 // of numbers with two dimensions; its attribute origin says whose map it is. Sizes are in
 // size_unit, else in the unit of the heights; an attribute that the data set lacks is taken from
-// the file. Text: one row of the map a line, numbers separated by blanks; # starts a comment. Row r
-// is y = r, column c is x = c. A map of n points is n pixels wide. Files of other formats are
+// the file. A number stands for `scale` units, whoever says the unit; numbers of 1e30 and more are
+// missing points. Text: one row of the map a line, numbers separated by blanks; # starts a comment.
+// Row r is y = r, column c is x = c. A map of n points is n pixels wide. Files of other formats are
 // converted first (python/asperity/convert.py).
 #pragma once
 
@@ -36,19 +37,22 @@ struct HeightMap {
     std::size_t missing = 0;             ///< number of points without a finite height
     /// place of the first missing point: file:line:column or [row, column]
     std::string first_missing;
-    std::string first_missing_text; ///< text at that place
-    std::vector<std::string> notes; ///< assumptions, fillings and cuts, one sentence each
+    std::string first_missing_text;  ///< text at that place
+    std::vector<std::string> doubts; ///< possible mistakes in the file, one sentence each
+    std::vector<std::string> notes;  ///< assumptions, fillings and cuts, one sentence each
 };
 
-/// Options of a scene for reading a map.
+/// Options of a scene for reading a map. Unit and size hold over those of the file; doubts name
+/// both.
 struct MapOptions {
     std::string unit = "auto"; ///< unit of the heights; "auto": the unit of the file, else Å
     bool fill = false;         ///< missing points are filled by Laplace's equation; false: refused
     bool crop = false;         ///< a map that is not square is cut to its middle; false: refused
+    std::optional<double> size{}; ///< shorter edge, Å; empty: the size in the file
 };
 
 /// Reads the map of a file. name: a file, or file:/dataset. Throws SceneError.
-HeightMap read_map_file(const std::string& name, const std::string& unit = "auto");
+HeightMap read_map_file(const std::string& name, const MapOptions& said = {});
 /// Reads a map that is square, whole and finite, as a scene needs it. Throws SceneError with the
 /// line and column of the mistake, or the row and column in HDF5.
 HeightMap read_height_map(const std::string& name, const MapOptions& options = {});

@@ -88,10 +88,16 @@ void skip_blanks(std::string_view& text) {
     }
 }
 
-/// Other spellings: superscripts, "**", the dot of a product.
+/// Other spellings: superscripts, "**", the dot of a product, and "µ" in UTF-8 that a program took
+/// for Latin-1 (in files of SUR).
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
-    {"⁰", "^0"}, {"¹", "^1"}, {"²", "^2"}, {"³", "^3"},  {"⁴", "^4"}, {"⁵", "^5"}, {"⁶", "^6"},
-    {"⁷", "^7"}, {"⁸", "^8"}, {"⁹", "^9"}, {"⁻^", "^-"}, {"**", "^"}, {"·", "*"},
+    {"⁰", "^0"},  {"¹", "^1"},
+    {"²", "^2"},  {"³", "^3"},
+    {"⁴", "^4"},  {"⁵", "^5"},
+    {"⁶", "^6"},  {"⁷", "^7"},
+    {"⁸", "^8"},  {"⁹", "^9"},
+    {"⁻^", "^-"}, {"**", "^"},
+    {"·", "*"},   {"\u00C2\u00B5", "\u00B5"},
 };
 
 std::string plain(std::string_view unit) {

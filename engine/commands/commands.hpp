@@ -23,8 +23,9 @@ int check_command(const Case& c, bool json, const Communicator& world);
 /// Plans a run on the ranks of the case (`asperity plan`).
 int plan_command(const Case& c, const Communicator& world);
 /// Writes heights.h5 and result.json (`asperity surface`) to `out` (empty:
-/// results/<scene>-surface).
-int surface_command(const Case& c, const std::string& out, const Communicator& world);
+/// results/<scene>-surface). json: prints rms height (Å), rms slope of neighbours, notes, and those
+/// on the file of a map (doubts), as one line instead.
+int surface_command(const Case& c, const std::string& out, bool json, const Communicator& world);
 /// Prints the keys (`asperity defaults`) as TOML, with or without explanations, or as the page
 /// docs/reference/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);

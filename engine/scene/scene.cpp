@@ -145,6 +145,13 @@ io::Schema bind(Scene& scene) {
     schema.choice<MapCrop>("file_crop", surface.file_crop,
                            {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
                            "a map that is not square: refused, or its middle taken");
+    schema.choice<LineNoise>("line_noise", surface.line_noise,
+                             {{"keep", LineNoise::keep},
+                              {"align-rows", LineNoise::align_rows},
+                              {"isotropic", LineNoise::isotropic}},
+                             "noise of a scan from line to line: kept; the median steps between "
+                             "lines taken off; the waves across the lines scaled down to the "
+                             "spectrum along them");
     schema.choice<Resample>("resample", surface.resample,
                             {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
                             "how a map that has not N x N values is brought onto the lattice");

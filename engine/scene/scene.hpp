@@ -72,6 +72,7 @@ struct Scene {
         MapMissing file_missing = MapMissing::refuse;
         MapCrop file_crop = MapCrop::none;
         Detrend detrend = Detrend::none;
+        LineNoise line_noise = LineNoise::keep;
         Resample resample = Resample::none;
 
         bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }

@@ -217,6 +217,10 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     Surface s;
     s.sites = o.sites;
     s.length = o.length;
+    if (nx == ny) {
+        const double edge = o.map_edge > 0.0 ? o.map_edge : o.length;
+        s.doubts = treat_line_noise(h, nx, edge / nx, std::min(nx, sites_of_map(o)), o.line_noise);
+    }
     if (o.detrend) {
         heights::remove_plane(h, nx, ny);
         s.notes.push_back("mean plane removed from the height map");

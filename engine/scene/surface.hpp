@@ -13,6 +13,8 @@
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
 #pragma once
 
+#include "engine/scene/line_noise.hpp"
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -38,6 +40,8 @@ struct SurfaceOptions {
     double radius = 0.0;   ///< radius of the spherical cap, Å; 0: none
     bool detrend = false;  ///< measured maps: remove the mean plane
     bool periodic = false; ///< measured maps: remove the jumps between opposite edges
+    LineNoise line_noise =
+        LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
     double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
 };
 
@@ -80,7 +84,8 @@ struct Surface {
     std::string origin; ///< owner of a measured map, if its file names one
     /// CRC-32 of the values read from a file of a map or atoms, before any processing.
     std::optional<std::uint32_t> file_digest;
-    std::vector<std::string> notes; ///< sentences on clipping and resampling
+    std::vector<std::string> doubts; ///< sentences on possible mistakes in the file of a map
+    std::vector<std::string> notes;  ///< sentences on clipping and resampling
 };
 
 /// Makes the flat or self-affine surface of the options. Throws std::invalid_argument if they

@@ -112,10 +112,11 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     std::string head;
     ranks.on_root([&] {
         map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
-                                           s.file_crop == MapCrop::middle});
+                                           s.file_crop == MapCrop::middle, s.file_size});
         if (ranks.size() == 1) return;
         io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
         json["notes"] = map.notes;
+        json["doubts"] = map.doubts;
         if (map.width) json["width"] = *map.width;
         head = io::json_text(json);
     });
@@ -131,6 +132,7 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     map.unit = json["unit"];
     map.origin = json["origin"];
     map.notes = json["notes"].get<std::vector<std::string>>();
+    map.doubts = json["doubts"].get<std::vector<std::string>>();
     if (json.contains("width")) map.width = json["width"].get<double>();
     return map;
 }
@@ -177,7 +179,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
         if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = map_of_file(c, world);
-        options.map_edge = s.file_size.value_or(map.width.value_or(0.0));
+        options.map_edge = map.width.value_or(0.0);
         const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
         if (points != covered && s.resample == Resample::none)
             throw std::invalid_argument(fmt::format(
@@ -191,6 +193,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
                                32.0 * covered * static_cast<double>(covered));
         options.rms = scene.gives_rms() ? s.rms : 0.0;
         options.detrend = s.detrend != Detrend::none;
+        options.line_noise = s.line_noise;
         options.periodic = s.detrend == Detrend::periodic;
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
         if (options.map_edge <= 0.0)
@@ -202,6 +205,8 @@ Surface surface_of(const Case& c, const Communicator& world) {
             io::digest_of(std::as_bytes(std::span(&width, 1)),
                           io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
         Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
+        surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
+        surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
         surface.origin = std::move(map.origin);
         surface.file_digest = digest;
         surface.notes.insert(

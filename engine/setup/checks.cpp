@@ -127,6 +127,10 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
     if (surface.detrend != Detrend::none)
         refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
                as_they_are, "leave it out");
+    if (surface.line_noise != LineNoise::keep)
+        refuse("surface.line_noise",
+               surface.line_noise == LineNoise::isotropic ? "\"isotropic\"" : "\"align-rows\"",
+               as_they_are, "leave it out");
     if (surface.resample != Resample::none)
         refuse("surface.resample", "\"band-limited\"", as_they_are, "leave it out");
 }
@@ -429,8 +433,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     if (!surface.reads_file())
         idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
     if (surface.kind != SurfaceKind::file)
-        for (const char* key :
-             {"surface.detrend", "surface.resample", "surface.file_size", "surface.file_unit"})
+        for (const char* key : {"surface.detrend", "surface.line_noise", "surface.resample",
+                                "surface.file_size", "surface.file_unit"})
             idle(key, "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
     if (surface.kind == SurfaceKind::atoms)

@@ -107,9 +107,10 @@ def _parser() -> argparse.ArgumentParser:
     adhesion.add_argument("--nu", required=True, type=float, metavar="0.25", help="its Poisson's ratio")
     adhesion.add_argument("--work", required=True, metavar="200mJ/m2", help="work of adhesion of flat surfaces")
     adhesion.add_argument("--range", metavar="3Å", help="of the attraction (default: 3 Å, or what the spacing resolves)")
-    adhesion.add_argument("--size", metavar="100nm", help="length of the map's edge, of a file that does not tell it")
-    adhesion.add_argument("--unit", metavar="nm", help="of the heights, of a file that does not tell it")
-    adhesion.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
+    adhesion.add_argument("--size", metavar="100nm", help="the map's shorter edge; holds over what the file says")
+    adhesion.add_argument("--unit", metavar="nm", help="of the heights; holds over what the file says")
+    adhesion.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
+    adhesion.add_argument("--line-noise", choices=["keep", "align-rows", "isotropic"], help="treatment of a scan's noise from line to line")
     adhesion.add_argument("--sites", type=_sites, metavar="N", help="along an edge (default: the map's points, 256 at most)")
     adhesion.add_argument("--out", metavar="DIR", help="result directory (default: results/<map>-adhesion)")
     adhesion.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side; they share the processors")
@@ -130,7 +131,7 @@ def _parser() -> argparse.ArgumentParser:
                   "Atoms: LAMMPS data, and by ASE extended XYZ.")
     convert.add_argument("source", metavar="FILE", help="the file to convert")
     convert.add_argument("target", metavar="OUT.h5", help="the file to write")
-    convert.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
+    convert.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
     return parser
 
 
@@ -210,7 +211,8 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .measured import adhesion_command
 
         return adhesion_command(given.map, given.E, given.nu, given.work, given.out, _pool_options(given),
-                                reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites)
+                                reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites,
+                                line_noise=given.line_noise)
     if given.command == "states":
         from .state_search import states_command
 

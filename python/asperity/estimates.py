@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import os
 import re
-import tempfile
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -121,7 +120,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
     unit = of.text("surface.file_unit")
     inputs = inputs_of(scene, keys)
     files.require_free({place: MAP_FILES}, inputs=inputs)
-    there = maps.read_map(file_beside(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
+    there = maps.read_map(file_beside(of.text("surface.file"), scene), None if unit in ("", "auto") else unit, assumed="Å")
     heights = maps.square(there.heights)
     size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
     if size > 1.005 * edge:  # the program takes its middle
@@ -176,11 +175,8 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
 
 def surface_made(file: str) -> tuple[float, float]:
     """Of the surface that a scene makes: its rms height (Å), and its rms slope by differences of neighbours."""
-    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        text = program.call(["surface", file, "--out", str(Path(place) / "surface")])
-        slope = re.search(r"rms slope +(\S+) +differences", text.partition("the surface made")[2])
-        rms = read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
-    return rms, float(slope[1]) if slope else math.nan
+    made = program.surface(file)
+    return made["rms"], made["slope_of_neighbours"]
 
 
 def _seconds(scene: str, sets: list[str]) -> float:

@@ -5,14 +5,12 @@ and its place on the sample change."""
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import NamedTuple
 
-import h5py
 import numpy
 
-from .convert import LENGTHS, read_heights
-from .errors import Error, InputOutputError
+from .channels import LENGTHS, factor, length, refuse
+from .convert import read_heights
 
 FEWEST = 16
 """Points along an edge below which a map says nothing of a surface."""
@@ -28,65 +26,36 @@ class HeightMap(NamedTuple):
     notes: list[str]
 
 
-def _refuse(where: object, what: str, why: str, fix: str) -> InputOutputError:
-    return InputOutputError(str(where), what, why, fix)
-
-
-def _length(where: object, unit: object, what: str) -> float:
-    """Returns the length of a unit, Å."""
-    unit = unit.decode() if isinstance(unit, bytes) else str(unit)
-    if unit not in LENGTHS:
-        raise _refuse(where, f"the unit of its {what}, {unit}, is none of length", "known: " + ", ".join(LENGTHS),
-                      "name the unit: --unit nm")
-    return 10.0 ** LENGTHS[unit]
-
-
-def _hdf5(file: str) -> dict:
-    """Returns the data set NAME of "file.h5:/NAME", or /heights, or the only one of two dimensions."""
-    path, _, name = file.partition(":/")
-    with h5py.File(path, "r") as opened:
-        flat: list[str] = []
-        opened.visititems(lambda at, found: flat.append(at) if getattr(found, "ndim", 0) == 2 else None)
-        name = name or ("heights" if "heights" in flat else flat[0] if len(flat) == 1 else "")
-        if name not in flat:
-            raise _refuse(file, "holds no map", f"no data set of two dimensions is {name or 'the only one'}: "
-                          + (", ".join(flat) or "there is none"), "name one: map.h5:/NAME")
-        told = opened[name].attrs
-        return {"heights": opened[name][()], "unit": told.get("unit", told.get("units")), "scale": told.get("scale"),
-                "size": tuple(told[k] for k in ("size_x", "size_y") if k in told), "size_unit": told.get("size_unit")}
-
-
-def read_map(file: str, unit: str | None = None, size: float | None = None, channel: str | None = None) -> HeightMap:
-    """Reads a map. unit: of heights if the file does not give it; size: of the edge along x if the file does not give it, Å.
+def read_map(file: str, unit: str | None = None, size: float | None = None, channel: str | None = None,
+             assumed: str | None = None) -> HeightMap:
+    """Reads a map from any file. unit: of the heights; size: the shorter edge, Å; channel: of a file with several maps.
+    What they say holds over what the file says, and a note names both if they differ. assumed: the unit if nobody says it.
     Raises InputOutputError."""
-    path = Path(file.partition(":/")[0])
-    try:
-        head = path.read_bytes()[:8]
-        found = (_hdf5(file) if head.startswith(b"\x89HDF\r\n\x1a\n") else
-                 {"heights": numpy.load(path, allow_pickle=False)} if head.startswith(b"\x93NUMPY") else
-                 read_heights(file, channel))
-    except Error:
-        raise
-    except FileNotFoundError:
-        raise _refuse(file, "cannot be read", "there is no such file", "check the path") from None
-    except Exception as error:  # every library has its own
-        raise _refuse(file, "cannot be read", f"{type(error).__name__}: {error}", "export it again") from None
-    heights = numpy.asarray(found["heights"])
-    if heights.ndim != 2 or heights.dtype.kind not in "fiu":
-        colours = heights.ndim == 3 and heights.shape[2] in (3, 4)
-        raise _refuse(file, "is a picture of colours, not a map of heights" if colours else "is no map of heights",
-                      f"its numbers are {heights.dtype} of shape {heights.shape}", "export heights, [y, x]")
-    told = found.get("unit") or unit
+    found = read_heights(file, channel, unit)
+    heights, notes = found["heights"], list(found.get("notes", []))
+    own = found.get("unit")
+    told = unit or own or assumed
     if told is None:
-        raise _refuse(file, "does not tell the unit of its heights", "", "name it: --unit nm")
-    heights = heights.astype(float) * (float(found.get("scale") or 1.0) * _length(file, told, "heights"))
-    heights[~numpy.isfinite(heights)] = numpy.nan
-    edges = tuple(float(s) * _length(file, found.get("size_unit") or told, "size") for s in found.get("size") or ())
-    if len(edges) == 1:
-        edges *= 2
-    if not edges and size:
-        edges = (size, size * heights.shape[0] / heights.shape[1])
-    return HeightMap(heights, edges or None, list(found.get("notes", [])))
+        raise refuse(file, "does not tell the unit of its heights", "", "name it: --unit nm")
+    one = length(file, told, "heights")
+    if unit and own is not None and LENGTHS.get(own) != LENGTHS[unit]:
+        notes.append(f"the file says that its heights are in {own}, and {unit} is taken (--unit)")
+    heights = heights * (one * factor(file, found.get("scale")))
+    across = found.get("size_unit") or (own if own in LENGTHS else told)
+    edges = tuple(float(s) for s in found.get("size") or ())
+    if across in LENGTHS or not size:
+        edges = tuple(s * length(file, across, "size", "say how wide it is: --size 100nm") for s in edges)
+    elif edges:  # in a unit that is none
+        edges = ()
+    if not size and any(not 0.0 < s < numpy.inf for s in edges):
+        raise refuse(file, "is a map without a size", "it says " + " x ".join(f"{s:g} Å" for s in edges),
+                     "say how wide it is: --size 100nm")
+    if size:
+        pixel = size / min(heights.shape)
+        if edges and abs(edges[0] / heights.shape[1] / pixel - 1.0) > 1e-3:
+            notes.append(f"the file says that the map is {min(edges):.6g} Å wide, and {size:.6g} Å are taken (--size)")
+        edges = (pixel * heights.shape[1], pixel * heights.shape[0])
+    return HeightMap(heights, edges or None, notes)
 
 
 def square(heights: numpy.ndarray) -> numpy.ndarray:

@@ -19,7 +19,7 @@ import numpy as np
 from . import files, maps, program, report_estimate
 from .errors import BY_CODE, InternalError, SceneError, Stopped
 from .estimate_parts import SpacingAlso
-from .estimates import MAP_FILES, RESULT, Estimate, Estimating, surface_made
+from .estimates import MAP_FILES, RESULT, Estimate, Estimating
 from .pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
 from .report import run_page_files, write_run_page
 from .result import Result, Values
@@ -55,7 +55,7 @@ class Adhesion:
 
 
 ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
-             "surface.file_size": "size"}
+             "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
 
 
@@ -71,7 +71,7 @@ def _with_unit(name: str, value: object) -> str:
 def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
     """Heights of a square map (Å, NaN where one is missing), its edge (Å), notes. Raises SceneError for what is no map
     that adhesion can be computed of."""
-    found = maps.read_map(file, unit, size, channel)
+    found = maps.read_map(file, unit, size or None, channel)
     heights, notes = found.heights, list(found.notes)
 
     def refuse(what: str, why: str, fix: str) -> SceneError:
@@ -82,7 +82,7 @@ def _read(file: str, unit: str | None, size: float | None, channel: str | None) 
         raise refuse(f"has {columns} x {rows} points", f"{maps.FEWEST} along an edge are the least of which a surface is "
                      "made", "export the whole map")
     if found.size is None:
-        raise refuse("does not tell how wide it is", "", 'name the length of its edge along x: --size "100 nm"')
+        raise refuse("does not tell how wide it is", "", 'name the length of its shorter edge: --size "100 nm"')
     missing = np.isnan(heights)
     if missing.mean() > 0.5:
         raise refuse("has no heights" if missing.all() else f"lacks {100 * missing.mean():.0f} % of its heights",
@@ -127,9 +127,10 @@ def _smooth_below(most: int) -> int:
 
 def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             ) -> tuple[Path, list[str], SpacingAlso]:
+             line_noise: str | None = None) -> tuple[Path, list[str], SpacingAlso]:
     """Writes the scene of a map and the map beside it; its file, notes, and what another spacing sets too."""
-    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson}, "surface": {"kind": "flat", "sites": 32},
+    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson},
+                "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
                 "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
                               "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
     if size is not None:
@@ -143,8 +144,6 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     if not keys.number("interface.adhesion") > 0.0:
         raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
-    if edge > 0.0 and size is not None and abs(edge / keys.number("surface.file_size") - 1) > 0.01:
-        notes.append(f"the file says how wide it is, {edge:.6g} Å: --size is not used")
     points = len(heights)
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
@@ -172,7 +171,8 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
                  "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
-                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited"},
+                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited",
+                         "line_noise": line_noise},
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True},
@@ -183,7 +183,9 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
             np.save(opened, heights)
         out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
-    kept = surface_made(str(place / f"{stem}.toml"))[1]
+    made = program.surface(str(place / f"{stem}.toml"))
+    notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made["doubts"]]
+    kept = made["slope_of_neighbours"]
     if n < points:
         notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
                      f"{kept:.3g}; the map's neighbours have {slope:.3g}")
@@ -194,7 +196,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
 
 def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
              range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
-             sites: int | None = None, jobs: int = 1) -> Adhesion:
+             sites: int | None = None, jobs: int = 1, line_noise: str | None = None) -> Adhesion:
     """The adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
 
         found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
@@ -205,16 +207,18 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
              are texts with units
     out      the directory; None: results/<map>-adhesion. Runs that are there are not run again.
     range    of the exponential attraction; None: 3 Å, or what the spacing resolves
-    size, unit, channel   of maps that do not tell their width or unit; of an instrument's file
+    size, unit   of the shorter edge, of the heights; they hold over what the file says, and a note names both
+    channel  of a file with several maps: its name or number
     sites    along an edge; None: as many as the map has, 256 at most
     jobs     runs side by side; they share the processors
+    line_noise   treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise)
     """
     program.refuse_ranks()
     refuse_jobs(jobs)
     place = files.chosen(None if out is None else str(out), _place(str(map)))
     _require_free(place, str(map))
     scene, notes, also = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel,
-                                  sites=sites)
+                                  sites=sites, line_noise=line_noise)
     making = Estimating(str(scene), [], str(place), PoolOptions(jobs=jobs, progress="off"), None, (), also, notes, lambda _: None)
     found, complete = _carried_out(making)
     if not complete:

@@ -120,6 +120,11 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
+def surface(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map."""
+    return json.loads(call(["surface", scene, *sets(overrides), "--json"]))
+
+
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
     """Returns Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`); the
     mistakes of a variation are in its `problems`. runnable: also the problems that would stop a run. profile: everything over

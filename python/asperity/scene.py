@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import re
 import sys
@@ -28,6 +29,8 @@ def toml_value(value: Any) -> str:
         value = value.item()
     if isinstance(value, Path):
         value = str(value)
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)  # nan, inf: the program refuses them by the name of their key
     return json.dumps(value, ensure_ascii=False)
 
 

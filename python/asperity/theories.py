@@ -115,7 +115,7 @@ def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = F
                 if not run.substrate or run.curved:
                     return []
                 overrides = {"surface.file": f"{place}/heights.npy", "surface.file_size": run.edge,
-                             "surface.detrend": "none", "surface.resample": "none", "surface.file_unit": "Å"}
+                             "surface.detrend": "none", "surface.line_noise": "keep", "surface.resample": "none", "surface.file_unit": "Å"}
                 np.save(Path(place) / "heights.npy", run.substrate.height)
             found = points(file, [scene.assignments({**overrides, **one}) for one in variations], quick=quick)
     except Error:  # a scene that this version refuses, or no program beside the package

@@ -9,7 +9,7 @@ import asperity
 
 # From the bottom to the top: text, files and program, data, execution, drawing, pages, the user's forms.
 ORDER = """errors units terminal
-    files program scene convert maps
+    files program scene channels map_arrays map_text atoms_files convert maps
     result grid theory sphere crack theories
     pool runs tables sweeps variations cost_parameters cost estimate_parts estimates
     plots.__init__ plots.style plots.run plots.sweep
