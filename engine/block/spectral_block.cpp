@@ -199,9 +199,9 @@ double SpectralBlock::uniform_known() const {
     return known;
 }
 
-void SpectralBlock::begin_step(double dt) {
+void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
-    memory_->begin(from_top(), dt);
+    memory_->begin(from_top(), dt, last);
     table_ = relaxed_;
     uniform_ = stiffness(0, 0).zz;
     constrain(constraint_);

@@ -37,6 +37,7 @@
 #include "engine/block/constraint.hpp"
 #include "kernels/surface_stiffness.hpp"
 
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -103,9 +104,11 @@ public:
     /// U_el, eV; that of branches apart. Collective.
     double elastic_energy() const;
 
-    /// From the state as it is, constraint included, a step of dt (fs) begins; infinite: the block
-    /// is the relaxed one, and remembers nothing. Does nothing without branches. Collective.
-    void begin_step(double dt);
+    /// Begins a time step of dt (fs) of the branches from the current displacements and constraint;
+    /// infinite: the block is the relaxed one, and remembers nothing. last: length of the step that
+    /// this one continues, fs; infinite: it continues none. Does nothing without branches.
+    /// Collective.
+    void begin_step(double dt, double last = std::numeric_limits<double>::infinity());
     /// It ends with the state as it is.
     void end_step();
     /// Of branches, in the state as it is. Collective.
@@ -120,6 +123,8 @@ public:
     const std::vector<SiteField<double>>* memory() const {
         return memory_ ? &memory_->extensions() : nullptr;
     }
+    /// What the next step needs of the last one, to be kept and restored; null without branches.
+    std::vector<SiteField<double>>* history() { return memory_ ? &memory_->history() : nullptr; }
 
     /// Where the sites would come to rest under the forces of gradient(), did a spring k tie each
     /// to where it is: (S + k)^-1 (k u + F + load), whose rows transform<float>().get_rows() then

@@ -39,13 +39,23 @@ public:
 
     /// The block as it is becomes the last point.
     void accept(double at);
+    /// Returns the sum of the displacements of the sites of the lowest layer since the last point,
+    /// Å. Collective.
+    double all_moves() const;
     /// Puts the block back to the last point, from wherever it was taken.
     void put_back();
-    /// Relaxes from the last point with the coordinate there, dt later (fs; infinite: at rest);
-    /// report and window as in RelaxOptions. Collective.
+    /// Relaxes from the last point with the coordinate there, dt later (fs; infinite: at rest), as
+    /// the continuation of the step before if no turn() came since; report and window as in
+    /// RelaxOptions. Collective.
     using Report = std::function<bool(long long, double)>;
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
+
+    /// The next step in time does not continue the last one: the displacements have changed their
+    /// course.
+    void turn() { last_dt_ = HUGE_VAL; }
+    /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
+    double last_dt() const { return last_dt_; }
 
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
@@ -66,6 +76,7 @@ public:
         v("clock", clock_);
         v("iterations", iterations_);
         v("balance", balance_);
+        v("last_dt", last_dt_);
     }
     std::vector<StateArray> states();
 
@@ -88,6 +99,8 @@ private:
     double clock_ = 0.0;            ///< along time, Å
     std::array<double, 2> place_{}; ///< of the block over the substrate, Å
     long long iterations_ = 0;
+    double dt_ = HUGE_VAL;      ///< of the step under way, fs
+    double last_dt_ = HUGE_VAL; ///< of the step that this one continues, fs
 };
 
 } // namespace asperity

@@ -8,9 +8,12 @@
 //      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
 //      approach
 //
-// (a block that relaxes has not come to rest, and dissipates in time beside that). Works are done
-// on the solids; kinetic is what still moves at the end: kinetic energy, and that of vibrations
-// about the state.
+// Of every segment of a quasi-static path, wherever it starts and ends,
+//
+//     work of the drive = stored + lost + dissipated in the block,
+//
+// stored: the change of the energy of interface and block. Works are done on the solids; kinetic is
+// what still moves at the end: kinetic energy, and that of vibrations about the state.
 #pragma once
 
 #include "engine/path/path_results.hpp"
@@ -24,10 +27,11 @@ namespace asperity {
 
 /// Between two ends of segments, eV.
 struct Works {
-    double on_solids = 0.0; ///< done on the block by what drives or holds it
-    double lateral = 0.0;   ///< of this, by what moves it sideways
-    double relaxed = 0.0;   ///< dissipated in time by a block that relaxes
-    double lost = 0.0;      ///< damped less the heat of a thermostat, or dissipated
+    double on_solids = 0.0;       ///< done on the block by what drives or holds it
+    double lateral = 0.0;         ///< of this, by what moves it sideways
+    double relaxed = 0.0;         ///< dissipated in time by a block that relaxes
+    double lost = 0.0;            ///< damped less the heat of a thermostat, or dissipated
+    std::optional<double> stored; ///< change of the energy; quasi-static paths only
     /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where it
     /// jumps.
     std::optional<double> interface;
@@ -42,6 +46,7 @@ struct Works {
         v("lateral", lateral);
         v("relaxed", relaxed);
         v("lost", lost);
+        v("stored", stored);
         v("interface", interface);
         v("uncertainty", uncertainty);
     }
@@ -62,6 +67,7 @@ public:
     void visit(Visitor& v) {
         v("lost_since_apart", lost_since_apart_);
         v("relaxed_since_apart", relaxed_since_apart_);
+        v("stored_since_apart", stored_since_apart_);
         v("moved_apart", moved_apart_);
     }
 
@@ -73,6 +79,7 @@ private:
     PathResults& results_;
     double lost_since_apart_ = 0.0;    ///< from the last end of a pull-off, or the start, eV
     double relaxed_since_apart_ = 0.0; ///< likewise
+    double stored_since_apart_ = 0.0;  ///< likewise
     double moved_apart_ = 0.0;         ///< what still moved then, eV
 };
 

@@ -31,11 +31,13 @@ struct SegmentResults {
     std::optional<double> interface_work;
     std::optional<double> relaxed; ///< dissipated in time by a block that relaxes
     double lost = 0.0;             ///< damped (less the heat of a thermostat) or dissipated
+    std::optional<double>
+        stored; ///< change of the energy of interface and block; quasi-static only
     /// What still moves at the end, in time at T = 0: kinetic energy and vibrations about the state
     /// at zero load behind an approach (empty where that is not known), or about the solids at rest
     /// apart behind a pull-off.
     std::optional<double> kinetic;
-    std::optional<double> uncertainty;  ///< of works and lost; quasi-static only
+    std::optional<double> uncertainty;  ///< of works and losses; quasi-static only
     double attraction = 0.0;            ///< the largest, eV/Å
     std::optional<double> lateral_mean; ///< force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most; ///< the largest of it, eV/Å
@@ -52,6 +54,7 @@ struct SegmentResults {
         v("work_of_interface", interface_work);
         v("relaxed", relaxed);
         v("lost", lost);
+        v("stored", stored);
         v("kinetic", kinetic);
         v("uncertainty", uncertainty);
         v("attraction", attraction);
@@ -69,6 +72,7 @@ struct PathResults {
     std::optional<ZeroLoad> zero_load;      ///< of the last approach, or of the path's start
     std::optional<double> lost_in_cycle;    ///< from rest apart to rest apart, meV/Å^2
     std::optional<double> relaxed_in_cycle; ///< likewise
+    std::optional<double> stored_in_cycle;  ///< likewise
     double strongest = 0.0;                 ///< attraction of the path so far, eV/Å
     std::optional<double> contact_made;     ///< when the last approach ended, fs
     std::optional<Dissipation> dissipated;  ///< of a quasi-static path (which lists it itself)
@@ -120,6 +124,7 @@ struct PathResults {
     void visit(Visitor& v) {
         v("lost_in_cycle", lost_in_cycle);
         v("relaxed_in_cycle", relaxed_in_cycle);
+        v("stored_in_cycle", stored_in_cycle);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);
