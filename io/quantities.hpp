@@ -63,7 +63,7 @@ inline constexpr Quantity result_quantities[] = {
      "the "
      "damping medium, which moves along) or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
-     "the same of the pull-off, until the solids are apart"},
+     "the same of the pull-off, to rest beyond the interaction range"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of work_of_drive.approach (quasi-static), for the sequence of instabilities that "
      "the path takes"},
@@ -77,9 +77,9 @@ inline constexpr Quantity result_quantities[] = {
      "the last"},
     {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.cycle", "meV/Å^2", per::area,
-     "energy lost over a whole cycle, from beyond the interaction range to there, with "
+     "energy lost over a whole cycle, from and to rest beyond the interaction range, with "
      "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
-     "+ work_of_drive.pull_off - dissipated_in_block.cycle - stored.cycle"},
+     "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "energy that still moves at the end of the approach (dynamic, at T = 0, without a load): "
      "kinetic energy and that of vibrations, above the state at zero load"},
@@ -88,7 +88,9 @@ inline constexpr Quantity result_quantities[] = {
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
      "energy that a block that relaxes (block.prony) has dissipated by relaxing on the approach, "
      "beside lost.approach"},
-    {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+    {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
+     "the same of the pull-off: at its end a block that is still stretched comes to rest, without "
+     "work of the drive"},
     {"dissipated_in_block.cycle", "meV/Å^2", per::area, "the same over a whole cycle"},
     {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of dissipated_in_block.approach"},
@@ -97,13 +99,8 @@ inline constexpr Quantity result_quantities[] = {
     {"stored.approach", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) on the approach of a "
      "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, on the approach, on "
-     "the pull-off, in each segment and summed over a cycle"},
+     "the pull-off and in each segment; over a cycle nothing is stored"},
     {"stored.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
-    {"stored.cycle", "meV/Å^2", per::area,
-     "the same over a whole cycle, of a block that relaxes: not 0 if it is still stretched when "
-     "the "
-     "solids come apart. It dissipates this energy when it comes to rest, without work of the "
-     "drive"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,

@@ -36,7 +36,7 @@ void LastPoint::accept(double at) {
 
 void LastPoint::put_back() {
     state_.restore(state_of(block_));
-    block_.apply_constraint(constraint(at_));
+    block_.hold(constraint(at_));
     place_block(at_);
 }
 

@@ -196,7 +196,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     const double a = block_.options().spacing;
     course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
                        slack(record_.in_contact));
-    course_.bracketed = false;
+    course_.bracketed = course_.comes_to_rest = false;
     course_.work = course_.relaxed = course_.gap = course_.squares = 0.0;
     course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
@@ -262,6 +262,7 @@ double QuasistaticPath::longest_step() const {
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
+    if (course_.comes_to_rest) return come_to_rest();
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     const double aim = course_.rule.aim();
     for (;;) {
@@ -325,11 +326,32 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:
-        return Outcome::apart;
+        // A block that relaxes may still be stretched: the next point is the one at rest.
+        course_.comes_to_rest = options_.velocity > 0.0;
+        return course_.comes_to_rest ? Outcome::point : Outcome::apart;
     case SegmentRule::End::no:
         break;
     }
     return Outcome::point;
+}
+
+/// The solids are apart, and what the block has stored it dissipates without any work.
+QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
+    const long long iterations = last_.iterations();
+    RelaxedState state = last_.relax_at(at(), HUGE_VAL, options_.report);
+    if (state.interrupted) {
+        put_back();
+        last_.set_iterations(iterations);
+        return Outcome::interrupted;
+    }
+    if (!state.converged) refuse_place(state, at());
+    const PathPoint before = point();
+    state.branches.dissipated = std::max(
+        before.energy - record_.relaxed - state.interface_energy - state.elastic_energy, 0.0);
+    const PathPoint there = point(state, at());
+    accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
+    course_.comes_to_rest = false;
+    return Outcome::apart;
 }
 
 void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
@@ -411,7 +433,8 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
     course_.work += step.work;
-    course_.gap += std::abs(step.gap) + state.branches.error;
+    // An extension that is wrong acts on with the larger ones that follow: twice.
+    course_.gap += std::abs(step.gap) + 2.0 * state.branches.error;
     course_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     const double way = std::abs(at - this->at());

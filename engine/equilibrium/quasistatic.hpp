@@ -86,11 +86,11 @@ public:
     void begin_to(double at);
     enum class Outcome { point, at_load, apart, there, interrupted };
     /// The next point of the segment. at_load: an approach or a load has come to its load (the path
-    /// stands there exactly); apart: nothing is left of the force on a pull-off; there: a height or
-    /// a slide has come to its end, exactly. Where a relaxation was interrupted, block and path are
-    /// back at the last point, and the next call makes the whole point again. Collective. Throws
-    /// io::PhysicsError where no equilibrium is found, and where the solids part on the way to a
-    /// pull.
+    /// stands there exactly); apart: nothing is left of the force on a pull-off, and the block is
+    /// at rest; there: a height or a slide has come to its end, exactly. Where a relaxation was
+    /// interrupted, block and path are back at the last point, and the next call makes the whole
+    /// point again. Collective. Throws io::PhysicsError where no equilibrium is found, and where
+    /// the solids part on the way to a pull.
     Outcome advance();
 
     /// The last point. On quasi-static paths: step counts points, damped is what was dissipated.
@@ -136,6 +136,7 @@ private:
         std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
         SegmentRule rule;             ///< of one that a force ends
         bool bracketed = false;       ///< the load at which the segment ends
+        bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
         double work = 0.0;            ///< of the top plane, eV
         double relaxed = 0.0;         ///< dissipated by the block, eV
         double stored_at_start = 0.0; ///< energy of interface and block, eV
@@ -151,6 +152,7 @@ private:
             v("load", load);
             v("rule", rule);
             v("bracketed", bracketed);
+            v("comes_to_rest", comes_to_rest);
             v("work", work);
             v("relaxed", relaxed);
             v("stored_at_start", stored_at_start);
@@ -172,6 +174,7 @@ private:
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
+    Outcome come_to_rest();
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }

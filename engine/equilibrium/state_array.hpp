@@ -6,7 +6,7 @@
 #pragma once
 
 #include "decomposition/field.hpp"
-#include "engine/block/spectral_block.hpp"
+#include "engine/waves/spectral_block.hpp"
 
 #include <string>
 #include <vector>

@@ -35,7 +35,6 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
 
     lost_since_apart_ += works.lost;
     relaxed_since_apart_ += works.relaxed;
-    stored_since_apart_ += works.stored.value_or(0.0);
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
     // Of what moved before the cycle its losses have taken a part. Heat goes both ways.
@@ -43,9 +42,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
     if (results_.last(Segment::approach) && case_.effects.branches)
         results_.relaxed_in_cycle = per_area(relaxed_since_apart_);
-    if (results_.last(Segment::approach) && case_.effects.branches)
-        results_.stored_in_cycle = per_area(stored_since_apart_);
-    lost_since_apart_ = relaxed_since_apart_ = stored_since_apart_ = 0.0;
+    lost_since_apart_ = relaxed_since_apart_ = 0.0;
     moved_apart_ = moving;
 }
 

@@ -67,7 +67,6 @@ public:
     void visit(Visitor& v) {
         v("lost_since_apart", lost_since_apart_);
         v("relaxed_since_apart", relaxed_since_apart_);
-        v("stored_since_apart", stored_since_apart_);
         v("moved_apart", moved_apart_);
     }
 
@@ -79,7 +78,6 @@ private:
     PathResults& results_;
     double lost_since_apart_ = 0.0;    ///< from the last end of a pull-off, or the start, eV
     double relaxed_since_apart_ = 0.0; ///< likewise
-    double stored_since_apart_ = 0.0;  ///< likewise
     double moved_apart_ = 0.0;         ///< what still moved then, eV
 };
 

@@ -72,7 +72,6 @@ struct PathResults {
     std::optional<ZeroLoad> zero_load;      ///< of the last approach, or of the path's start
     std::optional<double> lost_in_cycle;    ///< from rest apart to rest apart, meV/Å^2
     std::optional<double> relaxed_in_cycle; ///< likewise
-    std::optional<double> stored_in_cycle;  ///< likewise
     double strongest = 0.0;                 ///< attraction of the path so far, eV/Å
     std::optional<double> contact_made;     ///< when the last approach ended, fs
     std::optional<Dissipation> dissipated;  ///< of a quasi-static path (which lists it itself)
@@ -124,7 +123,6 @@ struct PathResults {
     void visit(Visitor& v) {
         v("lost_in_cycle", lost_in_cycle);
         v("relaxed_in_cycle", relaxed_in_cycle);
-        v("stored_in_cycle", stored_in_cycle);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);

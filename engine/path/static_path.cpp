@@ -129,7 +129,7 @@ void StaticPath::restored() {
     if (points_)
         points_->resume();
     else
-        block_.apply_constraint(Constraint::top(top_restored_));
+        block_.hold(Constraint::top(top_restored_));
     if (points_) results_.dissipated = points_->dissipation();
     resumed_ = true;
 }

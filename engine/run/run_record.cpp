@@ -80,7 +80,6 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
     if (in) result.set("stored.approach", in->stored);
     if (out) result.set("stored.pull_off", out->stored);
-    result.set("stored.cycle", results.stored_in_cycle);
     if (!radius) return;
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {

@@ -95,14 +95,12 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
     }
     if (const Number relaxed = of("dissipated_in_block.cycle")) {
         const double lost = of("lost.cycle").value_or(0.0);
-        const double stored = of("stored.cycle").value_or(0.0);
         fmt::print(
             to,
             "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
-            "  {} are dissipated in the block, which relaxes, {} are lost at instabilities,\n"
-            "  and {} are stored in the block when the solids come apart.\n",
-            with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost),
-            with_units(stored));
+            "  {} are dissipated in the block, which relaxes,\n"
+            "  and {} are lost at instabilities.\n",
+            with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,

@@ -207,7 +207,7 @@ void LedPath::place(const State& state) {
                     for (int x = 0; x < plane.nx; ++x)
                         plane(x, y) = state.branches.empty() ? 0.0 : *extension++;
             }
-    path_.block().apply_constraint(Constraint::top(state.top));
+    path_.block().hold(Constraint::top(state.top));
 }
 
 void LedPath::hold(Held held) {

@@ -79,8 +79,7 @@ def _words(run: Result) -> dict[str, str]:
                       "instabilities." if static else
                       "Work of the drive = interface + elastic + kinetic + damped. The drive is the top plane, and the "
                       "medium of the damping that moves with it.",
-            "loading": "The area between approach and pull-off is the work of the top plane in a cycle: what is lost and dissipated in "
-                       "the block, and what the block still stores." if relaxes else
+            "loading": "The area between approach and pull-off is the energy lost and dissipated in the block in a cycle." if relaxes else
                        "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
                        "the damping does is not in it.", "at": run.load_words[0],

@@ -142,8 +142,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     relaxes = run.number("dissipated_in_block.cycle") is not None
     for key, name, note in (
             ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
-            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block relaxes (block.prony)"),
-            ("stored.cycle", "stored in the block after a cycle", "the block is still stretched when the solids come apart")):
+            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block relaxes (block.prony)")):
         if (value := run.number(key)) is not None:
             add(f"{value * run.edge**2 / 1e3 if run.curved else value:.4g}", "eV" if run.curved else "meV/Å²", name,
                 note if run.curved else f"{millijoules(value)} mJ/m²; {note}")
@@ -190,12 +189,9 @@ def _loss(run: Result) -> str:
 
 
 def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
-    """What a block that relaxes dissipates and stores in a cycle, beside what is lost; "": it does not relax."""
-    relaxed, stored = run.number("dissipated_in_block.cycle"), run.number("stored.cycle")
-    if relaxed is None:
-        return ""
-    return f" The block, which relaxes, dissipates {energy(relaxed)}" + (
-        "." if stored is None else f" and stores {energy(stored)} when the solids come apart.")
+    """What a block that relaxes dissipates in a cycle, beside what is lost; "": it does not relax."""
+    relaxed = run.number("dissipated_in_block.cycle")
+    return "" if relaxed is None else f" The block, which relaxes, dissipates {energy(relaxed)}."
 
 
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:

@@ -78,10 +78,11 @@ TEST(Rate, TheModulusFallsByItsSeries) {
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)
             block.layer().z.plane(0)(x, y) = rest.layer().z.plane(0)(x, y) = displacement(random);
-    rest.apply_constraint(Constraint::top(-0.2));
+    rest.hold(Constraint::top(-0.2));
     Waves<double> g = block.new_waves<double>(), expected = rest.new_waves<double>();
     rest.gradient(expected);
-    const double lift = rest.stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
+    const double lift =
+        rest.acting_stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
     // At rest there, and from here moved by the top.
     block.constrain(Constraint::top(0.3));
     block.begin_step(std::numeric_limits<double>::infinity());
@@ -110,7 +111,7 @@ TEST(Rate, TheModulusFallsByItsSeries) {
 TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
     SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
     block.constrain(Constraint::top(0.0));
-    const double spring = 64.0 * block.stiffness(0, 0).zz;
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-6.0, 6.0);
     std::vector<double> h(two.size(), 0.0);
@@ -120,7 +121,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         const double scale = i % 2 ? 1.0 : 1e-3;
         block.begin_step(dt);
         block.set_uniform(scale * next);
-        const BranchEnergies branches = block.branch_energies();
+        const auto [elastic, branches] = block.energies();
         const double rate = (scale * next - w) / dt;
         double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
         for (std::size_t k = 0; k < two.size(); ++k) {
@@ -133,7 +134,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         }
         EXPECT_NEAR(branches.stored, energy, 1e-12 * (1.0 + energy));
         EXPECT_GE(branches.dissipated, 0.0);
-        const double now = block.elastic_energy() + branches.stored;
+        const double now = elastic + branches.stored;
         EXPECT_NEAR(now - stored + branches.dissipated, work, 1e-11 * (1.0 + std::abs(work)))
             << "dt " << dt;
         stored = now;
@@ -147,7 +148,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
 TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
     SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
     block.constrain(Constraint::top(0.0));
-    const double spring = 64.0 * block.stiffness(0, 0).zz;
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz;
     std::mt19937 random(7);
     std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-3.0, 1.3);
     for (int i = 0; i < 40; ++i) {
@@ -164,7 +165,7 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
         const auto rate = [&](double s) { return d / dt + curvature * (s - 0.5 * dt); };
         block.begin_step(dt, first);
         block.set_uniform(d0 + d);
-        const BranchEnergies branches = block.branch_energies();
+        const BranchEnergies branches = block.energies().branches;
         double stored = 0.0, dissipated = 0.0, force = spring * (d0 + d);
         for (const auto& [r, tau] : two) {
             const double h0 = d0 * tau / first * -std::expm1(-first / tau);
@@ -190,14 +191,13 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
     }
 }
 
-/// Along w = (t/T)^3 from rest: h after the path by steps of n and 2n, against its closed form. The
-/// sum of what the steps' errors are judged by holds, and falls with the third power of the step,
-/// what is wrong with it at least.
+/// Along w = (t/T)^3 from rest: what is wrong with h, against its closed form, falls with the third
+/// power of the step, and so does twice the sum of the errors that the steps state, which holds it.
 TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
     const std::vector<Branch> one = {{2.0, 1000.0}};
     SpectralBlock block(relaxing(8, 4, one), Communicator(), true);
     block.constrain(Constraint::top(0.0));
-    const double spring = 64.0 * block.stiffness(0, 0).zz, tau = 1000.0;
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz, tau = 1000.0;
     for (const double span : {500.0, 3000.0, 20000.0}) {
         const double x = span / tau;
         // of dh/ds + x h = 3 s^2 at s = 1
@@ -212,14 +212,14 @@ TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
             for (int i = 1; i <= n; ++i) {
                 block.begin_step(span / n, i == 1 ? HUGE_VAL : span / n);
                 block.set_uniform(std::pow(static_cast<double>(i) / n, 3));
-                branches = block.branch_energies();
+                branches = block.energies().branches;
                 error += branches.error;
                 block.end_step();
             }
             const double there = std::sqrt(branches.stored / spring); // ratio 2: 1/2 S r h^2
             wrong.push_back(2.0 * spring * h * std::abs(there - h));
             judged.push_back(error);
-            EXPECT_LT(wrong.back(), 1.1 * judged.back()) << span << " " << n;
+            EXPECT_LT(wrong.back(), 2.0 * judged.back()) << span << " " << n;
         }
         for (std::size_t i = 1; i < wrong.size(); ++i) {
             EXPECT_LT(wrong[i], 0.16 * wrong[i - 1]) << span;
@@ -432,10 +432,6 @@ TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
                     << velocity << rough;
                 EXPECT_LT(usual.gap, 1e-9 * usual.scale) << velocity << rough;
                 EXPECT_LT(usual.points, rough ? 3000 : 600) << velocity;
-                std::printf("%d %d %g: %lld %lld points, work %.5f %.5f +- %.5f, %.5f %.5f\n",
-                            along == top, rough, velocity, usual.points, close.points, usual.work,
-                            close.work, usual.uncertainty, usual.relaxed + usual.lost,
-                            close.relaxed + close.lost);
             }
         }
 }

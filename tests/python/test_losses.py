@@ -12,7 +12,7 @@ import asperity
 from asperity import estimate_parts, program, report, sentences, tables
 from asperity.plots import sweep as sweep_plots
 
-ATOMS = {"surface": {"sites": 8, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
+ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
          "drive": {"mode": "quasistatic", "velocity": 1.0}}
 WALL = {"surface": {"sites": 12, "spacing": "1 nm", "rms": "0.5 nm"}, "block": {"young": "20 MPa", "poisson": 0.49},
         "interface": {"kind": "wall", "adhesion": "30 mJ/m^2", "range": "1 nm"},
@@ -20,11 +20,11 @@ WALL = {"surface": {"sites": 12, "spacing": "1 nm", "rms": "0.5 nm"}, "block": {
 RELAXING = {"atoms": [[3.0, 50.0], [1.5, 1000.0]], "wall": [[9.0, "10 ns"]]}
 PATHS = {"cycle": ["approach", "pull-off"], "rest": ["approach", "hold 2 ns", "pull-off"], "in contact": ["approach"],
          "while it rests": ["approach", "hold 0.2 ns"], "two cycles": ["approach", "pull-off"] * 2,
-         "loads": ["approach", "load 3 MPa", "load -1 MPa", "hold 1 ns", "pull-off", "hold 1 ns"]}
+         "loads": ["approach", "load 3 MPa", "load -1 MPa", "hold 1 ns", "pull-off"]}
 
 
 def terms(of):
-    """stored, lost, dissipated in the block; that of an elastic block is none."""
+    """stored, lost, and dissipated in the block; that of an elastic block is none."""
     return of["stored"] + of["lost"] + of.get("dissipated_in_block", 0.0)
 
 
@@ -53,22 +53,22 @@ def test_the_books_of_a_path_close(place, kind, relaxes, control, path):
         first = max((i + 1 for i, s in enumerate(steps[:-1]) if s == "pull-off" and "approach" in steps[i:]), default=0)
         last = len(steps) - steps[::-1].index("pull-off")
         work = sum(line["work_of_drive"] for line in lines[first:last])
-        assert work == pytest.approx(run.lost.cycle + (run.dissipated_in_block.cycle + run.stored.cycle if relaxes else 0.0),
+        assert work == pytest.approx(run.lost.cycle + (run.dissipated_in_block.cycle if relaxes else 0.0),
                                      abs=1e-3 * largest)
-        assert relaxes == (run.number("stored.cycle") is not None)
-        # An elastic block is at rest when the solids are apart.
-        assert relaxes or sum(line["stored"] for line in lines[first:last]) == pytest.approx(0.0, abs=1e-4 * largest)
+        # The solids are at rest apart.
+        assert sum(line["stored"] for line in lines[first:last]) == pytest.approx(0.0, abs=1e-4 * largest)
     if path == "cycle":  # the names of the two segments
         for line, way in zip(lines, ("approach", "pull_off"), strict=True):
             for key in ("work_of_drive", "stored", "lost") + ("dissipated_in_block",) * relaxes:
                 assert run.number(f"{key}.{way}") == line[key]
 
 
-def companions(names):
+def companions(place, names):
     """What stands beside names of losses: each `lost` has the other terms."""
     for name in [n for n in names if "lost" in n.split(".")]:
         for other in ("dissipated_in_block", "stored"):
-            if "uncertainty" not in name or other == "dissipated_in_block":
+            # Over a cycle nothing is stored, and a plot of losses has no energies.
+            if other != "stored" or not ("uncertainty" in name or "cycle" in name or "plot" in place):
                 yield name, name.replace("lost", other)
 
 
@@ -81,10 +81,10 @@ def test_wherever_a_loss_is_named_its_companions_are():
         "segments in a report": list(report.SEGMENT_COLUMNS),
     }
     for name, (_, _, traces) in sweep_plots.SIMULATED.items():
-        places[f"plot of a sweep: {name}"] = [t.column for t in traces if t.column.endswith("cycle")]
+        places[f"plot of a sweep: {name}"] = [t.column for t in traces] + [t.uncertainty for t in traces]
     assert sum("lost" in name for names in places.values() for name in names) > 8
     for place, names in places.items():
-        for name, other in companions(names):
+        for name, other in companions(place, names):
             assert other in names, f"{place}: {name} without {other}"
 
 
@@ -92,32 +92,33 @@ def test_wherever_a_loss_is_named_its_companions_are():
 def rubber(tmp_path_factory):
     """A block that is still stretched when the solids come apart."""
     scene = json.loads(json.dumps(ATOMS))
-    scene["surface"] = {"sites": 8, "kind": "flat"}
+    scene["surface"] = {"sites": 12, "kind": "flat"}
     scene["block"]["prony"] = RELAXING["atoms"]
     scene["drive"] |= {"control": "top", "path": ["approach", "hold 0.2 ns", "pull-off"]}
-    place = tmp_path_factory.mktemp("rubber")
-    (place / "scene.json").write_text(json.dumps(scene))
-    return place, scene
+    return tmp_path_factory.mktemp("rubber"), scene
 
 
 def test_every_page_has_all_losses(rubber):
     place, scene = rubber
     run = asperity.run(scene, out=place / "run")
-    assert run.stored.cycle > 10.0 and run.dissipated_in_block.cycle > 10.0 and run.lost.cycle > 10.0
+    assert run.dissipated_in_block.cycle > 10.0 and run.lost.cycle > 10.0
     words = sentences.results(run)
-    shown = {name: f"{run.number(name + '.cycle'):.2f}" for name in ("lost", "dissipated_in_block", "stored")}
+    shown = {name: f"{run.number(name + '.cycle'):.2f}" for name in ("lost", "dissipated_in_block")}
     for value in shown.values():
         assert any(value in sentence for sentence in words), (value, words)
-    numbers = {n.name: float(n.value) for n in sentences.key_numbers(run)}
-    assert numbers["lost at instabilities in a cycle"] == pytest.approx(run.lost.cycle, rel=1e-3)
-    assert numbers["dissipated in the block in a cycle"] == pytest.approx(run.dissipated_in_block.cycle, rel=1e-3)
-    assert numbers["stored in the block after a cycle"] == pytest.approx(run.stored.cycle, rel=1e-3)
+    numbers = {n.name: n.value for n in sentences.key_numbers(run)}
+    assert numbers["lost at instabilities in a cycle"] == f"{run.lost.cycle:.4g}"
+    assert numbers["dissipated in the block in a cycle"] == f"{run.dissipated_in_block.cycle:.4g}"
     page = report.write_run_page(run, ())
     assert page is not None
     html = (place / "run" / "report.html").read_text()
     for text in ("dissipated in the block", "stored"):
         assert f"<th>{text}" in html or f">{text}" in html, text
-    said = command("run", place / "scene.json", "--progress", "off", "--out", place / "said")
+    values = [f"{section}.{key}={json.dumps(value)}" for section, keys in scene.items() for key, value in keys.items()]
+    (place / "scene.toml").write_text("")
+    said = command("run", place / "scene.toml", "--set", *values, "--progress", "off", "--out", place / "said")
     for key in ("lost", "dissipated_in_block", "stored"):
         for way in ("approach", "pull_off", "cycle"):
-            assert f"{run.number(f'{key}.{way}'):.2f}" in said, (key, way)
+            value = run.number(f"{key}.{way}")
+            assert (value is None) == ((key, way) == ("stored", "cycle"))
+            assert value is None or f"{value:.2f}" in said, (key, way)

@@ -173,7 +173,7 @@ SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt1993
             for (int x = 0; x < block.tile().nx; ++x)
                 f.plane(0)(x, y) = static_cast<float>(normal(random));
     const double n = block.options().sites;
-    block.to_waves(d.sites, d.waves);
+    to_waves(d.sites, block.transform<float>(), d.waves);
     combine(0.0, d.waves, 1.0 / (n * n), d.waves);
     return d;
 }

@@ -105,8 +105,7 @@ SIMULATED: dict[str, Spec] = {
               uncertainty="dissipated_in_block.uncertainty.approach"),
         Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False,
               uncertainty="dissipated_in_block.uncertainty.pull_off"),
-        Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^"),
-        Trace("stored, cycle", "stored.cycle", GREY, "", "v", False)])}
+        Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], [])}

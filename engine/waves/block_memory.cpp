@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/block/block_memory.hpp"
+#include "engine/waves/block_memory.hpp"
 
 #include <algorithm>
 #include <cmath>
