@@ -29,14 +29,14 @@
 namespace asperity {
 namespace {
 
-/// Of commands that need one process: rank 0 does the work, the others wait for it.
+/// Calls work on rank 0 for commands that need one process; the other ranks wait.
 int on_root(const Communicator& world, const std::function<int()>& work) {
     int code = io::exit_code::done;
     world.on_root([&] { code = work(); });
     return code;
 }
 
-/// In the order of --help.
+/// Returns the commands in the order of --help.
 std::vector<Command> all_commands() {
     return {
         {"run",

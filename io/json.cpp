@@ -10,7 +10,7 @@ namespace asperity::io {
 
 namespace {
 
-/// Of arrays and objects in one another. Results are six deep; copying and freeing are recursive.
+/// Largest depth of arrays and objects. Results are six deep; copying and freeing are recursive.
 constexpr int deepest = 64;
 
 } // namespace

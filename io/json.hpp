@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// JSON whose objects keep the order in which their members were put. Headers need its name alone,
-// from <nlohmann/json_fwd.hpp>.
+// JSON whose objects keep the order of their members. Headers need its name alone, from
+// <nlohmann/json_fwd.hpp>.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,11 +14,11 @@ namespace asperity::io {
 
 using Json = nlohmann::ordered_json;
 
-/// indent < 0: one line. NaN and infinity are written as null.
+/// Returns the text of a value; indent < 0: on one line. NaN and infinity are written as null.
 std::string json_text(const Json& value, int indent = -1);
-/// Throws FileError with the place of the mistake; `file` is named in it.
+/// Parses a text. Throws FileError with `file` and the place of the mistake.
 Json parse_json(std::string_view text, const std::string& file);
-/// A member by its path, find(json, "energy.residual"), or nullptr.
+/// Returns a member by its path, find(json, "energy.residual"); nullptr if there is none.
 const Json* find(const Json& object, std::string_view path);
 
 } // namespace asperity::io

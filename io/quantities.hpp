@@ -8,8 +8,8 @@
 // not here and states the units from here in result.json; the summary of a run, the columns and
 // attributes of run.h5 and docs/reference/result.md (`asperity defaults --results`) follow.
 //
-// Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list.
-// Units: as io/units.hpp reads them; "1" for a pure number, "" for what is no number.
+// Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list. Units: as
+// io/units.hpp reads them; "1" for a pure number, "" if the value is no number.
 #pragma once
 
 #include <span>
@@ -18,10 +18,11 @@
 
 namespace asperity::io {
 
+/// Description of a result.
 struct Quantity {
     std::string_view name;
     std::string_view unit;
-    std::string_view per; ///< what it is divided by, or the whole that it belongs to
+    std::string_view per; ///< divisor of the value, or the whole that the value belongs to
     std::string_view meaning;
 };
 
@@ -31,7 +32,7 @@ inline constexpr std::string_view area = "nominal area", block = "whole block",
                                   contact = "area in contact of a sphere";
 }
 
-/// In the order of the file.
+/// Quantities of result.json, in the order of the file.
 inline constexpr Quantity result_quantities[] = {
     {"name", "", "", "name of the scene"},
     {"failure.exit_code", "1", "", "exit code of a command that failed"},
@@ -81,8 +82,8 @@ inline constexpr Quantity result_quantities[] = {
      "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
      "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "energy that still moves at the end of the approach (dynamic, at T = 0, without a load): "
-     "kinetic energy and that of vibrations, above the state at zero load"},
+     "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without "
+     "a load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
@@ -143,9 +144,9 @@ inline constexpr Quantity result_quantities[] = {
      "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
      "dissipated_in_block"},
     {"segments[].kinetic", "meV/Å^2", per::area,
-     "energy that still moves at the end of an approach or a pull-off of a dynamic path at T = 0, "
-     "as "
-     "kinetic.*"},
+     "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
+     "path "
+     "at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
      "of instabilities that "
@@ -295,7 +296,7 @@ inline constexpr Quantity result_quantities[] = {
      "front of it"},
 };
 
-/// In run.h5, but the series (engine/run/series.hpp); "@" leads to an attribute.
+/// Data sets of run.h5 except the series (engine/run/series.hpp); "@" leads to an attribute.
 inline constexpr Quantity run_quantities[] = {
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
@@ -333,7 +334,7 @@ inline constexpr Quantity run_quantities[] = {
     {"profile/stress_variance", "GPa^2", "", "T(q), of the stress at full contact"},
 };
 
-/// The name of a quantity of result.json; one that is not in the table does not compile.
+/// The name of a quantity of result.json; a name that is not in the table does not compile.
 struct Key {
     consteval Key(const char* name) : quantity(&find(name)) {}
     const Quantity* quantity;
@@ -348,10 +349,10 @@ private:
 
 inline std::string_view unit_of(Key key) { return key.quantity->unit; }
 
-/// The quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
+/// Returns the quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 
-/// docs/reference/result.md. series: the columns of the series.
+/// Returns the page docs/reference/result.md. series: the columns of the series.
 std::string result_markdown(std::span<const Quantity> series);
 
 } // namespace asperity::io

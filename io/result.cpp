@@ -16,8 +16,8 @@ namespace asperity::io {
 
 namespace {
 
-/// Where a name leads in a tree, made on the way. "*" stands for member and "[]" for element; the
-/// tree of units has one entry for all elements.
+/// Returns the place of a name in a tree, which is created. "*" stands for member and "[]" for
+/// element; the tree of units has one entry for all elements.
 Json& place(Json& root, std::string_view name, const std::string& member, std::size_t element,
             bool units) {
     Json* at = &root;
@@ -88,7 +88,7 @@ Json Result::json() const {
     Json all = Json::object();
     for (const auto& [name, value] : values_->items())
         if (!value.is_null()) all[name] = value;
-    all["units"]["digest"] = ""; // of sealed_json
+    all["units"]["digest"] = ""; // the digest that sealed_json adds
     return all;
 }
 

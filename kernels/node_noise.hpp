@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Langevin noise of one node and step: normal numbers from a counter-based generator (Philox,
-// Random123), and what they add to velocity and displacement. One text for processor and device.
+// Random123), and their effect on velocity and displacement. One text for processor and device.
 // Logarithm, sine and cosine are written out in additions, multiplications and divisions, none of
 // them fused, so every compiler and machine gives bitwise identical results.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// ln(x) of 0 < x <= 1, not subnormal. Within two units of the last place.
+/// Returns ln(x) for 0 < x <= 1, not subnormal, within two units of the last place.
 ASPERITY_INLINE double logarithm(double x) {
     const auto bits = __builtin_bit_cast(std::uint64_t, x);
     int exponent = static_cast<int>(bits >> 52) - 1023;
@@ -36,7 +36,7 @@ ASPERITY_INLINE double logarithm(double x) {
 struct CosineSine {
     double cosine, sine;
 };
-/// Of the angle 2 pi (bits + 1/2) / 2^32. Within 2e-16.
+/// Returns cosine and sine of the angle 2 pi (bits + 1/2) / 2^32, within 2e-16.
 ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
     // The nearest quarter of a turn, and the rest x, |x| <= pi/4.
     const std::uint32_t quarter = (bits + 0x20000000u) >> 30;
@@ -55,8 +55,8 @@ ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
     return quarter & 2u ? CosineSine{-along, -across} : CosineSine{along, across};
 }
 
-/// Three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y, z: which
-/// node of the block.
+/// Returns three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y,
+/// z: place of the node in the block.
 ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int x, int y, int z) {
     const auto u = static_cast<std::uint64_t>(noise.step);
     // The C interface, whose functions are static: no variant's code is linked into another's.
@@ -75,10 +75,10 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
     return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
 }
 
-/// Adds `add` to the velocity v(n+1/2) of a node and what follows from it to its displacement
-/// u(n+1). old: v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the
-/// second is minus the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the
-/// mean w of old and v; the other half is part of the work of the force at n+1.
+/// Adds `add` to the velocity v(n+1/2) of a node and the resulting displacement to u(n+1). old:
+/// v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the second is minus
+/// the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the mean w of old and
+/// v; the other half is part of the work of the force at n+1.
 ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, double& u,
                             double add) {
     const double w = 0.5 * (old + v);
@@ -87,7 +87,7 @@ ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, do
     return add * ((2.0 - noise.drag) * w + 0.5 * add);
 }
 
-/// The noise of one node of mass m (eV fs^2/Å^2), added to v and u. Returns the energy given, eV.
+/// Adds the noise of one node of mass m (eV fs^2/Å^2) to v and u. Returns the energy given, eV.
 ASPERITY_INLINE double add_noise(const ThermalNoise& noise, double m, const Triple<double>& xi,
                                  const Triple<double>& old, Triple<double>& v, Triple<double>& u) {
     const double sigma = std::sqrt(noise.strength / m) / noise.drag;

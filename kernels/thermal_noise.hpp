@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Which Langevin noise a step has; node_noise.hpp: what it does to a node.
+// Parameters of the Langevin noise of a step; node_noise.hpp has its effect on a node.
 #pragma once
 
 #include <cstdint>
 
 namespace asperity {
 
-/// The noise of a step.
+/// Langevin noise of a step.
 struct ThermalNoise {
     std::uint64_t seed = 0;
     long long step = 0;

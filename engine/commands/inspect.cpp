@@ -37,8 +37,8 @@ namespace asperity {
 
 namespace {
 
-/// For programs: a sweep calls it before it varies the scene, so that what a run of the scene
-/// itself would refuse is listed, not thrown.
+/// Returns the check of a scene for programs: a sweep calls it before it varies the scene, so that
+/// the problems of a run of the scene itself are listed, not thrown.
 io::Json check_json(const Case& c, const Communicator& world) {
     const Scene& scene = c.scene;
     io::Json all;
@@ -63,8 +63,8 @@ io::Json check_json(const Case& c, const Communicator& world) {
     return all;
 }
 
-/// The scene of `asperity init`: what a beginner changes first, and every other key with its
-/// default behind a "#".
+/// Returns the scene of `asperity init`: the keys that a beginner changes first, and every other
+/// key with its default behind a "#".
 std::string starting_scene(const std::string& file) {
     constexpr std::array shown = {
         "surface.kind",   "surface.sites",  "surface.rms",   "surface.hurst",    "surface.seed",
@@ -153,7 +153,7 @@ int plan_command(const Case& c, const Communicator& world) {
 
 namespace {
 
-/// What the file of a measured surface holds, before the scene makes anything of it.
+/// Prints the contents of the file of a measured surface, before the scene uses them.
 void print_map_file(const Case& c) {
     const Scene& scene = c.scene;
     const io::HeightMap map = io::read_map_file(c.file, scene.surface.file_unit);

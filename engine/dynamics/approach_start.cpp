@@ -19,7 +19,7 @@ struct Height {
     double yielded; ///< energy, eV
 };
 
-/// By the block under the forces of the last sweep.
+/// Returns the energy of deformation of the block under the forces of the last sweep, eV.
 double yielded(Block& block, double force) {
     if (force == 0.0) return 0.0;
     const PlaneView<double> f = block.interface_force().z;

@@ -75,7 +75,7 @@ void Simulation::step_on_processor(bool observe) {
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
 }
 
-/// The same step; its launches are listed in kernels/device/device.hpp.
+/// Makes the same step on a device; kernels/device/device.hpp lists its launches.
 void Simulation::step_on_device(bool observe) {
     if (host_is_newer_) device_->upload(block_);
     host_is_newer_ = false;
@@ -95,7 +95,7 @@ void Simulation::step_on_device(bool observe) {
     begin_record(observe);
 }
 
-/// Everything that the host's block has: displacements, velocities, halos, prescribed planes.
+/// Copies all fields of the host's block: displacements, velocities, halos, prescribed planes.
 void Simulation::download() const {
     device_->download(block_);
     block_.set_top(block_.top());
@@ -116,7 +116,7 @@ void Simulation::sweep_interface(bool observe) {
     if (external_) add_external();
 }
 
-/// On top of the substrate's forces, which the sums above are of.
+/// Adds external forces to those of the substrate, which the sums above contain.
 void Simulation::add_external() {
     const VectorPlane<double> to = block_.interface_force();
     const VectorPlane<const double> from = external_->plane(0);
@@ -141,7 +141,7 @@ ExactSum Simulation::power_of_external() const {
     return power;
 }
 
-/// A trapezium from n-1 to n, like the works above: half with the forces at each end.
+/// Integrates by a trapezium from n-1 to n, as the works above: half with the forces at each end.
 void Simulation::integrate_external_work() {
     const auto [before, after] =
         global_sums(communicator(), std::array{external_before_, external_after_});
@@ -154,7 +154,7 @@ void Simulation::add_noise() {
     heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
 }
 
-/// In the middle of this step.
+/// Returns the velocity of the top plane in the middle of this step, Å/fs.
 double Simulation::velocity_of_top() const {
     return drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
 }
@@ -172,7 +172,7 @@ void Simulation::advance_block(bool observe) {
     if (slides()) slide();
 }
 
-/// Force and work of the step sideways: a trapezium, as along z. Before the next step has come.
+/// Adds force and work of the sideways step by a trapezium, as along z, before the next step.
 void Simulation::update_slide() {
     const std::array<double, 2> force = global_sums(communicator(), lateral_);
     const std::array<double, 2>& place = interface_.place();
@@ -187,7 +187,7 @@ void Simulation::update_slide() {
     record_.lateral_force = force;
 }
 
-/// To where the block stands over the substrate at the next step.
+/// Moves the block over the substrate to its place at the next step.
 void Simulation::slide() {
     const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
     for (int axis : {0, 1})
@@ -225,8 +225,8 @@ void Simulation::update_energy_balance() {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         balance_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         balance_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
-        // What the medium takes and gives likewise, half of it at each end; noise given after n-1
-        // was observed is part of n's energy, that of n is not yet.
+        // The medium's terms likewise, half at each end; noise given after n-1 was observed is part
+        // of n's energy, that of n is not yet.
         balance_.damped += 0.5 * (dissipated + pending_.dissipated);
         balance_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
         balance_.heat += pending_.heat;

@@ -3,14 +3,14 @@
 //
 // Langevin noise for scenes with a temperature.
 //
-// The damping that the scene asks for gets its fluctuating partner: after the kick each damped
-// node's velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2
-// (Bruenger, Brooks and Karplus 1984). Of a spring mode of frequency w the recursion's stationary
-// moments are those of
+// The damping of the scene gets its fluctuating partner: after the kick each damped node's velocity
+// receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2 (Bruenger, Brooks and
+// Karplus 1984). The stationary moments of a spring mode of frequency w are those of the
+// temperature
 //
 //   T / (1 - (w dt/2)^2)       displacements, and velocities at half steps;
 //   T / (1 + Gamma dt/2)^2     the record's kinetic energy: velocities at whole steps, without the
-//                              noise of the present step, half of which they would have.
+//                              noise of the present step, half of which belongs to them.
 //
 // xi is drawn from a counter-based generator keyed by seed, step and node
 // (kernels/node_noise.hpp): bitwise identical on any number of ranks and threads, and on a
@@ -25,16 +25,17 @@
 
 namespace asperity {
 
+/// Langevin noise of a scene with a temperature.
 class Thermostat {
 public:
-    /// temperature in K, damping in 1/fs.
+    /// Sets the parameters. temperature: K; damping: 1/fs.
     Thermostat(double temperature, double damping, std::uint64_t seed)
         : temperature_(temperature), damping_(damping), seed_(seed) {}
 
-    /// That of a step.
+    /// Returns the noise of a step.
     ThermalNoise noise(double dt, long long step) const;
 
-    /// Before a step: keeps v(n-1/2), of which the energy given depends.
+    /// Copies v(n-1/2) before a step, because the energy given by the noise depends on it.
     void keep_velocities(const Block& block, double damping_from);
     /// Adds the noise of this step to v(n+1/2) and u(n+1). Returns this rank's share of the energy
     /// given to the nodes, eV.
@@ -43,7 +44,8 @@ public:
 private:
     double temperature_, damping_;
     std::uint64_t seed_;
-    std::vector<std::vector<double>> old_; ///< of each level: rows of x, y and z of its planes
+    /// v(n-1/2): rows of x, y and z of the planes of each level
+    std::vector<std::vector<double>> old_;
 };
 
 } // namespace asperity

@@ -17,7 +17,7 @@ double LastPoint::lead(Along along) {
     return at_;
 }
 
-/// Over the substrate, with the coordinate there.
+/// Moves the block over the substrate to the place with this coordinate.
 void LastPoint::place_block(double at) {
     std::array<double, 2> place = place_;
     if (along_ == Along::x || along_ == Along::y) place[static_cast<std::size_t>(along_)] = at;

@@ -41,7 +41,8 @@ namespace {
 constexpr double nothing_there = -1e30;
 }
 
-/// An atom counts in all rings between the nearest and the farthest point of the block's row.
+/// Makes the bounds. An atom counts in all rings between the nearest and the farthest point of the
+/// block's row.
 ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest,
                        double margin, bool skip)
     : highest_(size(tile), nothing_there), lowest_(size(tile), -nothing_there) {

@@ -37,7 +37,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     relaxed_since_apart_ += works.relaxed;
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
-    // Of what moved before the cycle its losses have taken a part. Heat goes both ways.
+    // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
     if (results_.last(Segment::approach) && case_.scene.drive.temperature == 0.0)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
     if (results_.last(Segment::approach) && case_.effects.branches)

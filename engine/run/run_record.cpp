@@ -89,7 +89,7 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (out) result.set("jkr.pull_off", as_work(out->attraction));
 }
 
-/// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
+/// Adds the results of a curved scene at zero load: contact radius, and binding energy by JKR.
 void add_sphere(const Case& c, io::Result& result) {
     const Scene& scene = c.scene;
     if (!scene.surface.radius) return;
@@ -212,7 +212,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
     part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
-    // What resumes is taken as written where its time is past.
+    // A resumed run takes maps whose time is past as written.
     part["output"]["delayed"] = io::Json::array();
     for (const auto& [delay, name] : c.maps.after_approach)
         part["output"]["delayed"].push_back(name);

@@ -103,7 +103,7 @@ const char* RunSession::name(Stopped stopped) {
     return "";
 }
 
-/// On the way, of all ranks together.
+/// Returns the interruption of all ranks together, between two steps or points.
 Interruption RunSession::ask() {
     const Interruption now = interruptions_.now();
     if (now == Interruption::wall_limit) stopped_ = Stopped::wall_limit;
@@ -231,7 +231,7 @@ void RunSession::write_failure(const Path& path, const Failure& failure,
     if (!recorder_ && failure.code != io::exit_code::physics) return;
     try {
         if (recorder_) recorder_->write_on_root();
-    } catch (const std::exception&) { // what run.h5 held before must do
+    } catch (const std::exception&) { // the earlier run.h5 must do
     }
     try {
         write_result(path, &failure, add_to);
@@ -256,7 +256,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
     if (recorder_ && case_.scene.surface.radius) {
         auto series = recorder_->series();
         add_sphere_path({.segment = series["segment"],
-                         // Of a quasi-static path there are no vibrations to average.
+                         // A quasi-static path has no vibrations to average.
                          .time = case_.in_time ? series["time"] : std::vector<double>(),
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},

@@ -26,7 +26,7 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-/// "auto", or a checkpoint of the directory itself.
+/// Returns true for "auto", or a checkpoint of the directory itself.
 bool goes_on_in(const RunOptions& options) {
     if (!options.resuming()) return false;
     std::error_code error;
@@ -113,7 +113,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
     return std::nullopt;
 }
 
-/// A checkpoint of another directory brings its records along.
+/// Returns the named checkpoint; one of another directory brings its records along.
 std::optional<io::FilePlace> RunStorage::named() {
     const io::FilePlace place(options_.resume);
     const Recorder::Position position = position_in(read_checkpoint_numbers(place));

@@ -52,7 +52,8 @@ struct Numbers {
 
 std::string number(Number value, int digits) { return value ? io::number(*value, digits) : "-"; }
 
-/// With the unit behind it, as people print it; of energies over an area both units of energies().
+/// Returns a name with its unit as people print it; energies over an area have both units of
+/// energies().
 std::string named(const std::string& name, io::Key key) {
     std::string unit(io::unit_of(key));
     if (unit == "1") return name;
@@ -61,14 +62,14 @@ std::string named(const std::string& name, io::Key key) {
     return name + ", " + unit;
 }
 
-/// "55.60 (891)": meV/Å² and mJ/m².
+/// Returns an energy over an area in meV/Å² and mJ/m²: "55.60 (891)".
 std::string energies(Number value, int digits = 2) {
     if (!value) return "-";
     return fmt::format("{} ({})", io::number(*value, digits),
                        io::cell(*value * units::millijoule_per_square_metre, 3));
 }
 
-/// "55.60 meV/Å² (891 mJ/m²)".
+/// Returns an energy over an area with its units: "55.60 meV/Å² (891 mJ/m²)".
 std::string with_units(double value) {
     return fmt::format("{} meV/Å² ({} mJ/m²)", io::number(value, 2),
                        io::cell(value * units::millijoule_per_square_metre, 3));
@@ -85,7 +86,7 @@ double works_in_cycle(const PathResults& results) {
     return sum;
 }
 
-/// Works and losses of a whole path.
+/// Prints works and losses of a whole path.
 void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
     const Scene& scene = c.scene;
@@ -133,10 +134,10 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
             "{}.\n",
             with_units(lost),
-            c.in_time ? "damped, or still moves at the end" : "lost at instabilities");
+            c.in_time ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-                   c.in_time ? "energy lost + energy that still moves" : "energy lost there",
+                   c.in_time ? "energy lost + energy left in motion" : "energy lost there",
                    c.in_time ? "" : "\n  = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.in_time)
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
@@ -147,7 +148,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                        "(block.thickness) less so.\n");
 }
 
-/// The segments of a path that does more than to approach and to pull off.
+/// Prints the segments of a path that has others than approach and pull-off.
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const bool slides = c.effects.sliding;
     std::vector<std::string> head = {"segment",
@@ -284,7 +285,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"));
         if (c.effects.branches)
             row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
-        row("energy that still moves", "kinetic.approach", of("kinetic.approach"),
+        row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
             table.row({"convergence of the above, meV/Å²",
@@ -329,9 +330,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    "energy {},\n  to {:.1e} of the largest so far.\n",
                    of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
     if (state || drive_in)
-        fmt::print(to,
-                   "  Convergence is what the solver leaves. Cutoff, spacing, thickness, width, "
-                   "velocity and the choice of the\n  surface are not in it: asperity estimate.\n");
+        fmt::print(
+            to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
+                "velocity and the choice of the\n  surface are not included: asperity estimate.\n");
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

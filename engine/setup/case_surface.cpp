@@ -31,7 +31,7 @@ std::string shown(const std::string& type) {
     return type.size() <= 20 ? type : type.substr(0, 20) + "...";
 }
 
-/// "2 types: Au (300 atoms), C (255)".
+/// Returns the types of a file in words: "2 types: Au (300 atoms), C (255)".
 std::string types_of(const io::AtomsFile& file) {
     std::vector<std::size_t> count(file.types.size(), 0);
     for (const std::int32_t type : file.type)
@@ -43,7 +43,7 @@ std::string types_of(const io::AtomsFile& file) {
     return text;
 }
 
-/// For each type of the file its row of interface.pairs.
+/// Returns the row of interface.pairs of each type of the file.
 std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
     std::vector<std::int32_t> rows;
     for (const std::string& type : file.types) {
@@ -64,7 +64,7 @@ std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
     return rows;
 }
 
-/// The atoms of the scene's file, whose periodic box must be the block's.
+/// Returns the atoms of the scene's file, whose periodic box must be the block's.
 Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     const auto& s = c.scene.surface;
     io::AtomsFile file = io::read_atoms_file(c.file);
@@ -105,7 +105,7 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     return surface;
 }
 
-/// The map of the scene's file, on every rank. The root alone reads it.
+/// Returns the map of the scene's file on every rank. The root alone reads it.
 io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     const auto& s = c.scene.surface;
     io::HeightMap map;
@@ -139,8 +139,8 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
 
 namespace {
 
-/// Before anything is allocated: the heights, and the waves that they are made from and measured by
-/// (make_surface(), measure()). Throws io::SceneError.
+/// Checks the memory before anything is allocated: for the heights, and for the waves that
+/// make_surface() and measure() need. Throws io::SceneError.
 void require_memory_for_heights(const Case& c) {
     const double n = c.substrate();
     const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));

@@ -36,7 +36,7 @@ std::vector<std::string> names_of(const EachPotential& all) {
     return std::apply([](const auto&... p) { return std::vector<std::string>{p.name...}; }, all);
 }
 
-/// What is wrong with a table, in the words of its reader.
+/// Error of a table, in the words of its reader.
 struct BadTable : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -69,14 +69,14 @@ const PotentialTable& table_of(Case& c, const std::string& file) {
 constexpr const char* table_format =
     "a table has two columns, distances in Å, which ascend, and energies in eV";
 
-/// "4 r0", Å.
+/// Returns the cutoff "4 r0", Å.
 double usual_cutoff(const auto& potential) { return 4.0 * potential.zero(); }
 
 double cutoff_over(const PotentialTable& table, const Scene::Interface& keys) {
     return keys.cutoff.value_or(usual_cutoff(table.potential(table.last())));
 }
 
-/// interface.potential with its keys.
+/// Fills in the potential of interface.potential with its keys.
 void find_potential(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
     const bool wall = keys.kind == InterfaceKind::wall;
@@ -137,7 +137,7 @@ struct Entry {
     }
 };
 
-/// "Au D a r0", of a potential's parameters.
+/// Returns the form of an entry, "Au D a r0", from a potential's parameters.
 template <class P>
 std::string form_of(P p) {
     std::string form = p.name == LennardJones::name ? "type" : fmt::format("type {}", p.name);

@@ -135,13 +135,13 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _is_override(word: str) -> bool:
-    """`--set a.b=1 c.d=2 scene.toml` means what it looks like."""
+    """Returns True for an override: `--set a.b=1 c.d=2 scene.toml` means what it looks like."""
     before, equals, _ = word.partition("=")
     return bool(equals) and "." in before and "/" not in before and not os.path.exists(word)
 
 
 def _spelt_out(words: list[str]) -> list[str]:
-    """`--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that of one key the last one counts."""
+    """Spells `--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that the last value of a key counts."""
     out: list[str] = []
     for word in words:
         if _is_override(word) and len(out) > 1 and out[-2] == "--set":
@@ -241,7 +241,7 @@ def _carry_out(given: argparse.Namespace) -> int:
 
 
 def _after_the_first(code: int) -> int:
-    """The first rank says what is wrong. A launcher ends all ranks with the first one that ends."""
+    """Waits for the first rank, which prints the error; a launcher ends all ranks with the first one that ends."""
     time.sleep(5)
     return code
 

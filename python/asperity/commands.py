@@ -17,7 +17,7 @@ from .variations import Runs
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
-    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
+    """Carries out `asperity sweep`. Returns the exit code: 75 if stopped early, else that of the first failure."""
     done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
@@ -46,7 +46,8 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Its exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the target."""
+    """Carries out `asperity cost`. Returns the exit code: 75 if stopped early, that of the reference if it failed, 3 if
+    nothing keeps the target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
@@ -77,7 +78,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
 
 def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                      parts: list[str], plan: bool) -> int:
-    """Its exit code: 75 if stopped before the end, that of the scene if it failed."""
+    """Carries out `asperity estimate`. Returns the exit code: 75 if stopped early, that of the scene if it failed."""
     def say(text: str) -> None:
         print(text, flush=True)
 

@@ -21,13 +21,46 @@ Prony = Sequence[tuple[float, float]]
 
 
 def modulus(prony: Prony, frequency: Any) -> Any:
-    """E(ω)/E, complex: storage and loss."""
+    """Returns the complex modulus of a solid over its relaxed one, E(ω)/E.
+
+    Parameters
+    ----------
+    prony : sequence of (float, float)
+        Branches: modulus over the relaxed one, and relaxation time.
+    frequency : float or array
+        Angular frequency, in the inverse unit of the relaxation times.
+
+    Returns
+    -------
+    complex or array
+        Storage (real) and loss modulus (imaginary part), dimensionless.
+    """
     iw = 1j * np.asarray(frequency, float)
     return 1 + sum((r * iw * tau / (1 + iw * tau) for r, tau in prony), np.zeros(iw.shape, complex))
 
 
 def opening_factor(prony: Prony, velocity: Iterable[float] | float, tip_radius: float) -> Any:
-    """G(v)/G0 of a crack that opens; tip_radius: a0, of the slowest one."""
+    """Returns the energy release rate of an opening crack over that of the slowest one, G(v)/G0.
+
+    Parameters
+    ----------
+    prony : sequence of (float, float)
+        Branches: modulus over the relaxed one, and relaxation time.
+    velocity : float or array
+        Velocity of the crack, in the unit of tip_radius over that of the relaxation times.
+    tip_radius : float
+        Tip radius a0 of the slowest crack, a length.
+
+    Returns
+    -------
+    float or array
+        G(v)/G0 at each velocity, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If there is no branch, or a ratio, time or the radius is not positive.
+    """
     times = [tau for _, tau in prony]
     if not times or min(times) <= 0 or min(r for r, _ in prony) <= 0 or not tip_radius > 0:
         raise ValueError("a crack in a solid that relaxes has branches (ratio, time) and a tip_radius, all above 0")

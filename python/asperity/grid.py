@@ -37,14 +37,14 @@ def is_seed(key: str) -> bool:
 
 
 def _number(text: str) -> float:
-    """NaN for what is no number."""
+    """Returns the number in a text, NaN if it is none."""
     with contextlib.suppress(ValueError):
         return float(text)
     return math.nan
 
 
 def _range(text: str, where: str, whole: bool) -> list[str]:
-    """The values of "0.1:25:0.25"; none if it is no range."""
+    """Returns the values of "0.1:25:0.25"; none if it is no range."""
     numbers = [_number(part) for part in text.split(":")]
     if len(numbers) < 2 or not all(map(math.isfinite, numbers[:2])):
         return []
@@ -78,7 +78,7 @@ def _axis(key: str, values: str, where: str) -> Axis:
 
 
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
-    """The axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
+    """Returns the axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
     schema = program.schema()
     found: dict[str, Axis] = {}
     fixed: list[str] = []
@@ -107,12 +107,12 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
 
 
 def points_of(axes: list[Axis]) -> list[list[str]]:
-    """Every combination, the last axis fastest, each as a list of "key=value"."""
+    """Returns every combination, the last axis fastest, each as a list of "key=value"."""
     return [list(point) for point in itertools.product(*([f"{a.key}={v}" for v in a.values] for a in axes))]
 
 
 def shown(value: Any) -> str:
-    """A value of a key as it stands in tables and names: "3", "multiscale"."""
+    """Returns a value of a key as it stands in tables and names: "3", "multiscale"."""
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return f"{value:.12g}"
     return value if isinstance(value, str) else program.json.dumps(value)

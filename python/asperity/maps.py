@@ -33,7 +33,7 @@ def _refuse(where: object, what: str, why: str, fix: str) -> InputOutputError:
 
 
 def _length(where: object, unit: object, what: str) -> float:
-    """Å of a unit of length."""
+    """Returns the length of a unit, Å."""
     unit = unit.decode() if isinstance(unit, bytes) else str(unit)
     if unit not in LENGTHS:
         raise _refuse(where, f"the unit of its {what}, {unit}, is none of length", "known: " + ", ".join(LENGTHS),
@@ -42,7 +42,7 @@ def _length(where: object, unit: object, what: str) -> float:
 
 
 def _hdf5(file: str) -> dict:
-    """The data set NAME of "file.h5:/NAME", or /heights, or the only one of two dimensions."""
+    """Returns the data set NAME of "file.h5:/NAME", or /heights, or the only one of two dimensions."""
     path, _, name = file.partition(":/")
     with h5py.File(path, "r") as opened:
         flat: list[str] = []
@@ -57,8 +57,8 @@ def _hdf5(file: str) -> dict:
 
 
 def read_map(file: str, unit: str | None = None, size: float | None = None, channel: str | None = None) -> HeightMap:
-    """unit: of heights where the file does not tell; size: of the edge along x where it does not, Å. Raises
-    InputOutputError."""
+    """Reads a map. unit: of heights if the file does not give it; size: of the edge along x if the file does not give it, Å.
+    Raises InputOutputError."""
     path = Path(file.partition(":/")[0])
     try:
         head = path.read_bytes()[:8]
@@ -90,14 +90,14 @@ def read_map(file: str, unit: str | None = None, size: float | None = None, chan
 
 
 def square(heights: numpy.ndarray) -> numpy.ndarray:
-    """Its middle."""
+    """Returns the middle of a map that is not square."""
     n = min(heights.shape)
     y, x = ((length - n) // 2 for length in heights.shape)
     return heights[y:y + n, x:x + n]
 
 
 def without_plane(heights: numpy.ndarray) -> numpy.ndarray:
-    """Less the plane of least squares through what is there."""
+    """Subtracts the plane of least squares through the heights that exist."""
     y, x = numpy.indices(heights.shape).reshape(2, -1)
     terms = numpy.stack([numpy.ones(x.size), x, y], axis=1)
     there = numpy.isfinite(heights.ravel())
@@ -106,7 +106,7 @@ def without_plane(heights: numpy.ndarray) -> numpy.ndarray:
 
 
 def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
-    """Less the plane that makes opposite edges meet on the mean, as those of a periodic map do; and less its mean."""
+    """Subtracts the plane that makes opposite edges meet on the mean, as those of a periodic map do, and the mean."""
     found = heights
     for axis in (0, 1):
         first, second, before, last = (numpy.take(found, k, axis) for k in (0, 1, -2, -1))
@@ -118,7 +118,7 @@ def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
 
 
 def jump(heights: numpy.ndarray) -> float:
-    """The rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
+    """Returns the rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
     across = numpy.concatenate([heights[0] - heights[-1], heights[:, 0] - heights[:, -1]])
     inside = numpy.concatenate([numpy.diff(heights, axis=axis).ravel() for axis in (0, 1)])
     rms = numpy.sqrt(numpy.nanmean(inside**2))
@@ -126,12 +126,12 @@ def jump(heights: numpy.ndarray) -> float:
 
 
 def quarters(heights: numpy.ndarray) -> list[numpy.ndarray]:
-    """Of an odd number of points they share the middle row and column."""
+    """Returns the quarters of a map; with an odd number of points they share the middle row and column."""
     half = (len(heights) + 1) // 2
     return [heights[y, x] for y in (slice(half), slice(-half, None)) for x in (slice(half), slice(-half, None))]
 
 
 def mirrored(heights: numpy.ndarray) -> numpy.ndarray:
-    """Four times the area, periodic without a jump."""
+    """Returns the map with its mirror images: four times the area, periodic without a jump."""
     wide = numpy.concatenate([heights, heights[:, ::-1]], axis=1)
     return numpy.concatenate([wide, wide[::-1]], axis=0)

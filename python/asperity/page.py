@@ -20,17 +20,17 @@ from .plots import style as figures
 
 
 def file_name(text: str) -> str:
-    """A name ("every:1000") as part of the name of a file or an element."""
+    """Returns a name ("every:1000") as part of the name of a file or an element."""
     return re.sub(r"[^A-Za-z0-9.-]", "-", text)
 
 
 def minus(text: str) -> str:
-    """With the sign that is as wide as a digit."""
+    """Replaces hyphens before numbers by the minus sign, which is as wide as a digit."""
     return "−" + text[1:] if text.startswith("-") else text
 
 
 def _set(text: Any) -> Markup:
-    """Escaped, with its subscripts γ_{eff} and `commands`, and units that stay with their numbers."""
+    """Escapes a text and sets its subscripts γ_{eff} and `commands`, and keeps units with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))
     out = re.sub(r"(?<=\d)e-(?=\d)", "e\u2011", out)  # no line ends in a number
     out = re.sub(r"`([^`]*)`", r"<code>\1</code>", out)
@@ -74,11 +74,11 @@ class Page:
             self.sections[-1].parts.append((kind, content))
 
     def table(self, heads: list[str], rows: list[list[str]], links: list[str] | None = None) -> None:
-        """links: where the first cell of each row leads."""
+        """Adds a table. links: targets of the first cell of each row."""
         self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows)))})
 
     def figure(self, id: str, heading: str, caption: str, draw: Callable[[Axes], bool]) -> bool:
-        """A figure in the section, with PNG, PDF, SVG and CSV. False: there was nothing to draw."""
+        """Adds a figure to the section, with PNG, PDF, SVG and CSV. Returns False if there was nothing to draw."""
         try:
             fig = figures.make(draw)
         except Error as error:  # data that a damaged file lacks

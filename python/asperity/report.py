@@ -63,7 +63,7 @@ SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOT
 
 
 def _words(run: Result) -> dict[str, str]:
-    """What captions are filled in with; contact: which sites the program counts as in contact."""
+    """Returns the words that fill in captions; contact: the definition of sites in contact."""
     contact = "Sites nearer to an atom of the substrate than the inflection of the potential"
     if run.key("interface.kind") == "wall":
         contact = "Sites that touch the wall" if run.key("interface.law") == "exponential" else \
@@ -126,7 +126,7 @@ def _state(page: Page, run: Result, state: State) -> None:
 
 
 def _states(page: Page, run: Result) -> None:
-    """The relaxed state first; of many, some that are spread evenly."""
+    """Adds the relaxed state first; of many states, some that are spread evenly."""
     states = sorted(run.fields.values(), key=lambda s: s.name != "relaxed")
     n, few = len(states), min(len(states), MOST_STATES)
     for i in range(few):
@@ -136,7 +136,7 @@ def _states(page: Page, run: Result) -> None:
 
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
-    """Numbers by the names of columns."""
+    """Adds numbers by the names of columns."""
     def cell(line: Values, name: str, head: str) -> str:
         if name not in line:  # the friction of a segment that is no slide
             return "–"
@@ -147,7 +147,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) 
 
 
 def _segments(page: Page, run: Result) -> None:
-    """Of a path that does more than to approach and to pull off."""
+    """Adds the segments of a path that has others than approach and pull-off."""
     if set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         return
     lines = run.listed("segments", dict)
@@ -156,7 +156,7 @@ def _segments(page: Page, run: Result) -> None:
 
 
 def _numbers(page: Page, run: Result) -> None:
-    """Every number of the result, in the order of the file."""
+    """Adds every number of the result, in the order of the file."""
     rows = []
     for key, value in run.numbers().items():
         if key.split(".")[0] in ("scene", "run", "failure", "units"):
@@ -183,7 +183,7 @@ def _times(page: Page, run: Result) -> None:
 
 
 def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> None:
-    """The scene, where the numbers come from, and how to cite them."""
+    """Adds the scene, the origin of the numbers, and how to cite them."""
     if keys:
         page.section("scene", heading)
         page.add("paragraph", note)
@@ -197,7 +197,7 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
 
 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of a run; kinds: of files of its figures."""
+    """Writes DIR/report.html of a run; kinds: of files of its figures."""
     theories.complete(run)
     page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),

@@ -25,7 +25,7 @@ GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"
 
 
 def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
-    """The largest error of a question ("state", "path") over the processor time of each setting that was run."""
+    """Draws the largest error of a question ("state", "path") over the processor time of each setting that was run."""
     rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
     for label, parameters, colour, marker in GROUPS:
         if some := [r for r in rows if r.parameter in parameters]:
@@ -47,7 +47,7 @@ def csv_of(cost: Cost) -> str:
 
 
 def write(cost: Cost, directory: Path) -> list[str]:
-    """Names of the files written."""
+    """Writes the files and returns their names."""
     files.write(files.directory(directory) / "cost.csv", csv_of(cost))
     written = ["cost.csv"]
     for question in ASKED:
@@ -59,12 +59,12 @@ def write(cost: Cost, directory: Path) -> list[str]:
 
 
 def percent(error: float) -> str:
-    """A relative error in percent, three digits of it; "-": none."""
+    """Returns a relative error in percent with three digits; "-": none."""
     return "-" if math.isnan(error) else f"{100 * error:.3g}"
 
 
 def text_of(cost: Cost) -> str:
-    """The tables on the terminal."""
+    """Returns the tables for the terminal."""
     parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks a setting if no "
              "other is faster\nand more accurate: first star for the state at zero load (γ, contact), second for the whole path.\n"]
     rows: list[list[str]] = []
@@ -99,7 +99,7 @@ def text_of(cost: Cost) -> str:
 
 
 def answer_of(cost: Cost) -> str:
-    """What was found for the target; the last line is what to put behind a command."""
+    """Returns the answer for the target; its last line is to be put behind a command."""
     target, varied = f"{100 * cost.target:.6g} %", "varied: " + ", ".join(p.name for p in cost.case.parameters)
     row, question = cost.chosen, cost.case.bases[0].question
     if row is None:

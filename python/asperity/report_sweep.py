@@ -54,7 +54,7 @@ FIGURES = {
 
 
 class _Points:
-    """Of one sweep the points that are shown one by one."""
+    """Points of one sweep that are shown one by one."""
 
     def __init__(self, sweep: Sweep, directory: Path):
         self.links: list[str] = []
@@ -93,7 +93,7 @@ class _Points:
 
 
 def _force_curves(points: _Points, ax: Axes) -> bool:
-    """The force curves of several points in one plot, spread evenly over them."""
+    """Draws the force curves of several points in one plot, spread evenly over them."""
     runs = [(n, r) for n, r in points.runs
             if {"segment", "mean_height", "force"} <= set(r.series) and len(r.series["segment"]) > 1]
     if len(runs) < 2:
@@ -118,7 +118,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
 
 
 def _half_way(table: Table, column: str) -> float | None:
-    """The roughness at which a quantity has fallen to half, between the points; seeds averaged."""
+    """Returns the roughness at which a quantity has fallen to half, between the points; seeds averaged."""
     means = table.average(table.values(column)).mean
     points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
     for (x0, y0), (x1, y1) in zip(points, points[1:]):
@@ -128,7 +128,7 @@ def _half_way(table: Table, column: str) -> float | None:
 
 
 def key_numbers(sweep: Sweep) -> list[KeyNumber]:
-    """What a sweep over roughness alone comes to."""
+    """Returns the key numbers of a sweep over roughness alone."""
     table, curves = sweep.table, sweep.curves
     if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not table.along:
         return []
@@ -186,7 +186,7 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
 
 
 def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
+    """Writes DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
     sweeps = load_sweeps(directory)
     page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
                 kinds=kinds)
@@ -221,7 +221,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of what it holds: an estimate, a sweep, those of several scenes in its folders, or a run."""
+    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run."""
     if (directory / RESULT).exists():
         page = page_of(load_estimate(directory))
         page.write()

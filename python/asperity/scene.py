@@ -21,7 +21,7 @@ Overrides = Union[Mapping[str, Any], list]
 
 
 def toml_value(value: Any) -> str:
-    """A value as it stands in TOML; a JSON string is a TOML string as well."""
+    """Returns a value as it stands in TOML; a JSON string is a TOML string as well."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml_value(v) for v in value) + "]"
     if hasattr(value, "item"):  # a number of numpy
@@ -32,7 +32,7 @@ def toml_value(value: Any) -> str:
 
 
 def toml_of(scene: Mapping[str, Any]) -> str:
-    """The TOML text of {"surface": {"rms": 1}, ...}; keys may also be whole: {"surface.rms": 1}."""
+    """Returns the TOML text of {"surface": {"rms": 1}, ...}; keys may also be whole: {"surface.rms": 1}."""
     lines, sections = [], []
     for name, value in scene.items():
         if isinstance(value, Mapping):
@@ -45,7 +45,7 @@ def toml_of(scene: Mapping[str, Any]) -> str:
 
 
 def assignments(overrides: Overrides | None) -> list[str]:
-    """Overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
+    """Returns overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
     if not isinstance(overrides, Mapping):
         return list(overrides or [])
     found = []
@@ -58,7 +58,7 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 
 def _caller() -> str:
-    """File and line of the script that called the package."""
+    """Returns file and line of the script that called the package."""
     package = str(Path(__file__).parent)
     frame = sys._getframe(1)
     while frame and (frame.f_code.co_filename.startswith(package) or frame.f_code.co_filename == contextlib.__file__):
@@ -68,7 +68,7 @@ def _caller() -> str:
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
-    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if it is given.
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name", in the folder if it is given.
     overrides: those that a script gave; errors about them name the script."""
     try:
         with _file_of(scene, folder) as file:

@@ -23,7 +23,7 @@ STATUS = {
 
 
 def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
-    """Where the result goes, by the rules of the program (io/result_directory.hpp), and what to say of it."""
+    """Returns the directory of the result, by the rules of the program (io/result_directory.hpp), and the message about it."""
     place = files.chosen(asked, f"results/{name}-theory")
     if not (place / "result.json").exists() and not (place / "run.journal").exists():
         return place, []
@@ -47,7 +47,7 @@ def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _text(point: Values) -> str:
-    """What is printed."""
+    """Returns the printed text."""
     flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 

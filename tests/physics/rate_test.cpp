@@ -235,7 +235,7 @@ TEST(Rate, APathIsTheMotionOfOneCoordinate) {
     test::PathCase reference(relaxing(8, 3, two), test::flat_surface(8), smooth);
     const double start = reference.interface.start_height();
     const double spring = reference.spring() / 64.0, down = start - 2.0;
-    const SmearedWall<LennardJones>::In<double> law(smooth);
+    const SmearedWall<LennardJones>::Terms<double> law(smooth);
     struct State {
         double u;
         std::vector<double> h;
