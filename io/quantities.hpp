@@ -80,18 +80,28 @@ inline constexpr Quantity result_quantities[] = {
     {"lost.cycle", "meV/Å^2", per::area,
      "energy lost over a whole cycle, from and to rest beyond the interaction range, with "
      "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
-     "+ work_of_drive.pull_off"},
+     "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without "
      "a load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "what a block that relaxes (block.prony) has dissipated by relaxing on the approach, beside "
-     "lost.approach: work_of_drive.approach = change of the energies of interface and block, "
-     "branches included, + lost.approach + dissipated_in_block.approach"},
-    {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "energy that a block that relaxes (block.prony) has dissipated by relaxing on the approach, "
+     "beside lost.approach"},
+    {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
+     "the same of the pull-off: at its end a block that is still stretched comes to rest, without "
+     "work of the drive"},
     {"dissipated_in_block.cycle", "meV/Å^2", per::area, "the same over a whole cycle"},
+    {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
+     "convergence of dissipated_in_block.approach"},
+    {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
+     "convergence of dissipated_in_block.pull_off"},
+    {"stored.approach", "meV/Å^2", per::area,
+     "change of the energy of interface and block (branches included) on the approach of a "
+     "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, on the approach, on "
+     "the pull-off and in each segment; over a cycle nothing is stored"},
+    {"stored.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
@@ -121,8 +131,8 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
     {"segments[].name", "", "", "as the scene has it"},
     {"segments[].work_of_drive", "meV/Å^2", per::area,
-     "work of the drive on the solids, also sideways; from rest where the path starts, and to rest "
-     "beyond the interaction range at a pull-off"},
+     "work of the drive on the solids, also sideways; on dynamic paths from rest where the path "
+     "starts, and to rest beyond the interaction range at a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "∫ F dz of the mean height; left out at a controlled top on quasi-static paths"},
     {"segments[].lost", "meV/Å^2", per::area,
@@ -130,13 +140,17 @@ inline constexpr Quantity result_quantities[] = {
      "net heat, damped less what the thermostat's noise gives: at rest it fluctuates as the energy "
      "does and does not grow, and the first segment includes what warms the block from 0 K"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "what a block that relaxes has dissipated by that, beside lost"},
+     "energy that a block that relaxes has dissipated by that, beside lost"},
+    {"segments[].stored", "meV/Å^2", per::area,
+     "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
+     "dissipated_in_block"},
     {"segments[].kinetic", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
      "path "
      "at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "convergence of work_of_drive and lost (quasi-static), for the sequence of instabilities that "
+     "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
+     "of instabilities that "
      "the path takes"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
     {"segments[].friction", "eV/Å", per::block,

@@ -41,13 +41,23 @@ public:
 
     /// Makes the present state of the block the last point.
     void accept(double at);
+    /// Returns the sum of the displacements of the sites of the lowest layer since the last point,
+    /// Å. Collective.
+    double all_moves() const;
     /// Puts the block back to the last point.
     void put_back();
     using Report = std::function<bool(long long, double)>;
     /// Relaxes from the last point with the coordinate at this value, dt later (fs; infinite: at
-    /// rest). report and window as in RelaxOptions. Collective.
+    /// rest), as the continuation of the step before unless turn() was called since. report and
+    /// window as in RelaxOptions. Collective.
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
+
+    /// The next step in time does not continue the last one: the displacements have changed their
+    /// course.
+    void turn() { last_dt_ = HUGE_VAL; }
+    /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
+    double last_dt() const { return last_dt_; }
 
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
@@ -69,6 +79,7 @@ public:
         v("clock", clock_);
         v("iterations", iterations_);
         v("balance", balance_);
+        v("last_dt", last_dt_);
     }
     std::vector<StateArray> states();
 
@@ -91,6 +102,8 @@ private:
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     long long iterations_ = 0;
+    double dt_ = HUGE_VAL;      ///< of the step under way, fs
+    double last_dt_ = HUGE_VAL; ///< of the step that this one continues, fs
 };
 
 } // namespace asperity

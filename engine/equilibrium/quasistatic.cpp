@@ -19,6 +19,11 @@
 
 namespace asperity {
 
+namespace {
+/// A step that is short in time, over the shortest time of the branches.
+constexpr double short_time = 0.02;
+} // namespace
+
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report) {
     PathOptions o;
@@ -112,6 +117,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     energy_at_start_ = energy - record_.work;
     set_record(state, top);
     trail_.begin(top, state.top_force);
+    if (!here.from_apart) turn();
 }
 
 void QuasistaticPath::resume() {
@@ -178,6 +184,7 @@ void QuasistaticPath::begin(Along along, double direction) {
         course_.direction = direction;
         trail_.begin(at(), force());
         bracket_.reset();
+        turn();
     }
     length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
@@ -189,8 +196,9 @@ void QuasistaticPath::begin(Along along, double direction) {
     const double a = block_.options().spacing;
     course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
                        slack(record_.in_contact));
-    course_.bracketed = false;
+    course_.bracketed = course_.comes_to_rest = false;
     course_.work = course_.relaxed = course_.gap = course_.squares = 0.0;
+    course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
 }
 
@@ -211,10 +219,41 @@ double QuasistaticPath::time_of(double step) const {
     return options_.velocity > 0.0 ? step / options_.velocity : HUGE_VAL;
 }
 
-/// So short that displacements may be taken to go evenly over it.
+/// So short that the block hardly relaxes in it.
 bool QuasistaticPath::is_short_in_time(double step) const {
     if (!(options_.velocity > 0.0)) return true;
-    return time_of(step) <= 0.02 * block_.options().branches.front().time;
+    return time_of(step) <= short_time * block_.options().branches.front().time;
+}
+
+void QuasistaticPath::turn() {
+    if (!(options_.velocity > 0.0)) return;
+    last_.turn();
+    const double shortest = block_.options().branches.front().time;
+    length_ = std::min(length_, short_time * shortest * options_.velocity);
+}
+
+/// Å. With a block that relaxes also a tenth of a step that is short in time, unless the rounding
+/// of positions forbids it.
+double QuasistaticPath::smallest_step() const {
+    const double smallest = options_.step * 0x1p-16;
+    if (!(options_.velocity > 0.0)) return smallest;
+    const double shortest = block_.options().branches.front().time;
+    return std::min(smallest, std::max(0.1 * short_time * shortest * options_.velocity,
+                                       options_.step * 0x1p-30));
+}
+
+/// What energy may be missing in a step in which the drive goes so far (Å), eV: no less than what
+/// sums over the sites leave out (kernels/exact_sum.hpp).
+double QuasistaticPath::allowed_missing(double way) const {
+    return std::max(options_.tolerance * sites_ * way, sites_ * 0x1p-51);
+}
+
+/// A patch of a slow block that becomes unstable goes its way while the drive hardly moves: the
+/// tolerance is then for each Å of the way of each site.
+double QuasistaticPath::allowed_missing_in_time(double way) const {
+    const double allowed = allowed_missing(std::min(way, options_.step));
+    if (!(options_.velocity > 0.0)) return allowed;
+    return std::max(allowed, options_.tolerance * last_.all_moves());
 }
 
 /// A hold has no other bound than its errors.
@@ -223,10 +262,13 @@ double QuasistaticPath::longest_step() const {
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
+    if (course_.comes_to_rest) return come_to_rest();
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     const double aim = course_.rule.aim();
     for (;;) {
         const bool all_the_way = bisect();
+        if (std::isfinite(last_.last_dt())) // a step continues no one that is much shorter
+            length_ = std::min(length_, 2.0 * last_.last_dt() * options_.velocity);
         const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
         const bool arrives = left <= length_;
@@ -259,15 +301,15 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             const PathPoint trial = point(state, there);
             const StepDecision step =
                 decide(point(), trial, trail_,
-                       {allowed_missing(std::min(way, options_.step)), allowed_uncertainty(),
-                        last_try, is_short_in_time(way)});
+                       {allowed_missing_in_time(way), allowed_uncertainty(), last_try,
+                        is_short_in_time(way), state.branches.error});
             if (step.verdict != StepDecision::halve) {
                 accept(state, there, step);
                 if (arrives) length_ = std::max(length_, planned);
                 return outcome();
             }
-            if (!step.excess) bracket_ = {there, trial.force};
-        } else if (state.jumped) {
+            if (!step.excess && !step.coarse) bracket_ = {there, trial.force};
+        } else if (state.jumped && is_short_in_time(way)) {
             bracket_ = {there, state.force};
         }
         length_ *= 0.5;
@@ -284,11 +326,32 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:
-        return Outcome::apart;
+        // A block that relaxes may still be stretched: the next point is the one at rest.
+        course_.comes_to_rest = options_.velocity > 0.0;
+        return course_.comes_to_rest ? Outcome::point : Outcome::apart;
     case SegmentRule::End::no:
         break;
     }
     return Outcome::point;
+}
+
+/// The solids are apart, and what the block has stored it dissipates without any work.
+QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
+    const long long iterations = last_.iterations();
+    RelaxedState state = last_.relax_at(at(), HUGE_VAL, options_.report);
+    if (state.interrupted) {
+        put_back();
+        last_.set_iterations(iterations);
+        return Outcome::interrupted;
+    }
+    if (!state.converged) refuse_place(state, at());
+    const PathPoint before = point();
+    state.branches.dissipated = std::max(
+        before.energy - record_.relaxed - state.interface_energy - state.elastic_energy, 0.0);
+    const PathPoint there = point(state, at());
+    accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
+    course_.comes_to_rest = false;
+    return Outcome::apart;
 }
 
 void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
@@ -370,7 +433,8 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
     course_.work += step.work;
-    course_.gap += std::abs(step.gap);
+    // An extension that is wrong acts on with the larger ones that follow: twice.
+    course_.gap += std::abs(step.gap) + 2.0 * state.branches.error;
     course_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     const double way = std::abs(at - this->at());
@@ -394,7 +458,10 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;
     // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
-    if (!step.smooth) length_ = std::max(length_, options_.step / 4.0);
+    if (!step.smooth) {
+        length_ = std::max(length_, options_.step / 4.0);
+        turn();
+    }
     length_ = std::clamp(length_, smallest_step(), longest_step());
 }
 

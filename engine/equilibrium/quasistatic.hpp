@@ -86,11 +86,11 @@ public:
     void begin_to(double at);
     enum class Outcome { point, at_load, apart, there, interrupted };
     /// The next point of the segment. at_load: an approach or a load has come to its load (the path
-    /// stands there exactly); apart: nothing is left of the force on a pull-off; there: a height or
-    /// a slide has come to its end, exactly. Where a relaxation was interrupted, block and path are
-    /// back at the last point, and the next call makes the whole point again. Collective. Throws
-    /// io::PhysicsError where no equilibrium is found, and where the solids part on the way to a
-    /// pull.
+    /// stands there exactly); apart: nothing is left of the force on a pull-off, and the block is
+    /// at rest; there: a height or a slide has come to its end, exactly. Where a relaxation was
+    /// interrupted, block and path are back at the last point, and the next call makes the whole
+    /// point again. Collective. Throws io::PhysicsError where no equilibrium is found, and where
+    /// the solids part on the way to a pull.
     Outcome advance();
 
     /// The last point. On quasi-static paths: step counts points, damped is what was dissipated.
@@ -99,13 +99,16 @@ public:
     /// minus that of the interface's force, for the mean height does not jump.
     double work() const { return course_.work; }
     /// What this, and what was dissipated in the segment, may be wrong by, eV: the sum of the gaps
-    /// in the energy balance of its steps, and three times the root of the sum of squares of what
-    /// the work of each step with an instability is not known by. (Three, for these errors are not
-    /// independent: measured in docs/explanation/relaxation.md.)
+    /// in the energy balance of its steps and of their errors in time, and three times the root of
+    /// the sum of squares of what the work of each step with an instability is not known by.
+    /// (Three, for these errors are not independent: measured in docs/explanation/relaxation.md.)
     double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
     /// What a block that relaxes has dissipated in the segment under way, beside the dissipation at
     /// instabilities, eV.
     double relaxed() const { return course_.relaxed; }
+    /// Returns the change of the energy of interface and block, branches included, in the segment
+    /// under way, eV: work() less this and what was dissipated is 0 to within uncertainty().
+    double stored() const { return record_.energy() - course_.stored_at_start; }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -126,17 +129,19 @@ private:
     /// Of the segment under way.
     struct Course {
         Segment::Kind kind = Segment::approach;
-        std::size_t number = 0;     ///< in the path
-        Along along = Along::z;     ///< what it leads
-        double direction = -1.0;    ///< of that; 0: the segment ends where it began
-        std::optional<double> end;  ///< where it ends, Å; none: at a load, or apart
-        std::optional<double> load; ///< eV/Å; none: an approach's, or apart
-        SegmentRule rule;           ///< of one that a force ends
-        bool bracketed = false;     ///< the load at which the segment ends
-        double work = 0.0;          ///< of the top plane, eV
-        double relaxed = 0.0;       ///< dissipated by the block, eV
-        double gap = 0.0;           ///< the sum of those of its steps, eV
-        double squares = 0.0;       ///< of what the works of its steps are not known by, eV^2
+        std::size_t number = 0;       ///< in the path
+        Along along = Along::z;       ///< what it leads
+        double direction = -1.0;      ///< of that; 0: the segment ends where it began
+        std::optional<double> end;    ///< where it ends, Å; none: at a load, or apart
+        std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
+        SegmentRule rule;             ///< of one that a force ends
+        bool bracketed = false;       ///< the load at which the segment ends
+        bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
+        double work = 0.0;            ///< of the top plane, eV
+        double relaxed = 0.0;         ///< dissipated by the block, eV
+        double stored_at_start = 0.0; ///< energy of interface and block, eV
+        double gap = 0.0;             ///< the sum of those of its steps, with errors in time, eV
+        double squares = 0.0;         ///< of what the works of its steps are not known by, eV^2
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -147,8 +152,10 @@ private:
             v("load", load);
             v("rule", rule);
             v("bracketed", bracketed);
+            v("comes_to_rest", comes_to_rest);
             v("work", work);
             v("relaxed", relaxed);
+            v("stored_at_start", stored_at_start);
             v("gap", gap);
             v("squares", squares);
         }
@@ -167,6 +174,7 @@ private:
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
+    Outcome come_to_rest();
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }
@@ -181,12 +189,12 @@ private:
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, Here here);
     double longest_step() const;
-    double smallest_step() const { return options_.step * 0x1p-16; }
-    /// What energy may be missing in a step of this length, eV: no less than what sums over the
-    /// sites leave out (kernels/exact_sum.hpp).
-    double allowed_missing(double step) const {
-        return std::max(options_.tolerance * sites_ * step, sites_ * 0x1p-51);
-    }
+    double smallest_step() const;
+    double allowed_missing(double way) const;
+    /// The same of a step in which a block that relaxes may go on without the drive. Collective.
+    double allowed_missing_in_time(double way) const;
+    /// The displacements change their course in time: the next step continues none, and is short.
+    void turn();
     /// Of the work of a step with an instability, eV.
     double allowed_uncertainty() const { return allowed_missing(options_.step); }
 

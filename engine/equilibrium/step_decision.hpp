@@ -100,6 +100,7 @@ struct StepLimits {
     /// It is short beside the times in which the block relaxes: what is missing is then no error of
     /// the step in time.
     bool short_in_time = true;
+    double in_time = 0.0; ///< error of the step in time, eV (block_memory.hpp)
 };
 
 struct StepDecision {
@@ -115,6 +116,7 @@ struct StepDecision {
     double uncertain = 0.0;  ///< of the work, where energy is missing, eV
     bool smooth = true;      ///< the force did not jump
     bool excess = false;     ///< more energy gained than the work can have brought
+    bool coarse = false;     ///< halved for its error in time, not for an instability
     double growth = 1.0;     ///< of the step that follows
 };
 
@@ -125,16 +127,19 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     StepDecision d;
     d.work = -integral.value;
     const double missing = d.work - gained;
-    const double error =
-        limits.short_in_time ? std::min(integral.error, std::abs(missing)) : std::abs(missing);
+    const double error = std::max(limits.short_in_time ? std::min(integral.error, std::abs(missing))
+                                                       : std::abs(missing),
+                                  limits.in_time);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
     if (std::abs(missing) <= limits.missing) {
-        d.verdict = StepDecision::accept;
+        d.coarse = limits.in_time > limits.missing && !limits.last_try;
+        if (!d.coarse) d.verdict = StepDecision::accept;
         d.gap = missing;
         return d;
     }
+    d.coarse = !limits.short_in_time;
     // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
     // the residual.
     d.uncertain = integral.error;

@@ -8,9 +8,12 @@
 //      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
 //      approach
 //
-// (a block that relaxes has not come to rest, and dissipates in time beside that). Works are done
-// on the solids; "kinetic" is the energy of motion left at the end: kinetic energy, and that of
-// vibrations about the state.
+// Of every segment of a quasi-static path, wherever it starts and ends,
+//
+//     work of the drive = stored + lost + dissipated in the block,
+//
+// stored: the change of the energy of interface and block. Works are done on the solids; "kinetic"
+// is the energy of motion left at the end: kinetic energy, and that of vibrations about the state.
 #pragma once
 
 #include "engine/path/path_results.hpp"
@@ -24,10 +27,11 @@ namespace asperity {
 
 /// Works and losses between two ends of segments, eV.
 struct Works {
-    double on_solids = 0.0; ///< work of the drive or holder on the block
-    double lateral = 0.0;   ///< part of on_solids that moves the block sideways
-    double relaxed = 0.0;   ///< energy dissipated in time by a block that relaxes
-    double lost = 0.0;      ///< energy damped less the heat of a thermostat, or dissipated
+    double on_solids = 0.0;       ///< work of the drive or holder on the block
+    double lateral = 0.0;         ///< part of on_solids that moves the block sideways
+    double relaxed = 0.0;         ///< energy dissipated in time by a block that relaxes
+    double lost = 0.0;            ///< energy damped less the heat of a thermostat, or dissipated
+    std::optional<double> stored; ///< change of the energy; quasi-static paths only
     /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where the mean
     /// height jumps.
     std::optional<double> interface;
@@ -43,6 +47,7 @@ struct Works {
         v("lateral", lateral);
         v("relaxed", relaxed);
         v("lost", lost);
+        v("stored", stored);
         v("interface", interface);
         v("uncertainty", uncertainty);
     }

@@ -31,6 +31,8 @@ struct SegmentResults {
     std::optional<double> interface_work;
     std::optional<double> relaxed; ///< energy dissipated in time by a block that relaxes
     double lost = 0.0;             ///< energy damped (less the heat of a thermostat) or dissipated
+    /// Change of the energy of interface and block; quasi-static only.
+    std::optional<double> stored;
     /// Energy of motion left at the end of a dynamic path at T = 0: kinetic energy and vibrations
     /// about the state at zero load after an approach (empty if that state is not known), or about
     /// the solids at rest apart after a pull-off.
@@ -52,6 +54,7 @@ struct SegmentResults {
         v("work_of_interface", interface_work);
         v("relaxed", relaxed);
         v("lost", lost);
+        v("stored", stored);
         v("kinetic", kinetic);
         v("uncertainty", uncertainty);
         v("attraction", attraction);

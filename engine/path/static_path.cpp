@@ -93,6 +93,7 @@ void StaticPath::conclude() {
                     .lateral = slide ? points_->work() : 0.0,
                     .relaxed = points_->relaxed(),
                     .lost = points_->dissipation().in_segment,
+                    .stored = points_->stored(),
                     .interface = {},
                     .uncertainty = points_->uncertainty()};
         // A held mean height does not jump: the holder's force is that of the interface.

@@ -135,6 +135,7 @@ Works TimePath::so_far() const {
             .lateral = balance.lateral,
             .relaxed = 0.0,
             .lost = balance.net_damped(),
+            .stored = {},
             .interface = interface_work_,
             .uncertainty = {}};
 }

@@ -75,6 +75,11 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (in) result.set("dissipated_in_block.approach", in->relaxed);
     if (out) result.set("dissipated_in_block.pull_off", out->relaxed);
     result.set("dissipated_in_block.cycle", results.relaxed_in_cycle);
+    if (in && in->relaxed) result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
+    if (out && out->relaxed)
+        result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
+    if (in) result.set("stored.approach", in->stored);
+    if (out) result.set("stored.pull_off", out->stored);
     if (!radius) return;
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
@@ -114,6 +119,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
         given("segments[].dissipated_in_block", s.relaxed);
+        given("segments[].stored", s.stored);
         given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);

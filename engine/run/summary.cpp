@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace asperity {
 
@@ -74,19 +75,33 @@ std::string with_units(double value) {
                        io::cell(value * units::millijoule_per_square_metre, 3));
 }
 
+/// Returns the works of the drive of all segments of the last cycle, meV/Å^2.
+double works_in_cycle(const PathResults& results) {
+    double sum = 0.0;
+    bool ended = false;
+    for (auto s = results.segments.rbegin(); s != results.segments.rend(); ++s) {
+        if (s->kind == Segment::pull_off && std::exchange(ended, true)) break;
+        if (ended) sum += s->work;
+    }
+    return sum;
+}
+
 /// Prints works and losses of a whole path.
-void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
+void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
+                 double flat) {
     const Scene& scene = c.scene;
     if (scene.drive.temperature > 0.0) {
         fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
     if (const Number relaxed = of("dissipated_in_block.cycle")) {
+        const double lost = of("lost.cycle").value_or(0.0);
         fmt::print(
             to,
-            "  From the approach to the end of the pull-off {} are dissipated in the block,\n"
-            "  which relaxes, and {} are lost at instabilities.\n",
-            with_units(*relaxed), with_units(of("lost.cycle").value_or(0.0)));
+            "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
+            "  {} are dissipated in the block, which relaxes,\n"
+            "  and {} are lost at instabilities.\n",
+            with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,
@@ -138,17 +153,20 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const bool slides = c.effects.sliding;
     std::vector<std::string> head = {"segment",
                                      named("work of the drive", "segments[].work_of_drive"),
-                                     named("lost", "segments[].lost"),
-                                     named("ends at", "segments[].pressure"),
-                                     named("mean height", "segments[].mean_height"),
-                                     "contact"};
+                                     named("lost", "segments[].lost")};
+    if (c.effects.branches)
+        head.push_back(named("dissipated in the block", "segments[].dissipated_in_block"));
+    if (!c.in_time) head.push_back(named("stored", "segments[].stored"));
+    head.insert(head.end(), {named("ends at", "segments[].pressure"),
+                             named("mean height", "segments[].mean_height"), "contact"});
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
     for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {
-            c.path[s.number].text,    energies(s.work),
-            energies(s.lost),         number(s.force / (c.area() * units::megapascal), 1),
-            number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)};
+        std::vector<std::string> row = {c.path[s.number].text, energies(s.work), energies(s.lost)};
+        if (c.effects.branches) row.push_back(energies(s.relaxed));
+        if (!c.in_time) row.push_back(energies(s.stored));
+        row.insert(row.end(), {number(s.force / (c.area() * units::megapascal), 1),
+                               number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)});
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
     }
@@ -265,6 +283,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy lost", "lost.approach", of("lost.approach"), of("lost.pull_off"));
         row("dissipated in the block", "dissipated_in_block.approach",
             of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"));
+        if (c.effects.branches)
+            row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
         row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
@@ -303,7 +323,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
                    "sphere what follows\n  from it, are about {:.3g} times too large.\n",
                    *pinning);
-    if (drive_in && drive_out) print_cycle(to, c, of, flat);
+    if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,
                    "  Energy balance: work on the solids = kinetic + elastic + interface energy + "

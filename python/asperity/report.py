@@ -57,6 +57,7 @@ DISTRIBUTIONS = (
      "beyond the interaction range are left out: the integral is the fraction of the others."),
     ("gaps", "Distribution of gaps", "Probability density of the gaps of all sites; the integral is one."))
 SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOTH, "lost": "lost" + BOTH,
+                   "dissipated_in_block": "dissipated in the block" + BOTH, "stored": "stored" + BOTH,
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
 
@@ -79,7 +80,8 @@ def _words(run: Result) -> dict[str, str]:
                       "Work of the drive = interface + elastic + kinetic + damped" +
                       " + the energy of the time step" * ("time_step_energy" in run.series) + ". The drive is the top plane, and the "
                       "medium of the damping that moves with it.",
-            "loading": "The area between approach and pull-off is the energy lost in a cycle." if static else
+            "loading": "The area between approach and pull-off is the energy lost and dissipated in the block in a cycle." if relaxes else
+                       "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
                        "the damping does is not in it.", "at": run.load_words[0],
             "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}

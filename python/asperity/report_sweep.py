@@ -45,7 +45,8 @@ FIGURES = {
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
     "pull-off": ("Pull-off force", "Largest attraction of the substrate on the block during the pull-off."),
-    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle."),
+    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle; of a "
+                   "block that relaxes also what it dissipates."),
     "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
                  "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
                  "energy."),

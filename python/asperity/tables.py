@@ -192,6 +192,7 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
                  ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
+                 ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (

@@ -101,8 +101,11 @@ SIMULATED: dict[str, Spec] = {
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
         Trace("cycle", "lost.cycle", PINK, "", "D"),
-        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<"),
-        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False)])}
+        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<",
+              uncertainty="dissipated_in_block.uncertainty.approach"),
+        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False,
+              uncertainty="dissipated_in_block.uncertainty.pull_off"),
+        Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], [])}
