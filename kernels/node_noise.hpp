@@ -102,7 +102,8 @@ ASPERITY_INLINE NoiseEnergies push(const ThermalNoise& noise, double old, double
     return {add * (w - lost + 0.5 * add), 0.5 * (add * w + 0.25 * add * add + 0.25 * jump * jump)};
 }
 
-/// Returns the change of velocity of a node of mass m (eV fs^2/Å^2) by noise, Å/fs, for each unit of xi.
+/// Returns the change of velocity of a node of mass m (eV fs^2/Å^2) by noise, Å/fs, for each unit
+/// of xi.
 ASPERITY_INLINE double noise_speed(const ThermalNoise& noise, double m) {
     return std::sqrt(noise.strength / m) / noise.drag;
 }
