@@ -21,7 +21,7 @@ class LastPoint {
 public:
     struct Options {
         Constraint::Of along = Constraint::Of::top;
-        double tolerance = 0.0; ///< of points, eV/Å
+        double tolerance = 0.0; ///< of the first point, eV/Å
         Scales scales;
         double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
@@ -36,6 +36,10 @@ public:
     double at() const { return at_; }
     /// What the sum of the residual forces of a point may be from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
+
+    /// Sets the largest residual force of points from now on, eV/Å.
+    void relax_to(double tolerance) { options_.tolerance = tolerance; }
+    double tolerance() const { return options_.tolerance; }
 
     /// The block as it is becomes the last point.
     void accept(double at);
