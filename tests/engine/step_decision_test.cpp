@@ -102,9 +102,9 @@ TEST(StepDecision, EnergyThatTheWorkCannotHaveBroughtIsNoStep) {
 TEST(StepDecision, TheShortestStepIsAcceptedAsItIs) {
     StepLimits last = limits;
     last.last_try = true;
-    const StepDecision d = decide(spring(1.0), after_jump(1.1, 0.05, 0.5), trail_to(1.0), last);
+    const StepDecision d = decide(spring(1.0), after_jump(1.1, 0.1, 0.5), trail_to(1.0), last);
     EXPECT_EQ(d.verdict, StepDecision::jump);
-    EXPECT_NEAR(d.work - (after_jump(1.1, 0.05, 0.5).energy - 1.0) - d.dissipated, d.gap, 1e-12);
+    EXPECT_NEAR(d.work - (after_jump(1.1, 0.1, 0.5).energy - 1.0) - d.dissipated, d.gap, 1e-12);
 }
 
 } // namespace
