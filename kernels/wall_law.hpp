@@ -115,6 +115,15 @@ public:
     };
     double force(double gap) const { return Terms<double>(*this).force(gap); }
     double energy(double gap) const { return Terms<double>(*this).energy(gap); }
+    /// Returns -dF/dg at this gap, eV/Å^2.
+    double stiffness_at(double gap) const {
+        if (gap > reach_) return 0.0;
+        return gap < floor_ ? stiffness_ : Terms<double>(*this).slope(gap);
+    }
+    /// Returns how far a site may be below the wall under a force that presses, Å.
+    double depth_under(double force) const {
+        return std::fmax(0.0, (force - this->force(floor_)) / stiffness_ - floor_);
+    }
     /// Returns the least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return softest_; }
     /// Returns the length over which the attraction fades, Å: about the largest tension over
@@ -202,6 +211,14 @@ public:
     };
     double force(double gap) const { return Terms<double>(*this).force(gap); }
     double energy(double gap) const { return Terms<double>(*this).energy(gap); }
+    /// Returns -dF/dg at this gap, eV/Å^2.
+    double stiffness_at(double gap) const {
+        return gap < 0.0 ? stiffness_ : Terms<double>(*this).force(gap) / range_;
+    }
+    /// Returns how far a site may be below the wall under a force that presses, Å.
+    double depth_under(double force) const {
+        return (std::fmax(0.0, force) + tension_) / stiffness_;
+    }
     double softest() const { return -tension_ / range_; }
     double range() const { return range_; }
     /// Returns the gap below which a site is in contact, Å: sites that touch the repulsion.

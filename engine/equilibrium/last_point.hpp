@@ -22,7 +22,7 @@ class LastPoint {
 public:
     struct Options {
         Constraint::Of along = Constraint::Of::top;
-        double tolerance = 0.0; ///< tolerance of points, eV/Å
+        double tolerance = 0.0; ///< tolerance of the first point, eV/Å
         Scales scales;
         double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
@@ -38,6 +38,10 @@ public:
     double at() const { return at_; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
+
+    /// Sets the largest residual force of points from now on, eV/Å.
+    void relax_to(double tolerance) { options_.tolerance = tolerance; }
+    double tolerance() const { return options_.tolerance; }
 
     /// Makes the present state of the block the last point.
     void accept(double at);

@@ -108,7 +108,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     const RelaxedState state = last_.relax_at(top, dt, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
-                               why_not_converged(state, 0.25 * options_.tolerance),
+                               why_not_converged(state, last_.tolerance()),
                                "a larger drive.tolerance, or a height further from the substrate");
     last_.accept(top);
     record_.step = 0;
@@ -180,6 +180,7 @@ void QuasistaticPath::begin_to(double at) {
 void QuasistaticPath::begin(Along along, double direction) {
     if (along != course_.along || direction != course_.direction) {
         // No points of the segment before for the integral.
+        if (along != course_.along) trail_.forget_slope();
         course_.along = along;
         course_.direction = direction;
         trail_.begin(at(), force());
@@ -244,16 +245,16 @@ double QuasistaticPath::smallest_step() const {
 
 /// What energy may be missing in a step in which the drive goes so far (Å), eV: no less than what
 /// sums over the sites leave out (kernels/exact_sum.hpp).
-double QuasistaticPath::allowed_missing(double way) const {
-    return std::max(options_.tolerance * sites_ * way, sites_ * 0x1p-51);
+double QuasistaticPath::allowed_missing(double way, double tolerance) const {
+    return std::max(tolerance * sites_ * way, sites_ * 0x1p-51);
 }
 
 /// A patch of a slow block that becomes unstable goes its way while the drive hardly moves: the
 /// tolerance is then for each Å of the way of each site.
-double QuasistaticPath::allowed_missing_in_time(double way) const {
-    const double allowed = allowed_missing(std::min(way, options_.step));
+double QuasistaticPath::allowed_missing_in_time(double way, double tolerance) const {
+    const double allowed = allowed_missing(std::min(way, options_.step), tolerance);
     if (!(options_.velocity > 0.0)) return allowed;
-    return std::max(allowed, options_.tolerance * last_.all_moves());
+    return std::max(allowed, tolerance * last_.all_moves());
 }
 
 /// A hold has no other bound than its errors.
@@ -277,6 +278,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         const double way = std::abs(there - at());
         const bool last_try = length_ <= smallest_step();
         const bool any_force = all_the_way || last_try || course_.along != Along::z;
+        const double tolerance = tolerance_to(there);
+        last_.relax_to(0.25 * tolerance);
         const long long iterations = last_.iterations();
         const RelaxedState state =
             last_.relax_at(there, time_of(way), options_.report,
@@ -301,9 +304,11 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             const PathPoint trial = point(state, there);
             const StepDecision step =
                 decide(point(), trial, trail_,
-                       {allowed_missing_in_time(way), allowed_uncertainty(), last_try,
-                        is_short_in_time(way), state.branches.error});
-            if (step.verdict != StepDecision::halve) {
+                       {allowed_missing_in_time(way, tolerance), allowed_uncertainty(tolerance),
+                        last_try, is_short_in_time(way), state.branches.error});
+            // A force that has fallen further than was known asks for a smaller tolerance.
+            const bool coarse = !last_try && 2.0 * tolerance_under(state.force) < tolerance;
+            if (step.verdict != StepDecision::halve && !coarse) {
                 accept(state, there, step);
                 if (arrives) length_ = std::max(length_, planned);
                 return outcome();
@@ -362,7 +367,7 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                                            : "mean height displaced by",
                                        at),
                            fmt::format("after {} iterations {}", state.iterations,
-                                       why_not_converged(state, 0.25 * options_.tolerance)),
+                                       why_not_converged(state, last_.tolerance())),
                            "a larger drive.tolerance, or a height further from the substrate");
 }
 
@@ -382,9 +387,18 @@ std::array<double, 2> QuasistaticPath::lateral_force() const {
 double QuasistaticPath::slack(std::int64_t in_contact) const {
     const bool all = options_.along == Constraint::Of::top;
     const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
-    const double slack = 0.25 * options_.tolerance * count;
+    const double slack = 0.25 * tolerance_under(record_.force) * count;
     const double load = to_load() ? this->load() : 0.0;
     return load == 0.0 ? slack : std::min(slack, load_accuracy * std::abs(load));
+}
+
+/// Returns the tolerance of a step to this place: that under the smallest force on the way, as far
+/// as it is known; on the way down to a load, no less than under that.
+double QuasistaticPath::tolerance_to(double to) const {
+    double force = record_.force;
+    if (course_.along == Along::z) force = std::min(force, trail_.continued(to));
+    if (to_load() && course_.direction > 0.0) force = std::max(force, load());
+    return tolerance_under(force);
 }
 
 /// With the last point still on the other side of it. Also where the attraction
@@ -412,14 +426,16 @@ bool QuasistaticPath::bisect() {
 /// As decide() has it where energy is missing.
 bool QuasistaticPath::work_is_known(double to, double there) const {
     const double step = std::abs(to - at());
-    return trail_.to(to, there).error <= allowed_missing(step) ||
-           0.5 * step * std::abs(there - force()) <= allowed_uncertainty();
+    const double tolerance = tolerance_to(to);
+    return trail_.to(to, there).error <= allowed_missing(step, tolerance) ||
+           0.5 * step * trail_.jump(to, there) <= allowed_uncertainty(tolerance);
 }
 
 /// A force outside is too far from a smooth continuation for a step to this place; a half more than
 /// that, for a fall may come back a little.
 ForceWindow QuasistaticPath::acceptable_force(double to) const {
-    return {trail_.continued(to), 1.5 * 2.0 * allowed_uncertainty() / std::abs(to - at())};
+    return {trail_.continued(to),
+            1.5 * 2.0 * allowed_uncertainty(tolerance_to(to)) / std::abs(to - at())};
 }
 
 PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
@@ -446,7 +462,8 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         record_.damped = dissipation_.total();
     }
     const double force = point(state, at).force;
-    if (step.smooth)
+    const bool same_branch = step.smooth && step.dissipated == 0.0;
+    if (same_branch)
         trail_.add(at, force);
     else
         trail_.begin(at, force);
@@ -457,11 +474,10 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;
-    // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
-    if (!step.smooth) {
-        length_ = std::max(length_, options_.step / 4.0);
-        turn();
-    }
+    // An instability was bracketed with ever smaller steps. Beyond it they begin at four times the
+    // last one: in a far longer one the next instability would hide.
+    if (!same_branch) length_ = std::max({length_, 4.0 * way, options_.step / 256.0});
+    if (!step.smooth) turn();
     length_ = std::clamp(length_, smallest_step(), longest_step());
 }
 

@@ -23,13 +23,16 @@
 //   halved    otherwise, and tried again from the last point. Where that was and the force there
 //             are kept: they tell how close the last point has to come.
 //
-// So an instability ends up between two points so close that its place and its energy are known,
-// while many small instabilities that leave the force smooth are counted without looking for each.
-// As long as a place further on is kept, steps go half of the way to it. A relaxation whose force
-// jumps further than a step of its length may have it is given up on its way
+// So an instability ends up between two points so close that its place and its energy are known.
+// Beyond it only one point of the new branch is known, and a step may hide the next instability:
+// the force may come back to where it was, and the error of the integral may be what was lost. So
+// forces are compared with the slope of the branch before, and a step is halved where that is
+// missed by too much. As long as a place further on is kept, steps go half of the way to it. A
+// relaxation whose force jumps further than a step of its length may have it is given up on its way
 // through the instability: its step would, with few exceptions, be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
-// bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
+// bounded by that on the whole path. To be that good, points are relaxed to a quarter of it. The
+// tolerance follows the force that presses, where that is larger than the scale of forces.
 // decide() (step_decision.hpp) says which of the three it is.
 #pragma once
 
@@ -51,7 +54,7 @@ namespace asperity {
 struct PathOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
     double step = 0.25;                         ///< the largest of what is led, Å
-    double tolerance = 0.0;                     ///< eV/Å
+    double tolerance = 0.0;                     ///< where little force is there, eV/Å
     Scales scales;
     double load = 0.0;             ///< at which the approach ends, eV/Å
     double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
@@ -190,13 +193,23 @@ private:
     void first_point(double top, Here here);
     double longest_step() const;
     double smallest_step() const;
-    double allowed_missing(double way) const;
-    /// The same of a step in which a block that relaxes may go on without the drive. Collective.
-    double allowed_missing_in_time(double way) const;
-    /// The displacements change their course in time: the next step continues none, and is short.
+    /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
+    /// (setup/scales.cpp), or of a site's part of this force, if that is larger.
+    double tolerance_under(double force) const {
+        return options_.tolerance * std::max(1.0, force / (sites_ * options_.scales.force));
+    }
+    double tolerance_to(double at) const;
+    double allowed_missing(double way, double tolerance) const;
+    /// Returns the same of a step in which a block that relaxes may go on without the drive, eV.
+    /// Collective.
+    double allowed_missing_in_time(double way, double tolerance) const;
+    /// Sets the displacements to change their course in time: the next step continues none, and is
+    /// short.
     void turn();
-    /// Of the work of a step with an instability, eV.
-    double allowed_uncertainty() const { return allowed_missing(options_.step); }
+    /// Returns the uncertainty that the work of a step with an instability may have, eV.
+    double allowed_uncertainty(double tolerance) const {
+        return allowed_missing(options_.step, tolerance);
+    }
 
     SpectralBlock& block_;
     Interface& interface_;

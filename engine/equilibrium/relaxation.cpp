@@ -6,6 +6,7 @@
 #include "engine/equilibrium/heavy_ball.hpp"
 #include "engine/equilibrium/newton.hpp"
 #include "engine/equilibrium/wall_minimiser.hpp"
+#include "engine/equilibrium/wall_tangent.hpp"
 
 #include <fmt/format.h>
 
@@ -283,7 +284,12 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
     if (!(options.scales.length > 0.0 && options.scales.stiffness > 0.0))
         throw std::invalid_argument("relax: a relaxation needs the scales of its interface");
-    block.hold(constraint);
+    long long products = 0;
+    if (interface.options().wall && options.start == Start::near)
+        products = follow_tangent(block, interface, reference_height, constraint,
+                                  Constants::max_move * options.scales.length);
+    else
+        block.hold(constraint);
     const double height =
         std::abs(reference_height) + std::abs(block.mean_height()) + interface.start_height();
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
@@ -291,7 +297,9 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
         RelaxOptions whole = options;
         whole.force_window = {}; // its steps do not add up the force
         WallMinimiser minimiser(block, interface, reference_height, whole, phases);
-        return follow(minimiser, block, whole, rounding);
+        RelaxedState state = follow(minimiser, block, whole, rounding);
+        state.iterations += products;
+        return state;
     }
     Minimiser minimiser(block, interface, reference_height, options, phases);
     return follow(minimiser, block, options, rounding);

@@ -111,6 +111,9 @@ public:
     /// Sets f to S u + norm g for this rank's block b of waves; f may be u or g.
     template <class T>
     void stiffen(int b, const T* u, double norm, const T* g, T* f) const;
+    /// Replaces a displacement, Å, by N^2 S u, eV/Å. Collective.
+    template <class T>
+    void stiffen(SiteField<T>& displacement) const;
     /// Replaces a displacement, Å, by N^2 times the elastic forces against it, eV/Å, with the known
     /// forces of branches and without the uniform normal wave. Collective.
     template <class T>
@@ -175,6 +178,9 @@ protected:
     double factor_ = 1.0;                ///< of branches, on S
 
 private:
+    /// Replaces a field by what change(b, waves) makes of the N^2 u_q of each block b.
+    template <class T, class Change>
+    void change_waves(SiteField<T>& field, const Change& change) const;
     /// Sets f to factor S u + norm g for block b, the holder included.
     template <class T>
     void stiffen(int b, double factor, const T* u, double norm, const T* g, T* f) const;
