@@ -156,7 +156,14 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].friction", "eV/Å", per::block,
      "force against a slide: the work of what moves the block sideways, over the distance"},
     {"segments[].largest_friction", "eV/Å", per::block, "the largest force against the slide"},
-    {"segments[].pressure", "MPa", "", "at its end: of the substrate on the lowest layer"},
+    {"segments[].pressure", "MPa", "",
+     "at its end: of the substrate on the lowest layer; at a temperature the average by which the "
+     "segment ends"},
+    {"segments[].pressure_scatter", "MPa", "",
+     "thermal noise: rms of the force about that average"},
+    {"segments[].pressure_averaged_over", "ps", "",
+     "time of the average: one transit of sound, or a tenth of the potential's width at "
+     "drive.velocity if that is shorter"},
     {"segments[].mean_height", "Å", "", "at its end"},
     {"segments[].top_displacement", "Å", "", "at its end"},
     {"segments[].contact_fraction", "1", per::sites,
@@ -274,6 +281,9 @@ inline constexpr Quantity result_quantities[] = {
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},
+    {"interface.table_error", "1", "delta_gamma",
+     "bound of the error of energies of flat surfaces, and so of binding energies, that the spline "
+     "between the rows of these tables and the noise of the rows make"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},

@@ -33,8 +33,4 @@ std::string_view take_word(std::string_view& line);
 /// Returns the number of a word: NaN if no double holds it, nothing if the word is no number.
 std::optional<double> number_of(std::string_view word);
 
-/// Reads the first two columns of numbers of a text file and ignores further ones; "#" begins a
-/// comment. Throws SceneError with the line if a row has one number, or if the file has no numbers.
-std::array<std::vector<double>, 2> read_two_columns(const std::string& file);
-
 } // namespace asperity::io

@@ -77,9 +77,11 @@ struct Store {
         static constexpr const char* types[] = {
             "a value of another form", "true or false", "a whole number", "a number", "a string",
             "a list of strings"};
-        return {"", "is of the wrong type",
-                fmt::format("{} is needed, this is {}", needed, types[value.index()]),
-                fmt::format("write, for example, {}", example)};
+        return {
+            "", "is of the wrong type",
+            fmt::format("{} is needed, this is {}", needed, types[value.index()]),
+            fmt::format("write, for example, {}", example) +
+                (value.index() == 0 ? "; several values of a key are for `asperity sweep`" : "")};
     }
 
     Problem operator()(bool* field) const {

@@ -98,6 +98,7 @@ constexpr std::pair<std::string_view, std::string_view> spellings[] = {
     {"⁸", "^8"},  {"⁹", "^9"},
     {"⁻^", "^-"}, {"**", "^"},
     {"·", "*"},   {"\u00C2\u00B5", "\u00B5"},
+    {"Â²", "^2"}, {"Ã\u0085", "Å"}, // UTF-8 that was read as Latin-1
 };
 
 std::string plain(std::string_view unit) {
@@ -225,10 +226,15 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     if (name[0] == ',') {
         const bool one_number = digits.find_first_of(".eE") == std::string::npos &&
                                 name.find(',', 1) == std::string_view::npos;
-        return one_number ? wrong("a comma is no decimal point",
-                                  fmt::format("write \"{}.{}\"", digits, name.substr(1)))
-                          : wrong("it is a list, and one number is needed",
-                                  "several values of a key are for `asperity sweep`");
+        return one_number
+                   ? wrong("a comma is no decimal point, and one number is needed",
+                           fmt::format("write \"{}.{}\" if that is meant; several values "
+                                       "are for `asperity sweep`",
+                                       digits, name.substr(1)))
+                   : wrong(
+                         "it is a list, and one number is needed",
+                         "give one of them; all of them are for `asperity sweep SCENE --set KEY=" +
+                             std::string(text) + "`");
     }
     const std::optional<Unit> unit = parse_unit(name);
     if (!unit) return wrong(fmt::format("'{}' is no unit known here", name), usual);

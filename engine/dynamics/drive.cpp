@@ -63,7 +63,21 @@ double Drive::slide_velocity(int axis, double t) const {
     return by_hand_ ? 0.0 : slide_[static_cast<std::size_t>(axis)].at(t - begun_, options_.ramp);
 }
 
-bool Drive::observe(const Observation& step) {
+void AveragedForce::look(double force, double time, double over) {
+    const double part = 1.0 - std::exp(-(time - last) / over);
+    last = time;
+    if (force == 0.0) once = twice = square = 0.0; // nothing is within the interaction range
+    once += part * (force - once);
+    twice += part * (once - twice);
+    square += part * ((force - mean()) * (force - mean()) - square);
+}
+
+bool Drive::observe(const Observation& now) {
+    Observation step = now;
+    if (options_.average_over > 0.0) {
+        average_.look(now.force, now.time, options_.average_over);
+        step.force = average_.mean();
+    }
     if (by_hand_ || at_ == options_.path.size() || !ended(step)) return false;
     ++at_;
     if (at_ < options_.path.size()) begin(step);

@@ -32,6 +32,9 @@ struct DriveOptions {
     double ramp = 0.0;       ///< time over which a velocity changes, fs
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
     double area = 1.0;       ///< area of the interface, Å^2
+    /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
+    /// a warm block, whose force fluctuates.
+    double average_over = 0.0;
     /// Segments of the path. Amounts in the units of the engine: a load in eV/Å, a hold in fs.
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
@@ -65,7 +68,28 @@ struct VelocityProfile {
     }
 };
 
-/// The drive of a simulation: it moves the top plane, or slides the block.
+/// A force averaged over thermal noise: exponentially, twice, so that a steady change of the force
+/// does not lag behind.
+struct AveragedForce {
+    double once = 0.0, twice = 0.0, square = 0.0; ///< eV/Å, eV/Å, (eV/Å)^2
+    double last = 0.0;                            ///< time of the last step, fs
+
+    /// Takes the force of a step into the average.
+    void look(double force, double time, double over);
+    /// Returns the mean force, eV/Å.
+    double mean() const { return 2.0 * once - twice; }
+    /// Returns the root mean square of the force about its mean, eV/Å.
+    double scatter() const { return std::sqrt(square); }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("once", once);
+        v("twice", twice);
+        v("square", square);
+        v("last", last);
+    }
+};
+
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
@@ -87,6 +111,11 @@ public:
         double time = 0.0, force = 0.0, top = 0.0;
         bool beyond_range = false;
     };
+    /// Returns the average by which segments of a warm block end; empty: the force of each step
+    /// counts.
+    std::optional<AveragedForce> averaged() const {
+        return options_.average_over > 0.0 ? std::optional(average_) : std::nullopt;
+    }
     /// Ends the current segment if this step fulfils its rule, and begins the next one. Returns
     /// true if it did. Throws io::PhysicsError if a segment demands a stronger pull than the
     /// attraction.
@@ -104,6 +133,7 @@ public:
         v("segment", at_);
         v("begun", begun_);
         v("rule", rule_);
+        v("average", average_);
         v("normal", normal_);
         v("slide_x", slide_[0]);
         v("slide_y", slide_[1]);
@@ -120,6 +150,7 @@ private:
     std::size_t at_ = 0;
     double begun_ = 0.0; ///< time at which the segment began, fs
     SegmentRule rule_;   ///< rule of a segment that ends at a force
+    AveragedForce average_;
     VelocityProfile normal_;
     std::array<VelocityProfile, 2> slide_;
     std::optional<double> by_hand_;

@@ -17,7 +17,7 @@
 namespace asperity {
 
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom, double range) {
+                                      double lowest_atom, double range, double negligible) {
     block.set_uniform(0.0);
     double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
     const double stride = 0.057 * range;
@@ -26,7 +26,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
             interface.sweep(block.lowest_layer(), block.interface_force(), height, {.rough = true});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
-        if (force > 0.0 || height < lowest_atom) return best_height;
+        if (force > negligible || height < lowest_atom) return best_height;
     }
 }
 

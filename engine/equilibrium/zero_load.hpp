@@ -47,9 +47,10 @@ struct ZeroLoad {
 
 /// Returns the height of the strongest attraction of the undisplaced block on its way down, Å. The
 /// descent from this height ends in the state of a slow approach, apart from lateral forces on
-/// steep, soft surfaces. Collective.
+/// steep, soft surfaces. The search ends if the force presses by more than `negligible`, eV/Å: rows
+/// of a table leave small forces of either sign beyond the attraction. Collective.
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom, double range);
+                                      double lowest_atom, double range, double negligible = 0.0);
 
 /// Returns a note if rounding may keep a relaxation from the tolerance with sites at this height
 /// (Å); otherwise an empty text.

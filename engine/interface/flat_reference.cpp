@@ -82,8 +82,7 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     if (!(force(low) > 0.0 && force(high) < 0.0))
         throw std::invalid_argument(fmt::format(
             "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
-            "a potential that is zero at {} Å, cutoff = {} Å, spacing = {} Å; choose a potential "
-            "whose length is not far from the spacing and a cutoff of at least 1.5 times that",
+            "a potential that is zero at {} Å, cutoff = {} Å, spacing = {} Å",
             low, high, r0, cutoff_of(options.potential), spacing));
     while (high - low > 1e-12 * r0) {
         const double middle = 0.5 * (low + high);

@@ -43,8 +43,9 @@ struct SegmentResults {
     std::optional<double> lateral_most; ///< largest force against a slide, eV/Å
     // State at the end of the segment:
     double force = 0.0, mean_height = 0.0, top = 0.0; ///< eV/Å, Å, Å
-    std::array<double, 2> slide{};                    ///< Å
-    long long in_contact = 0;                         ///< sites
+    std::optional<double> scatter; ///< of a force that is an average over thermal noise, eV/Å
+    std::array<double, 2> slide{}; ///< Å
+    long long in_contact = 0;      ///< sites
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -61,6 +62,7 @@ struct SegmentResults {
         v("lateral_mean", lateral_mean);
         v("lateral_most", lateral_most);
         v("force", force);
+        v("scatter", scatter);
         v("mean_height", mean_height);
         v("top", top);
         v("slide", slide);

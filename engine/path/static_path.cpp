@@ -78,7 +78,8 @@ std::optional<LayerAtRest> StaticPath::find_state() {
 std::optional<ZeroLoad> StaticPath::state_from_here(double load, bool from_afar) {
     if (from_afar) {
         const double height = height_of_strongest_attraction(
-            block_, interface_, surface_.statistics.lowest, case_.scales.length);
+            block_, interface_, surface_.statistics.lowest, case_.scales.length,
+            case_.tolerance * surface_.sites * surface_.sites);
         block_.set_uniform(height - reference_height());
     }
     return find_zero_load(
@@ -145,6 +146,22 @@ void StaticPath::begin_by_hand(Constraint::Of held, std::optional<bool> remember
         points_.reset();
         throw;
     }
+}
+
+StaticPath::KeptPoint StaticPath::keep_point() {
+    KeptPoint kept;
+    kept.fields.take(points_->states());
+    CollectNumbers collect;
+    collect("points", *points_);
+    kept.numbers = std::move(collect.numbers);
+    return kept;
+}
+
+void StaticPath::back_to(const KeptPoint& point) {
+    point.fields.restore(points_->states());
+    RestoreNumbers restore(point.numbers);
+    restore("points", *points_);
+    points_->resume();
 }
 
 bool StaticPath::lead_to(double at, const std::function<void()>& look) {

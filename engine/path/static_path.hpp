@@ -67,6 +67,15 @@ public:
     /// and calls look after each point. Returns false if the watch stopped a relaxation; the same
     /// call goes on.
     bool lead(const Segment& segment, const std::function<void()>& look);
+    /// The last point of a path by hand, to come back to.
+    struct KeptPoint {
+        StateCopy fields;
+        StateNumbers numbers;
+    };
+    /// Returns the last point.
+    KeptPoint keep_point();
+    /// Brings block and path back to a point.
+    void back_to(const KeptPoint& point);
     /// Ends the path of points: the caller may now move the block.
     void end_points() { points_.reset(); }
     /// Relaxes the sites from their present places (from_afar: from the height of the strongest

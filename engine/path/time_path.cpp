@@ -81,6 +81,9 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
     if (!drive.observe({now.time, now.force, now.top, apart})) return std::nullopt;
     end_ = now;
+    scatter_.reset();
+    if (const auto average = drive.averaged())
+        end_.force = average->mean(), scatter_ = average->scatter();
     interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) results_.contact_made = now.time;
     return number;
@@ -125,6 +128,7 @@ void TimePath::conclude() {
     }
     end_.in_contact = now.in_contact; // counted a step later, where it is observed
     ledger_.conclude(number, end_, end - segment_start_, kinetic);
+    results_.segments.back().scatter = scatter_;
     segment_start_ = end;
 }
 

@@ -61,6 +61,7 @@ private:
         v("simulation", simulation_);
         v("segment", segment_);
         v("end", end_);
+        v("scatter", scatter_);
         v("ended", ended_);
         v("concluding", concluding_);
         v("start", start_);
@@ -85,6 +86,7 @@ private:
     Works segment_start_;              ///< works since the start at the beginning of the segment
     double interface_work_ = 0.0;      ///< int F dz up to the end of the last segment, eV
     StepRecord end_;                   ///< the step that ended the last segment
+    std::optional<double> scatter_;    ///< SegmentResults::scatter of the last segment, eV/Å
     std::optional<std::size_t> ended_; ///< the segment that the last step ended
     std::optional<std::size_t> concluding_;  ///< the segment that ended in the step before
     VectorField<double> layer_, velocities_; ///< at now(), if they were wished for

@@ -54,8 +54,7 @@ void Guard::look(Path& path) {
 bool row_is_due(const Path& path) {
     const Case& c = path.scene_case();
     if (!c.in_time || path.about_to_conclude()) return true;
-    const bool last = c.scene.drive.max_steps > 0 && path.steps() + 1 >= c.scene.drive.max_steps;
-    return last || path.steps() % c.scene.output.series == 0;
+    return path.steps() % c.scene.output.series == 0;
 }
 
 Path::Wish Rows::wish(const Path& path) const {

@@ -126,6 +126,12 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].friction", s.lateral_mean);
         given("segments[].largest_friction", s.lateral_most);
         result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
+        if (s.scatter) {
+            result.set("segments[].pressure_scatter", i,
+                       *s.scatter / (c.area() * units::megapascal));
+            result.set("segments[].pressure_averaged_over", i,
+                       c.simulation.drive.average_over / units::picosecond);
+        }
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
@@ -182,6 +188,7 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (c.table_digest)
         result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
+    if (c.table_error) result.set("interface.table_error", *c.table_error);
     return result;
 }
 

@@ -105,14 +105,16 @@ LedPath::Point LedPath::relax(const Look& look) {
         if (target_.hold) target_.hold = until - path_.now().time;
         guard(path_);
     };
+    const StaticPath::KeptPoint from = path_.keep_point();
     try { // a target is kept where look throws
         while_looking(look, [&] {
             if (target_.at) return path_.lead_to(*target_.at, at_point);
             if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
             return path_.lead({Segment::load, *target_.load}, at_point);
         });
-    } catch (const io::PhysicsError&) { // the target cannot be reached
+    } catch (const io::PhysicsError&) { // the target cannot be reached: the last point is restored
         target_ = {};
+        path_.back_to(from);
         throw;
     }
     target_ = {};

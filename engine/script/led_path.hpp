@@ -46,7 +46,7 @@ public:
     };
     /// Leads the block to the goal, point by point; without a goal it relaxes in place. If look
     /// throws, the same call goes on. Throws io::PhysicsError if no equilibrium is found, or if the
-    /// solids part before a pull is reached.
+    /// solids part before a pull is reached; the path is then at its last point, without a goal.
     Point relax(const Look& look);
     Point now() const; ///< returns the point of the last relax()
     InterfaceMaps maps() const;

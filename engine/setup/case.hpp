@@ -49,6 +49,9 @@ struct Case {
     std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
     std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
+    /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
+    /// over the work of adhesion
+    std::optional<double> table_error;
     Effects effects; ///< effects of the scene, from which the following is built
     SimulationOptions simulation;
     std::vector<LevelShape> levels;

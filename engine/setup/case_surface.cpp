@@ -215,6 +215,11 @@ Surface surface_of(const Case& c, const Communicator& world) {
                         std::filesystem::path(s.file).filename().string(), points, points,
                         edge / points, edge, map.unit));
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+        if (surface.statistics.rms > surface.length)
+            throw std::invalid_argument(fmt::format(
+                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; "
+                "correct the unit of the file (surface.file_unit), or its size",
+                surface.statistics.rms, map.unit, surface.length));
         for (std::string& note : notes_on_roughness(surface.statistics.rms,
                                                     surface.statistics.rms_slope, surface.length))
             surface.notes.push_back(std::move(note));

@@ -163,7 +163,10 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     try {
         c.flat = flat_reference(interface, block.spacing, block.sites, c.substrate());
     } catch (const std::invalid_argument& e) {
-        problems.add("interface.potential", std::string(": ") + e.what());
+        problems.add("interface.potential", std::string(": ") + e.what(),
+                     "the lattices are too wide or too narrow for it, or it ends before it binds",
+                     "take a potential that is zero at about surface.spacing (interface.r0), and a "
+                     "cutoff of 1.5 times that at least; 4 r0 is usual");
     }
     const double area = block.spacing * block.spacing;
     c.scales.stiffness = c.flat.stiffness * area;
@@ -267,6 +270,15 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
+    if (c.effects.temperature)
+        drive.average_over = c.scales.length > 0.0
+                                 ? std::min(crossing, 0.1 * c.scales.length / drive.velocity)
+                                 : crossing;
+    if (c.effects.temperature && c.in_time)
+        c.notes.push_back(fmt::format(
+            "the force of a warm block fluctuates: an approach or a load ends by its average over "
+            "{:.3g} ps (segments[].pressure, with pressure_scatter)",
+            drive.average_over / units::picosecond));
     drive.path = c.path;
     for (Segment& segment : drive.path) {
         if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
@@ -318,13 +330,16 @@ void derive(Case& c, io::Problems& problems) {
     refuse_what_is_not_there_yet(c, refused);
     c.edge_pinning = edge_pinning(c.scene);
     refuse_pinned_edge(c, refused);
-    c.notes = notes_on_keys(c);
+    for (std::string& note : notes_on_keys(c))
+        c.notes.push_back(std::move(note));
     fill_interface(c);
+    if (!check_tables(c, problems)) return;
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
+    refuse_out_of_proportion(c, refused);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
     look_at_ranks(c, refused);

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
                           "load_sweep", "run", "sweep"), ".forms"),
          "Simulation": ".engine", "Statics": ".engine", "states": ".state_search"}
+_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
+"""Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
            *(name for name, module in _LAZY.items() if module == ".forms")]
 
@@ -42,6 +44,8 @@ def __getattr__(name: str):
 
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
+    if name in _MODULES:
+        return [importlib.import_module(module, __name__) for module in _MODULES[name]][-1]
     if name == "__version__":
         return importlib.import_module(".program", __name__).version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
@@ -51,7 +55,7 @@ def __dir__() -> list[str]:
     """Returns the names for dir(), help() and completion; Simulation, Statics and states if the compiled module exists."""
     import importlib
 
-    names = {*__all__, "__version__"}
+    names = {*__all__, *_MODULES, "__version__"}
     try:
         importlib.import_module(".engine", __name__)
         names |= _LAZY.keys()

@@ -200,6 +200,13 @@ PYBIND11_MODULE(_engine, m) {
     m.doc() = "The engine of asperity.Simulation and asperity.Statics";
     m.attr("version") = io::build_info().version;
     py::register_exception_translator(translate);
+    m.def(
+        "quantity",
+        [](const std::string& where, const py::object& given, const std::string& unit) {
+            return quantity(where.c_str(), given, unit.c_str());
+        },
+        py::arg("where"), py::arg("given"), py::arg("unit"),
+        "A number in this unit, given so or as a text with a unit. Raises SceneError.");
 
     py::class_<StepRecord>(m, "Energies", "Energies in eV, since the start of the path.")
         .def_readonly("elastic", &StepRecord::elastic_energy, "elastic energy of the block, eV")

@@ -62,7 +62,7 @@ if TYPE_CHECKING:
 else:
     _engine = load()
 RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
-State = _engine.State
+State, quantity = _engine.State, _engine.quantity
 
 
 class Components(NamedTuple):

@@ -12,11 +12,13 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
 from . import program
 from .errors import SceneError
+from .scene import toml_value
 
 MOST_POINTS = 10_000
 LISTS = ("list", "pairs")
@@ -68,6 +70,8 @@ def _range(text: str, where: str, whole: bool) -> list[str]:
 def _axis(key: str, values: str, where: str) -> Axis:
     kind = program.schema()[key]["kind"]
     axis = Axis(key, [], where)
+    if re.fullmatch(r"\[[^\[\]]*\]", values.strip()):  # as in a scene's [sweep]
+        values = re.sub(r"""(?<![^\s,\[])(["'])(.*?)\1(?=\s*[,\]])""", r"\2", values.strip())[1:-1]
     for part in (p.strip() for p in values.split(",")):
         if not part:
             raise SceneError(where, "has an empty value", "values stand between commas",
@@ -75,6 +79,26 @@ def _axis(key: str, values: str, where: str) -> Axis:
         several = _range(part, where, kind == "integer") if kind in ("integer", "number") else []
         axis.values += several or [part]
     return axis
+
+
+def _lists(values: str) -> list[Any]:
+    """The lists that stand side by side, as in [1], [2]; none if it is something else."""
+    try:
+        return program.json.loads(f"[{values}]")
+    except ValueError:
+        return []
+
+
+def _several_lists(values: str, kind: str) -> bool:
+    """Whether they are several values of a key that is a list, side by side or in brackets of their own."""
+    found = _lists(values)
+    inner = found[0] if len(found) == 1 and isinstance(found[0], list) and kind == "list" else found
+    return (len(inner) > 1 or inner is not found) and bool(inner) and all(isinstance(one, list) for one in inner)
+
+
+def _first_list(values: str) -> str:
+    found = _lists(values)
+    return toml_value(found[0] if len(found) > 1 else found[0][0])
 
 
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
@@ -86,6 +110,9 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
         where = "--set " + assignment
         key, equals, values = assignment.partition("=")
         key = key.strip()
+        if key in schema and schema[key]["kind"] in LISTS and _several_lists(values, schema[key]["kind"]):
+            raise SceneError(where, f"{key} cannot be swept", "its value is a list itself", "write one scene for each, or one run "
+                             f"for each: asperity run SCENE --set '{key}={_first_list(values)}'")
         if not equals or key not in schema or schema[key]["kind"] in LISTS:
             fixed.append(assignment)  # a list has commas of its own; the program finds mistakes
             continue
@@ -115,4 +142,4 @@ def shown(value: Any) -> str:
     """Returns a value of a key as it stands in tables and names: "3", "multiscale"."""
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return f"{value:.12g}"
-    return value if isinstance(value, str) else program.json.dumps(value)
+    return value if isinstance(value, str) else toml_value(value)

@@ -32,7 +32,7 @@ SITE_BYTES = 1200
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""
-UNITS = {"E": "GPa", "work": "mJ/m^2", "range": "Å", "size": "nm"}
+UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
 
 
 @dataclass
@@ -64,7 +64,7 @@ def _with_unit(name: str, value: object) -> str:
     text = re.sub(r"m2$", "m^2", str(value).strip())
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
-                         f'write one: "{text or 1} {UNITS[name]}"')
+                         "write the one that is meant: " + " or ".join(f'"{text or 1} {unit}"' for unit in UNITS[name]))
     return text
 
 

@@ -15,7 +15,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Union
 
-from .errors import Error
+from .errors import Error, SceneError
 
 SceneLike = Union[str, Path, Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], list]
@@ -31,7 +31,11 @@ def toml_value(value: Any) -> str:
         value = str(value)
     if isinstance(value, float) and not math.isfinite(value):
         return repr(value)  # nan, inf: the program refuses them by the name of their key
-    return json.dumps(value, ensure_ascii=False)
+    try:
+        return json.dumps(value, ensure_ascii=False)
+    except TypeError:
+        raise SceneError("", f"{value!r:.60} is no value of a key", f"it is of type {type(value).__name__}",
+                         "give a number, a text, true or false, or a list of them") from None
 
 
 def toml_of(scene: Mapping[str, Any]) -> str:
@@ -49,12 +53,19 @@ def toml_of(scene: Mapping[str, Any]) -> str:
 
 def assignments(overrides: Overrides | None) -> list[str]:
     """Returns overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
+    if overrides is None:
+        return []
     if not isinstance(overrides, Mapping):
-        return list(overrides or [])
+        if isinstance(overrides, (list, tuple)) and all(isinstance(o, str) for o in overrides):
+            return list(overrides)
+        raise SceneError("overrides", f"are {overrides!r:.60}", "keys with their values are needed",
+                         'for example {"surface.rms": 2.0}, or ["surface.rms=2.0"]')
     found = []
     for key, value in overrides.items():
         if isinstance(value, Mapping):
             found += assignments({f"{key}.{name}": inner for name, inner in value.items()})
+        elif value is None:
+            raise SceneError(str(key), "= None", "that is no value of a key", "leave the key out, or give it a value")
         else:
             found.append(f"{key}={value if isinstance(value, str) else toml_value(value)}")
     return found

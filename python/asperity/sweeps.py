@@ -445,7 +445,7 @@ class Carried:
 def _values(given: Any) -> str:
     """Returns values as they stand behind --set: each of several values, in whatever holds them; or the single one."""
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
-    if isinstance(given, (str, os.PathLike)) or not isinstance(given, Iterable):
+    if isinstance(given, (str, bytes, os.PathLike)) or not isinstance(given, Iterable):
         given = [given]
     plain = (v.item() if hasattr(v, "item") else v for v in given)
     return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v) for v in plain)
@@ -493,6 +493,9 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
         raise SceneError(f"executor = {executor!r:.80}", "is no executor", f"it is {type(executor).__name__}, and not of "
                          "concurrent.futures.Executor", "for example mpi4py.futures.MPIPoolExecutor(), or "
                          "client.get_executor() of Dask")
+    if values is not None and not isinstance(values, Mapping):
+        raise SceneError("values", f"are {values!r:.60}", "keys with their values are needed",
+                         'for example {"surface.rms": [1, 2, 3]}')
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene, "" if executor is None else ".") as file:  # workers elsewhere have no /tmp of ours
         return Carried([file], given, None if out is None else str(out), theory_only,
