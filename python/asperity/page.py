@@ -24,11 +24,6 @@ def file_name(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9.-]", "-", text)
 
 
-def minus(text: str) -> str:
-    """With the sign that is as wide as a digit."""
-    return "−" + text[1:] if text.startswith("-") else text
-
-
 def _set(text: Any) -> Markup:
     """Escaped, with its subscripts γ_{eff} and `commands`, and units that stay with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))

@@ -8,9 +8,8 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from .page import minus
 from .result import Result, Values, finite
-from .terminal import duration, millijoules, number
+from .terminal import duration, millijoules, minus, number
 from .units import GIGAPASCAL, NANONEWTON
 
 
