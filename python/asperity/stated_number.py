@@ -98,7 +98,7 @@ class Number:
     @property
     def sides(self) -> tuple[float, float]:
         """The error upwards and downwards, cut at the possible range."""
-        return min(self.error, self.most - self.estimate), min(self.error, self.estimate - self.least)
+        return cut(self.estimate, self.error, self.least, self.most)
 
     def __str__(self) -> str:
         """"γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error)", or "γ_eff below ...", or "γ_eff is not stated: ..."."""
@@ -129,6 +129,11 @@ class Number:
         if self.below == self.below:
             return (("> " if self.most == 0.0 else "< ") + upwards(1.0, math.copysign(self.below, -0.5 if self.most == 0.0 else 0.5)), "")
         return rounded(self.estimate, self.error)
+
+
+def cut(value: float, error: float, least: float, most: float) -> tuple[float, float]:
+    """Returns the error of a value upwards and downwards, as far as the value may lie."""
+    return min(error, most - value), min(error, value - least)
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:
