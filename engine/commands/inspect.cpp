@@ -55,6 +55,7 @@ io::Json check_json(const Case& c, const Communicator& world) {
     try {
         const std::vector<std::string> notes = examine(c, world);
         all["longest_timestep"] = c.longest_timestep;
+        all["edge_pinning"] = c.edge_pinning;
         all["notes"] = notes;
     } catch (const io::SceneError& error) {
         for (const io::Problem& problem : error.problems())

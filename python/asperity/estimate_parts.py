@@ -19,6 +19,7 @@ from scipy.special import stdtrit
 
 from .pool import DONE
 from .result import Values
+from .stated_number import INFINITE, Found, Number
 from .units import GIGAPASCAL
 from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
 
@@ -66,9 +67,35 @@ def convergence_of(result: Values, path: str) -> float:
     return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
 
 
-class Found(NamedTuple):
-    shift: float
-    error: float
+def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
+    """The number of a result with its possible range, without parts of its error.
+
+    A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works have
+    one sign. No more than Δγ can be gained over a wall, where each site has one height."""
+    flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
+    sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
+    unpressed = keys.number("drive.load", 0.0) == 0.0 and not any(
+        one.split()[0] not in ("relax", "approach", "pull-off", "hold") for one in map(str, keys.find("drive.path") or []))
+    wall = keys.text("interface.kind") == "wall"
+    least, most, grain, unresolved = 0.0, INFINITE, 0.0, ""
+    if q.path in ("binding_energy", "binding_energy_ratio") or q.path.startswith("work_of_drive."):
+        size = flat if q.path != "binding_energy_ratio" else 1.0
+        most = size if wall and q.path.startswith("binding_energy") else INFINITE
+        grain = 1e-6 * size
+        if q.path == "work_of_drive.approach":
+            least, most = -size if wall else -INFINITE, 0.0
+        if not unpressed:
+            least, most = -INFINITE, most if q.path.startswith("binding_energy") else INFINITE
+    elif q.path == "contact_fraction":
+        most, grain = 1.0, 1.0 / sites**2
+        unresolved = f"contact of {round(value * sites**2)} of {round(sites**2)} sites"
+    elif q.path == "contact_radius.relaxed":
+        most, grain = sites * spacing / math.sqrt(math.pi), spacing**2 / (2.0 * math.pi * max(value, spacing))
+    elif q.path == "pull_off_stress" and wall and keys.text("interface.law") == "exponential":
+        most = flat / 1e3 / keys.number("interface.range", NAN) / (1e-3 * GIGAPASCAL)
+    elif q.path == "lost.cycle":
+        grain = 1e-6 * flat
+    return Number(q.path, q.symbol, q.name, unit, value, least=least, most=most, grain=grain, unresolved=unresolved)
 
 
 Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
@@ -76,18 +103,19 @@ Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
 
 
 def finer(ratio: float, order: float | None = None) -> Rule:
-    """One row, finer by the ratio. order: None: that of the quantity."""
+    """One row, finer by the ratio. order: None: that of the quantity. A number that would change its sign on the way to the
+    limit is not at its order yet: it is taken as the row has it."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
-        return Found(rows[0] - base + beyond, abs(beyond))
+        return Found(rows[0] - base + (beyond if (rows[0] + beyond) * rows[0] >= 0.0 else 0.0), abs(beyond))
     return rule
 
 
 def coarser(ratio: float, order: float | None = None) -> Rule:
-    """One row, coarser by the ratio: cheaper than the base. order: None: that of the quantity."""
+    """One row, coarser by the ratio: cheaper than the base; else as finer()."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
-        return Found(beyond, abs(beyond))
+        return Found(beyond if (base + beyond) * base >= 0.0 else 0.0, abs(beyond))
     return rule
 
 
@@ -139,7 +167,7 @@ def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
 
 @dataclass(eq=False)
 class Part:
-    """rows: what is run; of none `what` says why."""
+    """rows: what is run; of none `what` says why. relative: of a part without rows, its error over the number."""
 
     name: str
     group: str
@@ -147,6 +175,7 @@ class Part:
     rows: list[Variation] = field(default_factory=list)
     rule: Rule = limit
     base: Variation | None = None
+    relative: float = 0.0
 
     @property
     def failed(self) -> str:
@@ -157,6 +186,9 @@ class Part:
         return ""
 
     def found(self, q: Quantity) -> Found | None:
+        if self.relative and self.base:
+            value = number_of(self.base.outcome.result, q.path)
+            return None if math.isnan(value) else Found(0.0, abs(self.relative * value))
         if not self.rows or self.failed:
             return None
         base, *rows = (number_of(row.outcome.result, q.path) for row in (self.base, *self.rows))
@@ -185,15 +217,15 @@ SpacingAlso = Callable[[float], Setting]
 def is_coarse(scene: Variations) -> bool:
     """Whether a lattice of twice the spacing is as good to measure on: of a path, whose runs are long, on a lattice that is
     no solid's own and whose waves all fit."""
-    waves = scene.scene.text("surface.kind") != "self-affine" or 4 * scene.own("surface.q_max") <= scene.sites
+    kind = scene.scene.text("surface.kind")
+    waves = kind == "flat" or kind == "self-affine" and 4 * scene.own("surface.q_max") <= scene.sites
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
 def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
     """The same surface and block at another spacing."""
     own, kind = scene.own, scene.scene.text("surface.kind")
-    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else [
-        "surface.resample=band-limited"] * (kind == "file")
+    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else []
     return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
             f"block.thickness={scene.thickness / factor:.0f}", *waves, *also(factor)]
 
@@ -228,6 +260,8 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     order = 1 if spacing_also(2) else None  # None: that of the quantity
     if coarse:
         parts.append(Part("spacing", "discretisation", f"spacing {2 * own('surface.spacing'):.4g} Å", [coarse], coarser(2, order), base))
+    elif any(one.name == "spacing" for one in maps):
+        pass  # a map has a scene of its own there
     elif scene.continuous:
         part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å",
              [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2, order))
@@ -249,7 +283,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
         part("width", "geometry", "not varied: the surface has no statistics to continue it by")
         part("seeds", "realisation", "none: there is one such surface")
     for one in maps:
-        one.base = coarse if coarse and one.name == "edge" else base
+        one.base = base
         for row in one.rows:
             row.setting = joined(moved, row.setting)
     parts += maps

@@ -9,20 +9,23 @@ from __future__ import annotations
 import math
 import os
 import re
+import tempfile
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import files, maps, program
+from . import files, maps, missing_waves, program
 from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
-from .estimate_parts import CURVED, FLAT, Found, Part, Plan, SpacingAlso, edges, is_coarse, number_of, places, plan_of
+from .estimate_parts import CURVED, FLAT, Part, Plan, SpacingAlso, edges, finer, number_of, places, plan_of, stated
 from .pool import DONE, PoolOptions, refuse_jobs
 from .result import Values, read_json
 from .scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
+from .stated_number import Found, Number
 from .terminal import duration
+from .units import GIGAPASCAL
 from .variations import Runs, Setting, Variation, Variations
 
 RESULT = "estimate.json"
@@ -30,27 +33,12 @@ START = 0.3
 """s; what a run takes beside its simulation."""
 SURFACES = {False: 8, True: 4}
 """Surfaces of a scene without and with a path."""
-
-
-@dataclass
-class Number:
-    """A number of the scene: value as it is run, estimate with the biases corrected, its standard error, and the shift
-    and error of each part by name."""
-
-    path: str
-    symbol: str
-    name: str
-    unit: str
-    value: float
-    parts: dict[str, Found] = field(default_factory=dict)
-
-    @property
-    def estimate(self) -> float:
-        return self.value + sum(found.shift for found in self.parts.values())
-
-    @property
-    def error(self) -> float:
-        return math.sqrt(sum(found.error**2 for found in self.parts.values()))
+NO_ADHESION = 0.01
+"""Of Δγ: surfaces that bind by less do not stick."""
+PINNED = 1.3
+"""A factor of the pull-off force (Case::edge_pinning) above which a path over a wall says nothing of its strength."""
+OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "pull_off_stress", "pull_off_force", "jkr.pull_off")
+"""Numbers that the edge of a contact and the range of the attraction decide."""
 
 
 @dataclass
@@ -84,13 +72,20 @@ class Estimate:
 
     def json(self) -> dict[str, Any]:
         return {"name": self.name, "numbers": {path: {
-            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": n.estimate,
-            "standard_error": n.error, "parts": {part: {"shift": f.shift, "standard_error": f.error}
-                                                 for part, f in n.parts.items()}} for path, n in self.numbers.items()},
+            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": _finite(n.estimate),
+            "standard_error": _finite(n.error), "below": _finite(n.below), "least": _finite(n.least), "most": _finite(n.most),
+            "least_error": n.grain, "withheld": n.withheld, "condition": n.condition, "unresolved": n.unresolved, "bounded": n.bounded,
+            "parts": {part: {"shift": f.shift, "standard_error": f.error}
+                      for part, f in n.parts.items()}} for path, n in self.numbers.items()},
             "parts": self.parts, "notes": self.notes, "scene": self.scene, "run": self.run}
 
     def __repr__(self) -> str:
-        return f"<Estimate {self.name}: {self.first.symbol} = {self.first.estimate:.4g} ± {self.first.error:.2g} {self.first.unit}>"
+        return f"<Estimate {self.name}: {self.first}>"
+
+
+def _finite(value: float) -> float | None:
+    """The value for JSON; None if it is not finite."""
+    return value if math.isfinite(value) else None
 
 
 def load_estimate(directory: str | os.PathLike) -> Estimate:
@@ -101,7 +96,9 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
         one = Values(n)
         parts = {name: Found(Values(f).number("shift", math.nan), Values(f).number("standard_error", math.nan))
                  for name, f in one.part("parts").items()}
-        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts)
+        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts,
+                               one.number("least", -math.inf), one.number("most", math.inf), one.number("least_error", 0.0),
+                               one.text("withheld"), one.text("condition"), one.text("unresolved"), one.text("bounded"))
     return Estimate(found.text("name"), numbers, found.listed("parts", dict), found.listed("notes", str), found.part("scene"),
                     found.part("run"), Path(directory))
 
@@ -112,9 +109,12 @@ MAP_FILES = [f"{stem}.{kind}" for stem in ("mirrored", *(f"quarter-{i}" for i in
 """What the parts of a measured map are written to, in the folder maps."""
 
 
-def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | None) -> tuple[Part, ...]:
-    """Of a measured map: its quarters, and the map in its mirror images; each a scene of its own in `place`. coarse: the
-    mirror images have twice the spacing, and this too."""
+def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
+               ) -> tuple[tuple[Part, ...], missing_waves.Law | None]:
+    """Returns the parts of the error of a measured map (the same waves on half of the spacing, the map in its mirror images, its
+    quarters; each a scene of its own in `place`) and the law of the waves that the map does not show.
+
+    continuous: the spacing of the sites is no solid's own."""
     of = Values(keys)
     sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
     unit = of.text("surface.file_unit")
@@ -131,7 +131,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
         made["surface"].update(rms=None, file=str(Path(file_beside(of.text("surface.file"), scene)).resolve()))
         with scene_file(made) as file:
-            heights = heights * (of.number("surface.rms") / surface_made(file)[0])
+            heights = heights * (of.number("surface.rms") / surface_made(file).rms)
 
     def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
                setting: Setting = ()) -> list[Variation]:
@@ -155,28 +155,45 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
             rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
         return rows
 
-    parts = []
+    parts = [Part("waves", "truncation", "")]
+    if continuous:
+        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}}) as file:
+            made_of_it = surface_made(file).heights
+        order = 1 if spacing_also(0.5) else None  # None: that of the quantity
+        parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
+                          scenes("finer", [made_of_it], 1.0, "none", 0.5, spacing_also(0.5)), finer(2, order)))
     detrend = of.text("surface.detrend")
     flat = heights if detrend == "none" else maps.without_plane(heights)
     if detrend == "none" and maps.jump(heights) < maps.PERIODIC:
         parts.append(Part("edge", "geometry", "none: the map is periodic"))
     else:
         parts.append(Part("edge", "geometry", "the map in its mirror images",
-                          scenes("mirrored", [maps.mirrored(flat)], 2.0, "none", *(() if coarse is None else (2.0, coarse))),
-                          edges))
+                          scenes("mirrored", [maps.mirrored(flat)], 2.0, "none"), edges))
     if sites % 2 or sites < 32:
         parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
     else:
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", maps.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts)
+    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
 
 
-def surface_made(file: str) -> tuple[float, float]:
-    """Of the surface that a scene makes: its rms height (Å), and its rms slope by differences of neighbours."""
+class SurfaceMade(NamedTuple):
+    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]; doubts: notes on the file of a map."""
+
+    rms: float
+    slope: float
+    heights: np.ndarray
+    doubts: list[str]
+
+
+def surface_made(file: str) -> SurfaceMade:
+    """Returns the surface that a scene makes."""
     made = program.surface(file)
-    return made["rms"], made["slope_of_neighbours"]
+    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
+        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        heights = maps.read_map(str(Path(place) / "surface/heights.h5")).heights
+    return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
@@ -203,7 +220,8 @@ def work_of(setting: Setting, scene: Variations) -> float:
 
 # Carrying it out.
 
-def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
+def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
+    """The numbers of the scene with the parts of their errors. withheld: why none of them is stated."""
     base = plan.scene.outcome.result
     found: dict[str, Number] = {}
     for q in CURVED if curved else FLAT:
@@ -213,7 +231,7 @@ def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
         unit = {"binding_energy_ratio": "", "pull_off_stress": "MPa"}.get(q.path)
         if unit is None:
             unit = program.quantity(q.path)["unit"]
-        found[q.path] = number = Number(q.path, q.symbol, q.name, unit, value)
+        found[q.path] = number = stated(q, unit, value, base)
         for part in plan.parts:
             if (one := part.found(q)) is not None:
                 number.parts[part.name] = one
@@ -221,6 +239,15 @@ def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
             # The quasi-static path has no levels and no time steps either: what these have shifted is part of it.
             others = sum(number.parts[n].shift for n in ("levels", "timestep") if n in number.parts)
             number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
+    free = found.get("binding_energy")
+    parted = free is not None and free.least == 0.0 and free.largest < NO_ADHESION * base.number("delta_gamma", 0.0)
+    if parted:
+        free.unresolved = "no adhesion without load"
+    for number in found.values():
+        if parted and withheld:
+            number.bounded = "roughness that the map does not show lowers it further"
+        else:
+            number.withheld = withheld
     return found
 
 
@@ -229,8 +256,9 @@ class Estimating:
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
-                 say: Callable[[str], None] = print, also: Iterable[str] = ()):
-        """also: names of files that the caller will write there."""
+                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
+        """withheld, condition: of the numbers OF_A_PATH, why they are not stated, or what they hold for; also: names of files
+        that the caller will write there."""
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -246,8 +274,15 @@ class Estimating:
         self.place = files.chosen(out, f"results/{self.name}-estimate")
         self.inputs = inputs_of(scene, keys)
         files.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
-        of_file = keys["surface"]["kind"] == "file"
-        map_parts = _map_parts(keys, scene, self.place / "maps", spacing_also(2) if is_coarse(varied) else None) if of_file else ()
+        self.withheld, self.condition = withheld, condition
+        pinning = answer.get("edge_pinning", 1.0)
+        if varied.moves and pinning > PINNED and not withheld:
+            self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
+                             f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
+                             "smaller surface.spacing")
+        of_file, map_parts, self.law = keys["surface"]["kind"] == "file", (), None
+        if of_file:
+            map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
         for name in only:
@@ -255,7 +290,7 @@ class Estimating:
                 raise SceneError(f"--parts {name}", "is none of them", "this scene has "
                                  + ", ".join(part.name for part in self.plan.parts), "name some of these")
         for part in self.plan.parts if only else []:
-            if part.name not in only and part.rows:
+            if part.name not in only and (part.rows or part.name == "waves"):
                 part.rows, part.what = [], "left out: --parts"
         self.rows = [self.plan.scene]
         for part in self.plan.parts:
@@ -272,8 +307,7 @@ class Estimating:
             key = ("drive.mode=quasistatic",) * still
             if key not in base:
                 base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
-            mirrored = 1.0 if is_coarse(self.varied) else 4.0
-            factor = {"mirrored": mirrored, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            factor = {"mirrored": 4.0, "finer": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
             work += START + factor * base[key]
         return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
 
@@ -283,6 +317,10 @@ class Estimating:
         if self.plan.scene.outcome.status != DONE:
             return None, complete
         result = self.plan.scene.outcome.result
+        numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, self._missing(result))
+        for path in OF_A_PATH:
+            if path in numbers:
+                numbers[path].withheld, numbers[path].condition = numbers[path].withheld or self.withheld, self.condition
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
         notes = list(self.notes)
@@ -294,7 +332,7 @@ class Estimating:
                 here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))
                 notes.append(f"The map in its mirror images binds by {there:.4g} in place of {here:.4g} meV/Å²: neither way to "
                              "make it periodic is right, and twice the error of the part edge is their difference.")
-        estimate = Estimate(self.name, _numbers(self.plan, result.number("scene.surface.radius") is not None), parts, notes,
+        estimate = Estimate(self.name, numbers, parts, notes,
                             self.keys, {k: result.part("run").get(k) for k in ("version", "git", "machine")}
                             | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
                                zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
@@ -302,6 +340,18 @@ class Estimating:
             with files.outputs(self.place, [RESULT], inputs=self.inputs) as written:
                 written.write(RESULT, files.sealed_json(estimate.json()))
         return estimate, complete
+
+
+    def _missing(self, result: Values) -> str:
+        """Judges the waves that a map does not show and completes their part; returns why no number is stated, "" if they are."""
+        part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
+        if part is None:
+            return ""
+        modulus = self.varied.own("block.young") * GIGAPASCAL / (1.0 - self.varied.own("block.poisson") ** 2)
+        found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
+        part.what, part.relative = found.what, found.relative
+        self.notes += [found.note] * bool(found.note)
+        return found.withheld
 
 
 def _about(seconds: float) -> str:

@@ -86,6 +86,17 @@ def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
     return found - numpy.nanmean(found)
 
 
+def filled(heights: numpy.ndarray) -> numpy.ndarray:
+    """With the mean of their neighbours at missing points, from the edges of a hole inwards."""
+    found = numpy.array(heights, float)
+    while (missing := numpy.isnan(found)).any() and not missing.all():
+        around = numpy.stack([numpy.roll(found, step, axis) for axis in (0, 1) for step in (1, -1)])
+        known = ~numpy.isnan(around)
+        mean = numpy.where(known, around, 0.0).sum(axis=0) / numpy.maximum(known.sum(axis=0), 1)
+        found = numpy.where(missing & known.any(axis=0), mean, found)
+    return found
+
+
 def jump(heights: numpy.ndarray) -> float:
     """Returns the rms difference of opposite edges over that of neighbours inside; of a periodic map about 1."""
     across = numpy.concatenate([heights[0] - heights[-1], heights[:, 0] - heights[:, -1]])

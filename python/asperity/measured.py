@@ -11,19 +11,23 @@ from __future__ import annotations
 import math
 import os
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
-from . import files, maps, program, report_estimate
+from . import files, maps, missing_waves, program, report_estimate
 from .errors import BY_CODE, InternalError, SceneError, Stopped
 from .estimate_parts import SpacingAlso
-from .estimates import MAP_FILES, RESULT, Estimate, Estimating
+from .estimates import MAP_FILES, RESULT, Estimate, Estimating, surface_made
 from .pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
 from .report import run_page_files, write_run_page
 from .result import Result, Values
 from .scene import scene_file, toml_of
+from .units import GIGAPASCAL, MILLIJOULE
+from .variations import Setting
 
 SITES = 256
 """Sites along an edge unless others are asked for: a path and its variations take minutes."""
@@ -125,10 +129,22 @@ def _smooth_below(most: int) -> int:
     return next(n for n in range(most - most % 2, 0, -2) if smooth(n))
 
 
+class MapScene(NamedTuple):
+    """file: of the scene; notes: on what was made of the map; also: what another spacing sets too; withheld, condition: of
+    numbers that depend on the range of the attraction, why they are not stated, or for which range they hold."""
+
+    file: Path
+    notes: list[str]
+    also: SpacingAlso
+    withheld: str
+    condition: str
+
+
 def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             line_noise: str | None = None) -> tuple[Path, list[str], SpacingAlso]:
-    """Writes the scene of a map and the map beside it; its file, notes, and what another spacing sets too."""
+             line_noise: str | None = None) -> MapScene:
+    """Writes the scene of a map and the map beside it. Raises SceneError for what no scene can be made of, before anything is
+    written."""
     sections = {"block": {"young": _with_unit("E", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
                 "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
@@ -149,7 +165,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
     n = _smooth_below(max(most, maps.FEWEST))
     spacing = edge / n
-    stiff = keys.number("block.young") * 6.241509074e-3 / (1 - keys.number("block.poisson") ** 2)  # eV/Å³
+    stiff = keys.number("block.young") * GIGAPASCAL / (1 - keys.number("block.poisson") ** 2)  # eV/Å³
     adhesion, asked = keys.number("interface.adhesion") / 1e3, keys.number("interface.range")
 
     def resolved(spacing: float) -> float:
@@ -157,14 +173,40 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         return max(asked, math.sqrt(2 * spacing * adhesion / stiff))
 
     used = resolved(spacing)
+    longer = f'--range "{math.ceil(used * 1e3) / 1e3:g} Å"'
+
+    def sites_for(reach: float) -> str:
+        """"--sites 96, or ": as many as resolve this range; "" if the map has fewer points."""
+        least = edge * 2 * adhesion / (stiff * reach**2)
+        enough = next((k for k in range(max(n, math.ceil(least)), points + 1) if _smooth_below(k) == k), 0)
+        return f"--sites {enough}, or " * (enough > n)
+
+    if reach is not None and used > 1.001 * asked:
+        raise SceneError(f"range = {reach}", f"is not resolved by a spacing of {spacing:.4g} Å", "beside the edge of a contact it "
+                         f"would act on less than two sites (work / E* = {adhesion / stiff:.3g} Å)", f"{sites_for(asked)}{longer}; or "
+                         "leave it out for the numbers that depend on no range")
     if used > 0.25 * edge:
         raise SceneError(file, f"is too small for so soft a solid: its attraction would reach {used:.3g} Å, and the map is "
                          f"{edge:.4g} Å wide", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with a range "
                          f"of {used:.3g} Å (work / E* = {adhesion / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
+    flat = maps.without_tilt(heights)
+    rms = float(np.nanstd(maps.without_plane(heights)))
+    if used > 1.001 * asked and used > rms > 0.0:
+        flattened = stiff * missing_waves.energy_shown(heights, edge) * 1e3 * MILLIJOULE
+        raise SceneError(file, f"is too smooth for so soft a solid: its attraction would reach {used:.3g} Å, and the rms height is "
+                         f"{rms:.3g} Å", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with that range (work / E* = "
+                         f"{adhesion / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
+                         f"map stores {flattened:.3g} of the {1e3 * adhesion * MILLIJOULE:.3g} mJ/m^2 of the work",
+                         f"{sites_for(rms)}a map with smaller pixels; or, if the attraction does reach so far, {longer}")
+    withheld = condition = ""
     if used > 1.001 * asked:
         notes.append(f"the range of the attraction is {used:.4g} Å in place of {asked:.4g} Å, which a spacing of "
-                     f"{spacing:.4g} Å does not resolve; the part spacing of the error follows it")
-    flat = maps.without_tilt(heights)
+                     f"{spacing:.4g} Å does not resolve; numbers that depend on it are not stated, and the part spacing of the "
+                     "others follows it")
+        withheld = (f"the range of the attraction decides, and is {0.1 * used:.3g} nm, which the spacing resolves, in place of "
+                    f"{0.1 * asked:.3g} nm; {longer} states what holds for that range")
+    else:
+        condition = f"for a range of {0.1 * used:.3g} nm"
     periodic = maps.jump(flat) < maps.PERIODIC
     if periodic:
         heights = flat
@@ -183,15 +225,19 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
             np.save(opened, heights)
         out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
-    made = program.surface(str(place / f"{stem}.toml"))
-    notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made["doubts"]]
-    kept = made["slope_of_neighbours"]
+    made = surface_made(str(place / f"{stem}.toml"))
+    notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made.doubts]
+    kept = made.slope
     if n < points:
         notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
                      f"{kept:.3g}; the map's neighbours have {slope:.3g}")
     else:
         notes.append(f"all {points} points along an edge are taken, {spacing / 10:.3g} nm apart; roughness below is not measured")
-    return place / f"{stem}.toml", notes, lambda factor: [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
+
+    def also(factor: float) -> Setting:
+        return [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
+
+    return MapScene(place / f"{stem}.toml", notes, also, withheld, condition)
 
 
 def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
@@ -217,16 +263,20 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
     refuse_jobs(jobs)
     place = files.chosen(None if out is None else str(out), _place(str(map)))
     _require_free(place, str(map))
-    scene, notes, also = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel,
-                                  sites=sites, line_noise=line_noise)
-    making = Estimating(str(scene), [], str(place), PoolOptions(jobs=jobs, progress="off"), None, (), also, notes, lambda _: None)
+    made = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
+                    line_noise=line_noise)
+    making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
     found, complete = _carried_out(making)
     if not complete:
         raise Stopped(str(place), "the estimate stopped early", "", "the same call goes on from here")
     if found is None:
         outcome = making.plan.scene.outcome
         raise BY_CODE.get(outcome.exit_code, InternalError)(str(place), "the run of the map failed", outcome.reason)
-    return Adhesion(found, Result(place / "scene"), notes, scene, place)
+    return Adhesion(found, Result(place / "scene"), made.notes, made.file, place)
+
+
+def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Estimating:
+    return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition)
 
 
 def _stem(file: str) -> str:
@@ -260,9 +310,9 @@ def adhesion_command(file: str, young: str, poisson: float, work: str, out: str 
     """`asperity adhesion`: its exit code."""
     place = files.chosen(out, _place(file))
     _require_free(place, file)
-    scene, notes, also = scene_of(file, young, poisson, work, place, **more)
-    print(f"{file}: a scene of it is {scene}", *(f"note: {note}" for note in notes), sep="\n", flush=True)
-    making = Estimating(str(scene), [], str(place), options, None, (), also, notes, lambda text: print(text, flush=True))
+    made = scene_of(file, young, poisson, work, place, **more)
+    print(f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes), sep="\n", flush=True)
+    making = _estimating(made, place, options, lambda text: print(text, flush=True))
     print(making.told(), flush=True)
     found, complete = _carried_out(making)
     if not complete:
@@ -272,6 +322,6 @@ def adhesion_command(file: str, young: str, poisson: float, work: str, out: str 
     if found is None or outcome.status != DONE:
         print(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
-    print(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in notes])))
+    print(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in made.notes])))
     print(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0

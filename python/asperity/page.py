@@ -24,11 +24,6 @@ def file_name(text: str) -> str:
     return re.sub(r"[^A-Za-z0-9.-]", "-", text)
 
 
-def minus(text: str) -> str:
-    """Replaces hyphens before numbers by the minus sign, which is as wide as a digit."""
-    return "−" + text[1:] if text.startswith("-") else text
-
-
 def _set(text: Any) -> Markup:
     """Escapes a text and sets its subscripts γ_{eff} and `commands`, and keeps units with their numbers."""
     out = re.sub(r"_\{([^}]*)\}", r"<sub>\1</sub>", str(escape(str(text))))

@@ -116,7 +116,8 @@ def quantity(path: str) -> dict[str, str]:
 
 
 def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Returns the scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs)."""
+    """Returns the scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs),
+    edge_pinning (by which a coarse spacing increases the pull-off force of a sphere)."""
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 

@@ -11,11 +11,12 @@ from collections.abc import Iterable, Mapping
 from functools import partial
 
 from . import program, scene, sentences, terminal, theories
-from .page import Page, file_name, minus, page_files
+from .page import Page, file_name, page_files
 from .plots import run as plots
 from .plots.style import KINDS
 from .result import Result, State, Values
 from .tables import AREA, BOTH
+from .terminal import minus
 from .units import shown
 
 MOST_STATES = 6

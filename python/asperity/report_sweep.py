@@ -19,7 +19,7 @@ from . import files
 from .errors import Error
 from .estimates import RESULT, load_estimate
 from .grid import is_seed, shown
-from .page import Page, file_name, minus, page_files
+from .page import Page, file_name, page_files
 from .plots import run as run_plots
 from .plots import sweep as plots
 from .plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
@@ -30,7 +30,7 @@ from .result import Result, Values, expect
 from .scene import toml_of
 from .sweeps import Sweep, load_sweeps
 from .tables import Table, text_of
-from .terminal import number
+from .terminal import minus, number
 from .sentences import KeyNumber
 
 MOST_POINTS = 24

@@ -9,9 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .page import minus
 from .result import Result, Values, finite
-from .terminal import duration, millijoules, number
+from .terminal import duration, millijoules, minus, number
 from .units import GIGAPASCAL, NANONEWTON
 
 
@@ -21,6 +20,10 @@ class KeyNumber:
     unit: str
     name: str
     note: str = ""
+
+
+FEW = 99.5
+"""Sites in contact that are counted beside their fraction."""
 
 
 def percent(fraction: float) -> str:
@@ -121,7 +124,9 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
-        gamma("jkr.pull_off", "from the pull-off force, by JKR", "Δγ")
+        pinning = run.number("jkr.edge_pinning")
+        gamma("jkr.pull_off", "from the pull-off force, by JKR" + (
+            f": about {pinning:.3g} times too large, for rows of sites hold the edge of the contact" if pinning else ""), "Δγ")
         gamma("jkr.approach_averaged", "from the attraction on the approach, by JKR, averaged over 2 ps")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
@@ -166,7 +171,10 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
     bonds, contact, pushed = map(run.number, ("pair_binding_energy", "contact_fraction", "repulsive_fraction"))
     at = run.load_words[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
-    if run.curved:
+    known, sites = run.number("binding_energy_uncertainty", 0.0), run.number("scene.surface.sites", 0.0) ** 2
+    if abs(state) <= known:
+        text = f"{at} the solids do not stick: the binding energy is below {energy(abs(state) + known)}."
+    elif run.curved:
         text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
     else:
         unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
@@ -176,7 +184,8 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
             text += (f" The bonds across the interface give {energy(bonds)}; bending the block into contact costs "
                      f"{energy(bonds - state)} of it.")
     if contact is not None:
-        text += f" {percent(contact)} of the sites are in contact"
+        count = f" ({round(contact * sites)} of {round(sites)})" * (contact * sites < FEW)
+        text += f" {percent(contact)} of the sites{count} are in contact"
         if pushed is not None:
             text += f"; the force on {percent(pushed)} of the sites is repulsive"
         text += "."

@@ -45,6 +45,11 @@ def number(value: float, decimals: int) -> str:
     return f"{value:.{2 - math.floor(math.log10(size))}f}"
 
 
+def minus(text: str) -> str:
+    """With the sign that is as wide as a digit."""
+    return "−" + text[1:] if text.startswith("-") else text
+
+
 def millijoules(gamma: float) -> str:
     """Returns an energy over an area, meV/Å², in mJ/m²: "1120", "7.65"."""
     return number(gamma * MILLIJOULE, 0)

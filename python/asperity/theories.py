@@ -97,7 +97,10 @@ def points(file: str, variations: list[list[str]], runnable: bool = False, profi
     found = program.theory_points(file, variations, runnable, profile)
     for point in found:
         if (rough := point.pop("rough", None)) is not None:
-            point["theory"]["renormalised"] = renormalised(rough, quick)
+            point["theory"]["renormalised"] = found_of_it = renormalised(rough, quick)
+            if "contact_fraction_expected_error" in found_of_it:  # contacts are counted: one site at least
+                sites = Values(point).number("scene.surface.sites", 1.0)
+                found_of_it["contact_fraction_expected_error"] = max(found_of_it["contact_fraction_expected_error"], 1.0 / sites**2)
             if Values(point).number("scene.surface.radius"):
                 point["theory"]["sphere"] = _sphere(Values(point))
     return found

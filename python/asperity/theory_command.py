@@ -15,6 +15,7 @@ from . import files, program, terminal, theories
 from .errors import SceneError
 from .result import Values
 from .scene import inputs_of
+from .stated_number import cut, with_error
 
 STATUS = {
     "adhesive": "the surfaces adhere without load",
@@ -90,9 +91,10 @@ def _text(point: Values) -> str:
     if point.find("theory.persson.converged") is False:
         lines.append("                 NOT converged to 1e-3: see the errors in the table")
     if (error := law.number("gamma_eff_expected_error")) is not None:
-        contact = law.number("contact_fraction"), law.number("contact_fraction_expected_error")
-        lines.append(f"  renormalised   γ_eff {law.number('gamma_eff_ratio'):.3f} ± {error / flat:.3f} Δγ, contact "
-                     "area {:.3f} ± {:.3f}: 19 of 20 simulated surfaces at zero load".format(*contact))
+        ratio, contact = law.number("gamma_eff_ratio", 0.0), law.number("contact_fraction", 0.0)
+        touching = with_error(contact, *cut(contact, law.number("contact_fraction_expected_error", 0.0), 0.0, 1.0))
+        lines.append(f"  renormalised   γ_eff/Δγ {with_error(ratio, *cut(ratio, error / flat, 0.0, max(ratio, 1.0)))}, contact "
+                     f"area {touching}: 19 of 20 simulated surfaces at zero load")
     if gamma is not None:
         place = law.number("separation")
         lines.append("  renormalised   mean separation " + (
