@@ -105,7 +105,7 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 # Planning.
 
-MAP_FILES = [f"{stem}.{kind}" for stem in ("mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
 """What the parts of a measured map are written to, in the folder maps."""
 
 
@@ -142,6 +142,8 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
             made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
             made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
                                 "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+            if name == "finer":  # the surface as it was made: what was taken off it is off
+                made["surface"]["line_noise"] = "keep"
             thickness = of.number("block.thickness")
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
