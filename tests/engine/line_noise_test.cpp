@@ -153,7 +153,9 @@ TEST(LineNoise, IsFoundAndTakenOff) {
                     // Noise that is correlated over a few points has some waves along the lines.
                     const double left = (energy(back, n) - true_energy) / (before - true_energy);
                     EXPECT_LT(std::abs(left), length > 0.0 ? 0.25 : 0.08);
-                    if (length == 0.0) EXPECT_NEAR(slope(back, n) / slope(own, n), 1.0, 0.03);
+                    if (length == 0.0) {
+                        EXPECT_NEAR(slope(back, n) / slope(own, n), 1.0, 0.03);
+                    }
                     EXPECT_FALSE(line_noise_statistics(back, n).found());
                     // A second time there is nothing to take off.
                     EXPECT_LT(make_isotropic(clean, n, along_y, n).share(), 0.1 * excess.share());
@@ -210,10 +212,10 @@ TEST(LineNoise, IsSaidWithARemedyThatHelps) {
         EXPECT_EQ(done[0].find("is left"), std::string::npos) << done[0];
         EXPECT_TRUE(treat_line_noise(same, n, 2.6, n, LineNoise::keep).empty());
         // The wrong remedy says so.
-        if (length > 0.0)
-            EXPECT_NE(treat_line_noise(h, n, 2.6, n, LineNoise::align_rows)[0].find(
-                          "\"isotropic\" takes off"),
-                      std::string::npos);
+        if (length > 0.0) {
+            const auto aligned = treat_line_noise(h, n, 2.6, n, LineNoise::align_rows);
+            EXPECT_NE(aligned[0].find("\"isotropic\" takes off"), std::string::npos);
+        }
     }
     Map copy = own;
     EXPECT_TRUE(treat_line_noise(copy, n, 2.6, n, LineNoise::keep).empty());
