@@ -23,7 +23,7 @@ OPEN = {
 REFUSED = ("of whether what where below from under as told both like likewise none not "
            "it its this that these those they which who why when how").split()
 VERBS = set("""
-adds allocates allows appends asks begins brings calls catches checks clears closes collects combines compares computes
+adds allocates allows appends asks begins brings calls catches checks claims clears closes collects combines compares computes
 continues converts copies counts creates cuts deletes derives displaces draws drifts ends estimates exchanges explains
 fills finds frees gathers gives holds interpolates joins keeps kicks leads loads looks makes measures moves multiplies opens
 parses passes places plans prints puts reads records refuses relaxes removes renames replaces resets resolves restores
