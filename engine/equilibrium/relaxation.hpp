@@ -104,7 +104,7 @@ struct RelaxationConstants {
     /// Share of the residual that conjugate gradients leave: at first, and after a step that has
     /// not halved the residual.
     static constexpr double loose = 0.3, tight = 0.1;
-    static constexpr int most_products = 100; ///< products of conjugate gradients
+    static constexpr int most_products = 100; ///< limit of conjugate gradients
     static constexpr double shortest = 0.1;   ///< fraction of a step near an equilibrium
     /// Sweeps are in mixed precision down to a mean residual ten times their error.
     static constexpr double rough_enough = 2.6e-6;

@@ -261,7 +261,7 @@ class Search:
 
 def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
-    """Looks for the stable states of a scene under its load. The dictionary that is returned has
+    """Searches for the stable states of a scene under its load. The dictionary that is returned has
 
         states      inwards: binding_energy, elastic_energy (meV/Å²), mean_height (Å), contact_fraction,
                     repulsive_fraction, barrier (MPa: the largest pressure on the path to the next), found (how); of those

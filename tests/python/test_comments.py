@@ -19,7 +19,7 @@ adds allocates allows appends asks begins brings builds calls catches checks cla
 continues converts copies counts creates cuts deletes derives displaces draws drifts ends estimates exchanges explains
 fills finds frees gathers gives holds interpolates joins keeps kicks leads loads looks makes measures moves multiplies opens
 parses passes places plans prints puts reads records refuses relaxes removes renames replaces resets resolves restores
-resumes returns rounds runs saves selects sends sets shifts shows simulates solves starts stops stores sums sweeps takes tells throws
+resumes returns rounds runs saves searches selects sends sets shifts shows simulates solves starts stops stores sums sweeps takes tells throws
 transfers transforms unrolls updates waits writes
 advances binds carries completes concludes follows goes indents integrates limits notes prepares spells
 averages escapes exports subtracts yields
