@@ -114,16 +114,13 @@ bool is_left_of(const std::string& file, const std::vector<std::string>& names) 
            std::find(names.begin(), names.end(), beside.substr(0, dot)) != names.end();
 }
 
-/// Removes what was not put in its place, and, to start anew, the files of a run.
-void remove_files(const Directory& directory, const ResultRequest& request) {
+/// Removes files that a command which was killed has not put in their places.
+void remove_left_over(const Directory& directory, const ResultRequest& request) {
     std::vector<std::string> names = request.files;
     names.emplace_back(FileRecord::name);
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(directory.path(), error))
         if (const std::string file = entry.path().filename().string(); is_left_of(file, names))
-            directory.remove(file);
-    if (request.restart)
-        for (const std::string& file : request.files)
             directory.remove(file);
 }
 
@@ -172,9 +169,12 @@ ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string
 ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
     lock();
+    remove_left_over(directory_, request); // also of a run that had come to its end
     check(request, directory_);
     record_.claim(request.files, request.inputs);
-    remove_files(directory_, request);
+    if (request.restart)
+        for (const std::string& file : request.files)
+            directory_.remove(file);
 }
 
 void ResultDirectory::require_in_place() const {

@@ -27,7 +27,7 @@
 // Beyond the instability only one point of the new branch is known, and a step may hide the next
 // instability: the force may return to its former value, and the error of the integral may equal
 // the lost energy. Forces are therefore compared with the slope of the branch before, and a step is
-// halved if the force misses this slope by too much. This finds most instabilities, not all
+// halved if the force misses this slope by too much. This does not find all instabilities
 // (docs/explanation/relaxation.md). As long as a place further on is kept, steps go half of the way
 // to that place. A relaxation whose force jumps by more than a step of its length allows is
 // abandoned on its way through the instability: with few exceptions its step would be halved

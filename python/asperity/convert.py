@@ -124,7 +124,7 @@ def read_heights(source: str, channel: str | None = None, unit: str | None = Non
 
 def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
     """Asks the program what may be wrong with the map in a file that convert() wrote: line noise, an implausible size and
-    the like. Returns no doubts if the program makes no surface of the map."""
+    the like; if no scene takes the map as it is, returns the reason."""
     size, unit = found.get("size"), found.get("size_unit") or found.get("unit")
     n = max(2, min(found["heights"].shape))
     keys = {"kind": "file", "file": str(file.resolve()), "file_missing": "fill", "file_crop": "middle", "sites": n,
@@ -135,11 +135,14 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
         keys["spacing"] = min(size) * 10.0 ** LENGTHS[unit] / n
     else:
         keys["file_size"] = float(n)
-    with tempfile.TemporaryDirectory(prefix="asperity-") as place, contextlib.suppress(Error):
+    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
         scene = Path(place) / "map.toml"
         scene.write_text(toml_of({"surface": keys}))
-        return list(program.surface(str(scene))["doubts"])
-    return []
+        try:
+            return list(program.surface(str(scene))["doubts"])
+        except Error as error:
+            said = re.sub(r"^.*map\.toml(:\d+)*: |^ +(why|fix): ", "", str(error), flags=re.M)
+            return ["a scene refuses it as it is: " + "; ".join(said.splitlines())]
 
 
 def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:
