@@ -345,7 +345,7 @@ class Estimating:
 
 
     def _missing(self, result: Values) -> str:
-        """Judges the waves that a map does not show and completes their part; returns why no number is stated, "" if they are."""
+        """Completes the part of the waves that a map does not show. Returns the reason why no number is stated; "" if they are."""
         part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
         if part is None:
             return ""
