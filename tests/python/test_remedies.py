@@ -77,9 +77,10 @@ def test_a_unit_that_a_map_does_not_say_right(place):
     with pytest.raises(asperity.Error, match="another channel"):
         asperity.maps.read_map("map.h5")
     hdf5("map.h5", unit="nm", size_x=64.0, size_y=64.0, size_unit="V")
-    with pytest.raises(asperity.Error, match="remove size_x") as error:
+    with pytest.raises(asperity.Error, match="unit of its size, V, is none of length") as error:
         asperity.maps.read_map("map.h5", "nm")
-    assert "--unit" not in str(error.value)
+    assert "--unit" not in str(error.value) and "--size" in str(error.value)
+    assert asperity.maps.read_map("map.h5", "nm", 640.0).size == (640.0, 640.0)
     hdf5("map.h5", unit="nm")
     assert asperity.maps.read_map("map.h5", None, 640.0).size == (640.0, 640.0)
 
