@@ -88,11 +88,17 @@ void skip_blanks(std::string_view& text) {
     }
 }
 
-/// How it may be written too: superscripts, "**", the dot of a product.
+/// Other spellings: superscripts, "**", the dot of a product, and "µ" in UTF-8 that a program took
+/// for Latin-1 (in files of SUR).
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
-    {"⁰", "^0"}, {"¹", "^1"}, {"²", "^2"},  {"³", "^3"},      {"⁴", "^4"},  {"⁵", "^5"},
-    {"⁶", "^6"}, {"⁷", "^7"}, {"⁸", "^8"},  {"⁹", "^9"},      {"⁻^", "^-"}, {"**", "^"},
-    {"·", "*"},  {"Âµ", "µ"}, {"Â²", "^2"}, {"Ã\u0085", "Å"}, // UTF-8 that was read as Latin-1
+    {"⁰", "^0"},  {"¹", "^1"},
+    {"²", "^2"},  {"³", "^3"},
+    {"⁴", "^4"},  {"⁵", "^5"},
+    {"⁶", "^6"},  {"⁷", "^7"},
+    {"⁸", "^8"},  {"⁹", "^9"},
+    {"⁻^", "^-"}, {"**", "^"},
+    {"·", "*"},   {"\u00C2\u00B5", "\u00B5"},
+    {"Â²", "^2"}, {"Ã\u0085", "Å"}, // UTF-8 that was read as Latin-1
 };
 
 std::string plain(std::string_view unit) {
@@ -103,7 +109,7 @@ std::string plain(std::string_view unit) {
     return text;
 }
 
-/// The power behind a symbol: ^2, ^-1; 1 if there is none.
+/// Returns the power behind a symbol: ^2, ^-1; 1 if there is none.
 std::optional<int> take_power(std::string_view& text) {
     if (!skip(text, "^")) return 1;
     const int sign = skip(text, "-") ? -1 : 1;
@@ -132,7 +138,7 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"eV/Å", "\"0.1 meV/Å\""},
 };
 
-/// What the units of a dimension measure.
+/// Names of the dimensions.
 constexpr std::pair<std::array<int, 4>, const char*> measures[] = {
     {number, "a bare number"},
     {length, "a length"},

@@ -28,25 +28,30 @@ struct ForceAt {
 /// three before it (Newton's divided differences), so that the error of a step h is of order h^5
 /// where the force is smooth. Where it is not, the polynomial through the old points alone misses
 /// the new force, and wherever in the step that came about, the integral is wrong by no more than
-/// half the step times the miss. Where the force jumps, the trail begins anew.
+/// half the step times the miss. Where the force jumps, the trail begins anew: what it has missed
+/// is then measured from the slope of the branch before, which a jump of a small part of the
+/// contact leaves nearly as it was.
 class ForceTrail {
 public:
     struct Integral {
-        double value = 0.0, error = 0.0; ///< int f dx, and what it may be wrong by
+        double value = 0.0, error = 0.0; ///< int f dx and its error, eV
     };
 
-    /// A first point, with nothing behind it.
+    /// Starts the trail with a first point.
     void begin(double x, double f) { points_.assign(1, {x, f}); }
+    /// Resets the slope of the branch, because another coordinate is led from here.
+    void forget_slope() { branch_slope_ = 0.0; }
     void add(double x, double f) {
+        branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
         if (points_.size() == longest) points_.erase(points_.begin());
         points_.push_back({x, f});
     }
-    /// From the last point to (x, f), which stays outside.
+    /// Integrates from the last point to (x, f), which is not added.
     Integral to(double x, double f) const {
         const std::size_t n = points_.size();
         const ForceAt& last = points_[n - 1];
         const double h = x - last.x, slope = (f - last.f) / h;
-        double value = 0.5 * h * (f + last.f), miss = f - last.f;
+        double value = 0.5 * h * (f + last.f), miss = f - last.f - h * branch_slope_;
         if (n > 1) {
             const ForceAt& second = points_[n - 2];
             const double d = last.x - second.x, old_slope = (last.f - second.f) / d;
@@ -64,15 +69,20 @@ public:
         }
         return {value, std::abs(0.5 * h * miss)};
     }
-    /// From the last point but one to the last; none of one alone.
-    double slope() const {
-        if (points_.size() == 1) return 0.0;
-        const ForceAt &last = points_.back(), &second = points_[points_.size() - 2];
-        return (last.f - second.f) / (last.x - second.x);
+    /// Returns true if the trail has one point only.
+    bool is_new() const { return points_.size() == 1; }
+    /// Returns the force at x on the line through the last point with the slope of its branch,
+    /// eV/Å.
+    double continued(double x) const {
+        return points_.back().f + (x - points_.back().x) * branch_slope_;
     }
-    /// The force at x on the line through the last two points; of one alone, its own.
-    double continued(double x) const { return points_.back().f + (x - points_.back().x) * slope(); }
-    /// By the trapezium, whatever came before.
+    /// Returns the distance of the force f at x from the last or from the continued force,
+    /// whichever is larger, eV/Å: after an instability and some way along the new branch f may
+    /// equal the last force again.
+    double jump(double x, double f) const {
+        return std::max(std::abs(f - points_.back().f), std::abs(f - continued(x)));
+    }
+    /// Integrates to (x, f) by the trapezium alone, eV.
     double trapezium(double x, double f) const {
         return 0.5 * (x - points_.back().x) * (f + points_.back().f);
     }
@@ -80,26 +90,29 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("points", points_);
+        v("branch_slope", branch_slope_);
     }
 
 private:
     static constexpr std::size_t longest = 3;
     std::vector<ForceAt> points_;
+    double branch_slope_ = 0.0; ///< slope in the last step without a jump, eV/Å^2
 };
 
 struct PathPoint {
-    double at = 0.0;     ///< of what is led, Å
-    double force = 0.0;  ///< that leading it there takes, eV/Å
+    double at = 0.0;     ///< prescribed coordinate, Å
+    double force = 0.0;  ///< force that holds the coordinate there, eV/Å
     double energy = 0.0; ///< eV
 };
 
 struct StepLimits {
     double missing = 0.0;   ///< energy that counts as nothing in this step, eV
-    double uncertain = 0.0; ///< what the work of a step with an instability may be wrong by, eV
+    double uncertain = 0.0; ///< uncertainty that the work of an unstable step may have, eV
     bool last_try = false;  ///< no shorter step is made
-    /// It is short beside the times in which the block relaxes: what is missing is then no error of
-    /// the step in time.
+    /// True if the step is short beside the times in which the block relaxes: missing energy is
+    /// then no error of the step in time.
     bool short_in_time = true;
+    double in_time = 0.0; ///< error of the step in time, eV (block_memory.hpp)
 };
 
 struct StepDecision {
@@ -109,13 +122,14 @@ struct StepDecision {
         jump,   ///< accepted, and the energy that is missing was dissipated
     };
     Verdict verdict = halve;
-    double work = 0.0;       ///< of the top plane in this step, eV
+    double work = 0.0;       ///< work of the top plane in this step, eV
     double dissipated = 0.0; ///< eV
     double gap = 0.0;        ///< work less energy gained and dissipated, eV
-    double uncertain = 0.0;  ///< of the work, where energy is missing, eV
+    double uncertain = 0.0;  ///< uncertainty of the work if energy is missing, eV
     bool smooth = true;      ///< the force did not jump
     bool excess = false;     ///< more energy gained than the work can have brought
-    double growth = 1.0;     ///< of the step that follows
+    bool coarse = false;     ///< halved for its error in time, not for an instability
+    double growth = 1.0;     ///< factor of the length of the next step
 };
 
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
@@ -125,24 +139,29 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     StepDecision d;
     d.work = -integral.value;
     const double missing = d.work - gained;
-    const double error =
-        limits.short_in_time ? std::min(integral.error, std::abs(missing)) : std::abs(missing);
+    const double error = std::max(limits.short_in_time ? std::min(integral.error, std::abs(missing))
+                                                       : std::abs(missing),
+                                  limits.in_time);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
-    if (std::abs(missing) <= limits.missing) {
-        d.verdict = StepDecision::accept;
+    // The error of the integral of a new trail may equal the energy that an instability took.
+    const bool hides = trail.is_new() && integral.error > limits.uncertain && !limits.last_try;
+    if (std::abs(missing) <= limits.missing && !hides) {
+        d.coarse = limits.in_time > limits.missing && !limits.last_try;
+        if (!d.coarse) d.verdict = StepDecision::accept;
         d.gap = missing;
         return d;
     }
-    // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
-    // the residual.
+    d.coarse = !limits.short_in_time;
+    // Missing energy below the uncertainty of the work or below the limit is not counted as
+    // dissipated: it shows in the residual.
     d.uncertain = integral.error;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;
     if (!d.smooth) {
         d.work = -trail.trapezium(trial.at, trial.force);
-        d.uncertain = 0.5 * std::abs(trial.at - last.at) * std::abs(trial.force - last.force);
+        d.uncertain = 0.5 * std::abs(trial.at - last.at) * trail.jump(trial.at, trial.force);
         known = d.uncertain <= limits.uncertain;
     }
     const double least = std::max(d.uncertain, limits.missing);

@@ -48,7 +48,7 @@ Path::Made StaticPath::advance(const Wish&) {
     at_end_ = outcome != QuasistaticPath::Outcome::point;
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Made::nothing;
-    results_.feel(case_.path[segment_], now());
+    results_.record_force(case_.path[segment_], now());
     return Made::step;
 }
 
@@ -59,7 +59,7 @@ std::optional<std::size_t> StaticPath::ended() const {
 
 std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = kind() != Segment::relax;
-    if (held) points_->put_back(); // as after a resume, bitwise identical
+    if (held) points_->put_back(); // the same state as after a resume, bitwise
     const std::optional<ZeroLoad> found = state_from_here(
         held ? 0.0 : case_.simulation.drive.load_force, !held && !std::exchange(resumed_, false));
     LayerAtRest state;
@@ -94,6 +94,7 @@ void StaticPath::conclude() {
                     .lateral = slide ? points_->work() : 0.0,
                     .relaxed = points_->relaxed(),
                     .lost = points_->dissipation().in_segment,
+                    .stored = points_->stored(),
                     .interface = {},
                     .uncertainty = points_->uncertainty()};
         // A held mean height does not jump: the holder's force is that of the interface.

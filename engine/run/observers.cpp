@@ -6,6 +6,7 @@
 #include "engine/path/guard.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/run/summary.hpp"
+#include "io/result_directory.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ void LastGood::look(Path& path) {
 std::string LastGood::write(Path& path) {
     if (snapshot_.empty()) return "no earlier state was kept";
     snapshot_.restore(path);
-    const char* file = "last-good.h5";
+    const char* file = io::run_file::last_good;
     try {
         session_.write_state(session_.file(file), path, of_session_);
         return fmt::format("the last good state, {}, is in {}", path.position(), file);

@@ -75,6 +75,11 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (in) result.set("dissipated_in_block.approach", in->relaxed);
     if (out) result.set("dissipated_in_block.pull_off", out->relaxed);
     result.set("dissipated_in_block.cycle", results.relaxed_in_cycle);
+    if (in && in->relaxed) result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
+    if (out && out->relaxed)
+        result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
+    if (in) result.set("stored.approach", in->stored);
+    if (out) result.set("stored.pull_off", out->stored);
     if (!radius) return;
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
@@ -84,7 +89,7 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (out) result.set("jkr.pull_off", as_work(out->attraction));
 }
 
-/// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
+/// Adds the results of a curved scene at zero load: contact radius, and binding energy by JKR.
 void add_sphere(const Case& c, io::Result& result) {
     const Scene& scene = c.scene;
     if (!scene.surface.radius) return;
@@ -114,6 +119,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
         given("segments[].dissipated_in_block", s.relaxed);
+        given("segments[].stored", s.stored);
         given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
@@ -213,7 +219,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
     part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
-    // What resumes is taken as written where its time is past.
+    // A resumed run takes maps whose time is past as written.
     part["output"]["delayed"] = io::Json::array();
     for (const auto& [delay, name] : c.maps.after_approach)
         part["output"]["delayed"].push_back(name);
@@ -237,6 +243,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
         result.set("energy.kinetic", now.kinetic_energy);
         result.set("energy.elastic", now.elastic_energy);
         result.set("energy.interface", now.interface_energy);
+        if (c.effects.temperature) result.set("energy.time_step", now.time_step_energy);
         result.set("energy.damped", now.damped);
         if (c.effects.branches) {
             result.set("energy.branches", now.branch_energy);

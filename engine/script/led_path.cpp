@@ -30,7 +30,7 @@ const char* name(Constraint::Of held) {
     return held == Constraint::Of::top ? "the top plane" : "the mean height";
 }
 
-/// The same solids, quasi-static.
+/// Returns the case of the same solids, quasi-static.
 Case quasistatic(const Case& c) {
     if (c.ranks != 1)
         refuse("Statics", fmt::format("on {} ranks", c.ranks),
@@ -79,7 +79,7 @@ void LedPath::set_hold(double time) {
     target_ = {.hold = time * units::picosecond};
 }
 
-/// Work that is given up where look throws, and then rethrows it: the path is at its last point.
+/// Calls work, gives up when look throws, and then rethrows: the path is at its last point.
 template <class Work>
 auto LedPath::while_looking(const Look& look, const Work& work) {
     LookNowAndThen now_and_then(look);
@@ -112,7 +112,7 @@ LedPath::Point LedPath::relax(const Look& look) {
             if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
             return path_.lead({Segment::load, *target_.load}, at_point);
         });
-    } catch (const io::PhysicsError&) { // it cannot be reached: the last point is again there
+    } catch (const io::PhysicsError&) { // the target cannot be reached: the last point is restored
         target_ = {};
         path_.back_to(from);
         throw;
@@ -189,7 +189,7 @@ void LedPath::restore(const State& state) {
     place(state);
 }
 
-/// The block there; a new path is to begin.
+/// Puts the block into a state; a new path is to begin.
 void LedPath::place(const State& state) {
     before_ = now();
     path_.end_points();
@@ -220,7 +220,7 @@ void LedPath::hold(Held held) {
     held_ = held;
 }
 
-/// The path, if it has not begun.
+/// Begins the path unless it has begun.
 void LedPath::begin() {
     if (path_.points()) return;
     hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));

@@ -38,7 +38,7 @@ std::vector<std::string> names_of(const EachPotential& all) {
 
 constexpr const char* table_format = "a table has distances in Å, which ascend, and energies in eV";
 
-/// What is wrong with a table, in the words of its reader; `what` ends the sentence of a key.
+/// Error of a table, in the words of its reader; `what` ends the sentence of a key.
 struct BadTable {
     std::string what, why, fix;
 };
@@ -72,14 +72,14 @@ const PotentialTable& table_of(Case& c, const std::string& file) {
     return *tables.back();
 }
 
-/// "4 r0", Å.
+/// Returns the cutoff "4 r0", Å.
 double usual_cutoff(const auto& potential) { return 4.0 * potential.zero(); }
 
 double cutoff_over(const PotentialTable& table, const Scene::Interface& keys) {
     return keys.cutoff.value_or(usual_cutoff(table.potential(table.last())));
 }
 
-/// interface.potential with its keys.
+/// Fills in the potential of interface.potential with its keys.
 void find_potential(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
     const bool wall = keys.kind == InterfaceKind::wall;
@@ -107,10 +107,11 @@ void find_potential(Case& c, io::Problems& problems) {
                 problems.add("interface.table", fmt::format("= \"{}\": {}", keys.table, bad.what),
                              bad.why, bad.fix);
                 return;
-            } catch (const std::invalid_argument& error) { // of the cutoff
-                problems.add("interface.cutoff",
-                             fmt::format("= {:.6g} Å leaves no attraction", keys.cutoff.value_or(0.0)),
-                             error.what(), "take a cutoff beyond the well; 4 r0 is usual");
+            } catch (const std::invalid_argument& error) { // thrown for the cutoff
+                problems.add(
+                    "interface.cutoff",
+                    fmt::format("= {:.6g} Å leaves no attraction", keys.cutoff.value_or(0.0)),
+                    error.what(), "take a cutoff beyond the well; 4 r0 is usual");
                 return;
             }
         } else {
@@ -143,7 +144,7 @@ struct Entry {
     }
 };
 
-/// "Au D a r0", of a potential's parameters.
+/// Returns the form of an entry, "Au D a r0", from a potential's parameters.
 template <class P>
 std::string form_of(P p) {
     std::string form = p.name == LennardJones::name ? "type" : fmt::format("type {}", p.name);

@@ -23,8 +23,8 @@ namespace asperity {
 
 namespace {
 
-/// Beside the scene, then in the working directory (the other way round if it was named on the
-/// command line).
+/// Returns the places of a file: beside the scene, then in the working directory (in reverse order
+/// if it was named on the command line).
 std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::string& file,
                                                const std::string& key) {
     namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::st
     return places;
 }
 
-/// The file of kind = "file" or "atoms".
+/// Returns the file of kind = "file" or "atoms".
 std::string file_of(const Scene& scene, io::Problems& problems) {
     if (!scene.surface.reads_file()) return {};
     const bool atoms = scene.surface.kind == SurfaceKind::atoms;
@@ -58,7 +58,7 @@ std::string file_of(const Scene& scene, io::Problems& problems) {
     return {};
 }
 
-/// output.fields; members that the reader has let pass.
+/// Parses output.fields, whose members the reader has accepted.
 MapTimes maps_of(const Scene& scene, io::Problems& problems) {
     MapTimes maps;
     std::vector<std::string> kinds;
@@ -107,7 +107,7 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     return block;
 }
 
-/// Why numerics.precision = "mixed" does not apply; empty where it does.
+/// Returns the reason why numerics.precision = "mixed" does not apply; empty if it does.
 std::string why_in_double(const Case& c) {
     const Scene& scene = c.scene;
     if (scene.interface.kind == InterfaceKind::wall) return "over a wall";
@@ -118,7 +118,7 @@ std::string why_in_double(const Case& c) {
     return {};
 }
 
-/// What is not its potentials.
+/// Fills in the interface except its potentials.
 void fill_interface(Case& c) {
     const Scene& scene = c.scene;
     const Scene::Interface& i = scene.interface;
@@ -130,7 +130,7 @@ void fill_interface(Case& c) {
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
         c.notes.push_back("numerics.precision has no effect: pairs are in double precision " +
                           in_double);
-    options.rough_too = !c.in_time;
+    options.mixed_on_request = !c.in_time;
     if (i.kind == InterfaceKind::atoms) return;
     if (i.law == WallLawKind::smeared) {
         std::visit(
@@ -151,7 +151,7 @@ void fill_interface(Case& c) {
     options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
 }
 
-/// Flat on flat, and of flat layers of each type of atoms what is largest.
+/// Fills in flat on flat, and the bounds over flat layers of each type of atoms.
 void fill_flat_reference(Case& c, io::Problems& problems) {
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
@@ -188,7 +188,7 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     find_scales(c, std::min(smallest_tension, c.largest_tension));
 }
 
-/// Forces that the tolerance lets pass, in the block's longest wave, beside the work of adhesion.
+/// Notes a tolerance whose forces, in the block's longest wave, matter beside the work of adhesion.
 void note_coarse_tolerance(Case& c) {
     if (c.in_time) return;
     constexpr double coarse = 0.01;
@@ -206,7 +206,7 @@ void note_coarse_tolerance(Case& c) {
         c.scene.drive.tolerance * std::sqrt(coarse / fraction)));
 }
 
-/// No step may jump over the potential, and no pull can be larger than what binds most.
+/// Limits steps: no step may jump over the potential, and no pull can exceed the strongest binding.
 void limit_steps(Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     // The width of the potential: its depth over its largest force.
@@ -244,7 +244,7 @@ void limit_steps(Case& c, io::Problems& refused) {
     }
 }
 
-/// Of a scene whose steps a device takes.
+/// Returns the device of a scene whose steps a device takes.
 DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
     const DeviceChoice& asked = scene.numerics.device;
     if (asked.kind == DeviceChoice::Kind::emulated) return asked;
@@ -260,7 +260,7 @@ DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
     return {DeviceChoice::Kind::cuda, asked.index};
 }
 
-/// How the block is driven, and its steps.
+/// Fills in the drive of the block and its steps.
 void fill_motion(Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const BlockOptions& block = c.simulation.block;
@@ -295,7 +295,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
     c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
-    const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
+    const double period = std::numbers::pi * c.longest_timestep; // period of the fastest vibration
     if (c.effects.inertia && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
@@ -309,7 +309,7 @@ void fill_motion(Case& c, io::Problems& refused) {
                         0.1 * period));
 }
 
-/// Whether the ranks can share the box, and how evenly.
+/// Checks that the ranks can share the box, and how evenly.
 void look_at_ranks(Case& c, io::Problems& refused) {
     try {
         const ProcessGrid grid = c.grid(0);
@@ -324,7 +324,7 @@ void look_at_ranks(Case& c, io::Problems& refused) {
     }
 }
 
-/// All that follows from keys that do not contradict each other.
+/// Derives all consequences of keys that do not contradict each other.
 void derive(Case& c, io::Problems& problems) {
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
@@ -359,6 +359,12 @@ std::string find_beside_scene(const Scene& scene, const std::string& file, const
 ProcessGrid Case::grid(int rank) const {
     if (!in_time) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
+}
+
+std::vector<std::string> Case::inputs() const {
+    std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
+    files.insert(files.end(), table_files.begin(), table_files.end());
+    return files;
 }
 
 bool Case::has(Segment::Kind kind) const {

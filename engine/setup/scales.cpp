@@ -10,6 +10,9 @@
 //   that energy which it lets pass: at its default 3e-5 W;
 // - without an attraction, the smallest load on a site that the path asks for; without a load, that
 //   which displaces the block's longest wave by drive.displacement_step.
+//
+// A path and a state under a load that presses with more than this on each site take a site's part
+// of that load in its place (equilibrium/quasistatic.hpp).
 #include "engine/setup/resolving.hpp"
 
 #include "engine/units.hpp"
@@ -23,7 +26,7 @@ namespace asperity {
 
 namespace {
 
-/// The smallest load that the path asks for, MPa; none: 0.
+/// Returns the smallest load that the path asks for, MPa; 0 if there is none.
 double smallest_load(const Case& c) {
     double smallest = 0.0;
     const auto consider = [&](double load) {
@@ -41,7 +44,7 @@ double smallest_load(const Case& c) {
 void find_scales(Case& c, double smallest_tension) {
     const BlockOptions& block = c.simulation.block;
     const double area = block.spacing * block.spacing;
-    const double softest = block.softest_wave() * area; // of a site, eV/Å^2
+    const double softest = block.softest_wave() * area; // stiffness for a site, eV/Å^2
     Scales& scales = c.scales;
     if (smallest_tension > 0.0) {
         constexpr double energy = 450.0; // works of adhesion

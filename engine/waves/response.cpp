@@ -90,22 +90,35 @@ void Response::stiffen_relaxed(Waves<double>& f) const {
         stiffen<double>(b, 1.0, f.block(b), 0.0, nullptr, f.block(b));
 }
 
+template <class T, class Change>
+void Response::change_waves(SiteField<T>& field, const Change& change) const {
+    WaveBlocks<T> blocks = to_blocks(field, transform<T>());
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < slab_.blocks(); ++b) {
+        T* const waves = blocks.get(b);
+        change(b, waves);
+        blocks.put(b, waves);
+    }
+    to_sites(std::move(blocks).to_rows(), field);
+}
+
+template <class T>
+void Response::stiffen(SiteField<T>& displacement) const {
+    change_waves(displacement, [&](int b, T* waves) { stiffen<T>(b, waves, 0.0, nullptr, waves); });
+}
+template void Response::stiffen(SiteField<float>&) const;
+
 template <class T>
 void Response::shape_forces(SiteField<T>& displacement) const {
     const double sites = options_.sites;
     const std::size_t normal = slab_.block_length(components_ - 1);
-    WaveBlocks<T> blocks = to_blocks(displacement, transform<T>());
-#pragma omp parallel for schedule(static) num_threads(blocks.threads())
-    for (int b = 0; b < slab_.blocks(); ++b) {
-        T* const waves = blocks.get(b);
+    change_waves(displacement, [&](int b, T* waves) {
         stiffen<T>(b, waves, 0.0, nullptr, waves);
         if (known_)
             combine_row(sites * sites, known_->block(b), 1.0, waves,
                         static_cast<int>(known_->length()));
         if (b == 0 && slab_.holds_uniform()) waves[normal] = T(0);
-        blocks.put(b, waves);
-    }
-    to_sites(std::move(blocks).to_rows(), displacement);
+    });
 }
 template void Response::shape_forces(SiteField<float>&) const;
 template void Response::shape_forces(SiteField<double>&) const;

@@ -19,9 +19,9 @@ double SpectralBlock::top() const {
     return constraint_.is_top() ? constraint_.value : mean_height() - constraint_.load() / spring();
 }
 
-void SpectralBlock::begin_step(double dt) {
+void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
-    memory_->begin(from_top(), dt);
+    memory_->begin(from_top(), dt, last);
     const double sites = options_.sites;
     to_waves(memory_->known(), transform<double>(), *known_);
     combine(0.0, *known_, 1.0 / (sites * sites), *known_);

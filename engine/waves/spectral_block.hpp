@@ -7,6 +7,7 @@
 
 #include "engine/waves/response.hpp"
 
+#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -35,9 +36,10 @@ public:
     double top() const;
 
     /// Begins a step of dt, fs, of a viscoelastic block from the state and the constraint as they
-    /// are; an infinite step leaves the block relaxed, without memory. Does nothing without
-    /// branches. Collective.
-    void begin_step(double dt);
+    /// are; an infinite step leaves the block relaxed, without memory. last: length of the step
+    /// that this one continues, fs; infinite: it continues none. Does nothing without branches.
+    /// Collective.
+    void begin_step(double dt, double last = std::numeric_limits<double>::infinity());
     /// Ends the step of the branches at the current displacements.
     void end_step() {
         if (memory_) memory_->end(from_top());
@@ -47,6 +49,9 @@ public:
     const std::vector<SiteField<double>>* memory() const {
         return memory_ ? &memory_->extensions() : nullptr;
     }
+    /// Returns what the next step needs of the last one, Å, to be kept and restored; null without
+    /// branches.
+    std::vector<SiteField<double>>* history() { return memory_ ? &memory_->history() : nullptr; }
 
     /// Returns the bytes of the table of stiffness, which each rank has whole, and of all.
     std::size_t table_bytes() const { return table_.bytes(); }

@@ -10,12 +10,12 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
-    asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error, and of what
+    asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error and the causes
     sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/howto/python-engine.md)
     sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
-The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
-and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
+The program reads and checks scenes and does the physics; this package starts the program, reads its results and draws
+them. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError and Stopped.
 """
 
 from typing import TYPE_CHECKING
@@ -52,7 +52,7 @@ def __getattr__(name: str):
 
 
 def __dir__() -> list[str]:
-    """For dir(), help() and completion: Simulation, Statics and states where the compiled module is there."""
+    """Returns the names for dir(), help() and completion; Simulation, Statics and states if the compiled module exists."""
     import importlib
 
     names = {*__all__, *_MODULES, "__version__"}

@@ -25,12 +25,12 @@ ANGSTROM_PER_PS = 0.01
 
 
 def _branches(prony: Prony) -> list[tuple[float, float]]:
-    """Ratios and times, ps."""
+    """Returns ratios and times, ps."""
     return [(ratio, quantity("prony", time, "ps")) for ratio, time in prony]
 
 
 def _numbers(where: str, given: Any, unit: str) -> np.ndarray:
-    """An array in this unit, of numbers, texts or lists of them."""
+    """Returns an array in this unit, of numbers, texts or lists of them."""
     values = np.asarray(given)
     if values.dtype.kind in "fiu":
         return values.astype(float)
@@ -38,15 +38,47 @@ def _numbers(where: str, given: Any, unit: str) -> np.ndarray:
 
 
 def modulus(prony: Prony, frequency: Any) -> Any:
-    """E(ω)/E, complex: storage and loss, at angular frequencies ω (1/ps)."""
+    """Returns the complex modulus of a solid over its relaxed one, E(ω)/E.
+
+    Parameters
+    ----------
+    prony : sequence of (float, float or str)
+        Branches: modulus over the relaxed one, and relaxation time (ps, or text with a unit).
+    frequency : float, str or array
+        Angular frequency (1/ps, or text with a unit).
+
+    Returns
+    -------
+    complex or array
+        Storage (real) and loss modulus (imaginary part), dimensionless.
+    """
     iw = 1j * _numbers("frequency", frequency, "1/ps")
     return 1 + sum((r * iw * tau / (1 + iw * tau) for r, tau in _branches(prony)), np.zeros(iw.shape, complex))
 
 
 def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, tip_radius: float | str) -> Any:
-    """G(v)/G0 of a crack that opens at these velocities (m/s); tip_radius (Å): a0, of the slowest one.
+    """Returns the energy release rate of an opening crack over that of the slowest one, G(v)/G0.
 
         asperity.crack.opening_factor([(9.0, "1 ns"), (1.5, "20 ns")], ["1 mm/s", "1 m/s"], "2 nm")
+
+    Parameters
+    ----------
+    prony : sequence of (float, float or str)
+        Branches: modulus over the relaxed one, and relaxation time (ps, or text with a unit).
+    velocity : float, str or array
+        Velocity of the crack (m/s, or text with a unit).
+    tip_radius : float or str
+        Tip radius a0 of the slowest crack (Å, or text with a unit).
+
+    Returns
+    -------
+    float or array
+        G(v)/G0 at each velocity, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If there is no branch, or a ratio, time or the radius is not positive.
     """
     prony, tip_radius = _branches(prony), quantity("tip_radius", tip_radius, "Å")
     way = _numbers("velocity", velocity, "m/s") * ANGSTROM_PER_PS

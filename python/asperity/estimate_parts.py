@@ -19,6 +19,7 @@ from scipy.special import stdtrit
 
 from .pool import DONE
 from .result import Values
+from .stated_number import INFINITE, Found, Number
 from .units import GIGAPASCAL
 from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
 
@@ -40,13 +41,14 @@ FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
         Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
         Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
+        Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
         Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
 CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
 
 
 def number_of(result: Values, path: str) -> float:
-    """NaN: it has none."""
+    """Returns a number of a result; NaN if the result has none of this path."""
     if path == "binding_energy_ratio":
         return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
     if path == "pull_off_stress":
@@ -56,18 +58,44 @@ def number_of(result: Values, path: str) -> float:
 
 
 def convergence_of(result: Values, path: str) -> float:
-    """The bound that a result states on what its solver leaves; NaN: none."""
+    """Returns the bound that a result states for the error of its solver; NaN if it states none."""
     parent, _, leaf = path.rpartition(".")
     if path == "binding_energy_ratio":
         return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
-    if path == "lost.cycle":
-        return sum(result.number(f"lost.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
+    if leaf == "cycle":
+        return sum(result.number(f"{parent}.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
     return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
 
 
-class Found(NamedTuple):
-    shift: float
-    error: float
+def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
+    """Returns the number of a result with its possible range, without parts of its error.
+
+    A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works have
+    one sign. No more than Δγ can be gained over a wall, where each site has one height."""
+    flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
+    sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
+    unpressed = keys.number("drive.load", 0.0) == 0.0 and not any(
+        one.split()[0] not in ("relax", "approach", "pull-off", "hold") for one in map(str, keys.find("drive.path") or []))
+    wall = keys.text("interface.kind") == "wall"
+    least, most, grain, unresolved = 0.0, INFINITE, 0.0, ""
+    if q.path in ("binding_energy", "binding_energy_ratio") or q.path.startswith("work_of_drive."):
+        size = flat if q.path != "binding_energy_ratio" else 1.0
+        most = size if wall and q.path.startswith("binding_energy") else INFINITE
+        grain = 1e-6 * size
+        if q.path == "work_of_drive.approach":
+            least, most = -size if wall else -INFINITE, 0.0
+        if not unpressed:
+            least, most = -INFINITE, most if q.path.startswith("binding_energy") else INFINITE
+    elif q.path == "contact_fraction":
+        most, grain = 1.0, 1.0 / sites**2
+        unresolved = f"contact of {round(value * sites**2)} of {round(sites**2)} sites"
+    elif q.path == "contact_radius.relaxed":
+        most, grain = sites * spacing / math.sqrt(math.pi), spacing**2 / (2.0 * math.pi * max(value, spacing))
+    elif q.path == "pull_off_stress" and wall and keys.text("interface.law") == "exponential":
+        most = flat / 1e3 / keys.number("interface.range", NAN) / (1e-3 * GIGAPASCAL)
+    elif q.path == "lost.cycle":
+        grain = 1e-6 * flat
+    return Number(q.path, q.symbol, q.name, unit, value, least=least, most=most, grain=grain, unresolved=unresolved)
 
 
 Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
@@ -75,46 +103,48 @@ Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
 
 
 def finer(ratio: float, order: float | None = None) -> Rule:
-    """One row, finer by the ratio. order: None: that of the quantity."""
+    """Makes the rule of one row, finer by the ratio. order: None: that of the quantity. A number that would change its sign
+    on the way to the limit is not at its order yet: its value in the row is taken."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
-        return Found(rows[0] - base + beyond, abs(beyond))
+        return Found(rows[0] - base + (beyond if (rows[0] + beyond) * rows[0] >= 0.0 else 0.0), abs(beyond))
     return rule
 
 
 def coarser(ratio: float, order: float | None = None) -> Rule:
-    """One row, coarser by the ratio: cheaper than the base. order: None: that of the quantity."""
+    """Makes the rule of one row, coarser by the ratio and so cheaper than the base; otherwise as finer()."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
-        return Found(beyond, abs(beyond))
+        return Found(beyond if (base + beyond) * base >= 0.0 else 0.0, abs(beyond))
     return rule
 
 
 def limit(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """The last row is taken; what it changed last is the standard error."""
+    """Takes the number of the last row; its last change is the standard error."""
     return Found(rows[-1] - base, abs(rows[-1] - (rows[-2] if len(rows) > 1 else base)))
 
 
 def solved(q: Quantity, base: float, rows: np.ndarray, results: list[Values]) -> Found:
-    """A row of a better solution: the bound that it states, or what it changed."""
+    """Takes the row of a better solution; the error is the bound that the row states, or its change."""
     stated = convergence_of(results[0], q.path)
     return Found(rows[0] - base, max(abs(rows[0] - base), stated if stated == stated else 0.0))
 
 
 def standard_error(values: np.ndarray) -> float:
-    """Of their mean; of a few, so much larger that twice it holds the mean with 95 % (Student's t)."""
+    """Computes the standard error of the mean of some values; of a few, so much larger that twice the error holds the mean
+    with 95 % (Student's t)."""
     n = len(values)
     return float(stdtrit(n - 1, 0.975) / 1.96 * np.std(values, ddof=1) / math.sqrt(n))
 
 
 def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Rows of other surfaces of the same statistics."""
+    """Averages over rows of other surfaces of the same statistics."""
     values = np.array([base, *rows])
     return Found(float(values.mean()) - base, standard_error(values))
 
 
 def widened(count: int, wider: bool) -> Rule:
-    """`count` rows of other surfaces of the base's width, then some of half of it, or of twice. The error falls between
+    """Makes the rule of `count` rows of other surfaces of the base's width, then some of half or twice the width. The error falls between
     the inverse of the width (waves that are missing) and of the area (means over a finite one)."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         here, there = np.array([base, *rows[:count]]), rows[count:]
@@ -127,18 +157,18 @@ def widened(count: int, wider: bool) -> Rule:
 
 
 def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Rows of the quarters of a map: the scatter that other places on the sample would have, on the area of all."""
+    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map."""
     return Found(0.0, standard_error(rows))
 
 
 def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """A row of the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
+    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
     return Found(0.0, 0.5 * abs(rows[0] - base))
 
 
 @dataclass(eq=False)
 class Part:
-    """rows: what is run; of none `what` says why."""
+    """rows: what is run; of none `what` says why. relative: of a part without rows, its error over the number."""
 
     name: str
     group: str
@@ -146,16 +176,20 @@ class Part:
     rows: list[Variation] = field(default_factory=list)
     rule: Rule = limit
     base: Variation | None = None
+    relative: float = 0.0
 
     @property
     def failed(self) -> str:
-        """Why it has no number though it was to be run; "" if it has, or was not."""
+        """Reason why the part has no number although it was to be run; "" if it has one, or was not to be run."""
         for row in [self.base, *self.rows] if self.rows and self.base else []:
             if row.outcome.status != DONE:
                 return f"{row.label}: {row.outcome.reason or 'it was not run'}"
         return ""
 
     def found(self, q: Quantity) -> Found | None:
+        if self.relative and self.base:
+            value = number_of(self.base.outcome.result, q.path)
+            return None if math.isnan(value) else Found(0.0, abs(self.relative * value))
         if not self.rows or self.failed:
             return None
         base, *rows = (number_of(row.outcome.result, q.path) for row in (self.base, *self.rows))
@@ -172,7 +206,7 @@ class Plan(NamedTuple):
 
 
 def _box(scene: Variations, factor: float) -> Setting:
-    """The box wider or narrower at the same spacing; a block as thick as wide stays so."""
+    """Returns the setting of a wider or narrower box at the same spacing; a block as thick as wide stays so."""
     return [f"surface.sites={scene.sites * factor:.0f}"] + [
         f"block.thickness={scene.sites * factor:.0f}"] * (scene.thickness == scene.sites)
 
@@ -182,23 +216,23 @@ SpacingAlso = Callable[[float], Setting]
 
 
 def is_coarse(scene: Variations) -> bool:
-    """Whether a lattice of twice the spacing is as good to measure on: of a path, whose runs are long, on a lattice that is
-    no solid's own and whose waves all fit."""
-    waves = scene.scene.text("surface.kind") != "self-affine" or 4 * scene.own("surface.q_max") <= scene.sites
+    """Returns True if a lattice of twice the spacing is as good to measure on: for a path, whose runs are long, if the lattice
+    is no solid's own and all waves fit."""
+    kind = scene.scene.text("surface.kind")
+    waves = kind == "flat" or kind == "self-affine" and 4 * scene.own("surface.q_max") <= scene.sites
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
 def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
-    """The same surface and block at another spacing."""
+    """Returns the setting of the same surface and block at another spacing."""
     own, kind = scene.own, scene.scene.text("surface.kind")
-    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else [
-        "surface.resample=band-limited"] * (kind == "file")
+    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else []
     return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
             f"block.thickness={scene.thickness / factor:.0f}", *waves, *also(factor)]
 
 
 def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
-    """The parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
+    """Plans the parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
     take the base of the others."""
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])
@@ -227,6 +261,8 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     order = 1 if spacing_also(2) else None  # None: that of the quantity
     if coarse:
         parts.append(Part("spacing", "discretisation", f"spacing {2 * own('surface.spacing'):.4g} Å", [coarse], coarser(2, order), base))
+    elif any(one.name == "spacing" for one in maps):
+        pass  # a map has a scene of its own there
     elif scene.continuous:
         part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å",
              [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2, order))
@@ -248,7 +284,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
         part("width", "geometry", "not varied: the surface has no statistics to continue it by")
         part("seeds", "realisation", "none: there is one such surface")
     for one in maps:
-        one.base = coarse if coarse and one.name == "edge" else base
+        one.base = base
         for row in one.rows:
             row.setting = joined(moved, row.setting)
     parts += maps

@@ -11,19 +11,21 @@ import os
 import re
 import tempfile
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import files, maps, program
+from . import files, maps, missing_waves, program
 from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
-from .estimate_parts import CURVED, FLAT, Found, Part, Plan, SpacingAlso, edges, is_coarse, number_of, places, plan_of
+from .estimate_parts import CURVED, FLAT, Part, Plan, SpacingAlso, edges, finer, number_of, places, plan_of, stated
 from .pool import DONE, PoolOptions, refuse_jobs
 from .result import Values, read_json
-from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
+from .scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
+from .stated_number import Found, Number
 from .terminal import duration
+from .units import GIGAPASCAL
 from .variations import Runs, Setting, Variation, Variations
 
 RESULT = "estimate.json"
@@ -31,33 +33,18 @@ START = 0.3
 """s; what a run takes beside its simulation."""
 SURFACES = {False: 8, True: 4}
 """Surfaces of a scene without and with a path."""
-
-
-@dataclass
-class Number:
-    """A number of the scene: value as it is run, estimate with the biases corrected, its standard error, and the shift
-    and error of each part by name."""
-
-    path: str
-    symbol: str
-    name: str
-    unit: str
-    value: float
-    parts: dict[str, Found] = field(default_factory=dict)
-
-    @property
-    def estimate(self) -> float:
-        return self.value + sum(found.shift for found in self.parts.values())
-
-    @property
-    def error(self) -> float:
-        return math.sqrt(sum(found.error**2 for found in self.parts.values()))
+NO_ADHESION = 0.01
+"""Of Δγ: surfaces that bind by less do not stick."""
+PINNED = 1.3
+"""A factor of the pull-off force (Case::edge_pinning) above which a path over a wall says nothing of its strength."""
+OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "pull_off_stress", "pull_off_force", "jkr.pull_off")
+"""Numbers that the edge of a contact and the range of the attraction decide."""
 
 
 @dataclass
 class Estimate:
-    """numbers: those of the scene by their paths in result.json, the first is what it is mostly asked for; parts: of the
-    error, as they are listed: name, group, what (was varied, or why nothing was), failed; notes."""
+    """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
+    in their order: name, group, what (was varied, or why nothing was), failed; notes."""
 
     name: str
     numbers: dict[str, Number]
@@ -72,56 +59,100 @@ class Estimate:
         return next(iter(self.numbers.values()))
 
     def number(self, path: str = "") -> Number:
-        """Of this path; "": the first one."""
+        """Returns a number with its error.
+
+        Parameters
+        ----------
+        path : str
+            Path of the number in result.json; "" for the first one.
+
+        Returns
+        -------
+        Number
+            The number with its estimate, its standard error and the parts of the error.
+
+        Raises
+        ------
+        SceneError
+            The estimate has no number of this path.
+        """
         if path and path not in self.numbers:
             raise SceneError(self.name, f"has no number {path!r}", "it has " + ", ".join(self.numbers), "ask for one of these")
         return self.numbers[path] if path else self.first
 
     @property
     def unseen(self) -> list[str]:
-        """What is not in the error: parts that were not measured."""
+        """Parts that were not measured, so that the error does not contain them."""
         return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
                 if p["failed"] or p["what"].startswith(("not varied", "left out"))]
 
     def json(self) -> dict[str, Any]:
         return {"name": self.name, "numbers": {path: {
-            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": n.estimate,
-            "standard_error": n.error, "parts": {part: {"shift": f.shift, "standard_error": f.error}
-                                                 for part, f in n.parts.items()}} for path, n in self.numbers.items()},
+            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": _finite(n.estimate),
+            "standard_error": _finite(n.error), "below": _finite(n.below), "least": _finite(n.least), "most": _finite(n.most),
+            "least_error": n.grain, "withheld": n.withheld, "condition": n.condition, "unresolved": n.unresolved, "bounded": n.bounded,
+            "parts": {part: {"shift": f.shift, "standard_error": f.error}
+                      for part, f in n.parts.items()}} for path, n in self.numbers.items()},
             "parts": self.parts, "notes": self.notes, "scene": self.scene, "run": self.run}
 
     def __repr__(self) -> str:
-        return f"<Estimate {self.name}: {self.first.symbol} = {self.first.estimate:.4g} ± {self.first.error:.2g} {self.first.unit}>"
+        return f"<Estimate {self.name}: {self.first}>"
+
+
+def _finite(value: float) -> float | None:
+    """Returns the value for JSON; None if it is not finite."""
+    return value if math.isfinite(value) else None
 
 
 def load_estimate(directory: str | os.PathLike) -> Estimate:
-    """The estimate in a directory. Raises InputOutputError where there is none."""
+    """Loads the estimate in a directory.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Directory with estimate.json.
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no estimate, or it cannot be read.
+    """
     found = read_json(Path(directory) / RESULT)
     numbers = {}
     for path, n in found.part("numbers").items():
         one = Values(n)
         parts = {name: Found(Values(f).number("shift", math.nan), Values(f).number("standard_error", math.nan))
                  for name, f in one.part("parts").items()}
-        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts)
+        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts,
+                               one.number("least", -math.inf), one.number("most", math.inf), one.number("least_error", 0.0),
+                               one.text("withheld"), one.text("condition"), one.text("unresolved"), one.text("bounded"))
     return Estimate(found.text("name"), numbers, found.listed("parts", dict), found.listed("notes", str), found.part("scene"),
                     found.part("run"), Path(directory))
 
 
 # Planning.
 
-def _file_of(name: str, scene: str) -> str:
-    """A file that a scene names, as the program finds it: beside the scene, or in the working directory."""
-    beside = Path(scene).parent / name
-    return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
+MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+"""What the parts of a measured map are written to, in the folder maps."""
 
 
-def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | None) -> tuple[Part, ...]:
-    """Of a measured map: its quarters, and the map in its mirror images; each a scene of its own in `place`. coarse: the
-    mirror images have twice the spacing, and this too."""
+def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
+               ) -> tuple[tuple[Part, ...], missing_waves.Law | None]:
+    """Returns the parts of the error of a measured map (the same waves on half of the spacing, the map in its mirror images, its
+    quarters; each a scene of its own in `place`) and the law of the waves that the map does not show.
+
+    continuous: the spacing of the sites is no solid's own."""
     of = Values(keys)
     sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
     unit = of.text("surface.file_unit")
-    there = maps.read_map(_file_of(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
+    inputs = inputs_of(scene, keys)
+    files.require_free({place: MAP_FILES}, inputs=inputs)
+    there = maps.read_map(file_beside(of.text("surface.file"), scene), None if unit in ("", "auto") else unit, assumed="Å")
     heights = maps.square(there.heights)
     size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
     if size > 1.005 * edge:  # the program takes its middle
@@ -130,9 +161,9 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
         heights = heights[start:start + n, start:start + n]
     if of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
-        made["surface"].update(rms=None, file=str(Path(_file_of(of.text("surface.file"), scene)).resolve()))
+        made["surface"].update(rms=None, file=str(Path(file_beside(of.text("surface.file"), scene)).resolve()))
         with scene_file(made) as file:
-            heights = heights * (of.number("surface.rms") / surface_made(file)[0])
+            heights = heights * (of.number("surface.rms") / surface_made(file).rms)
 
     def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
                setting: Setting = ()) -> list[Variation]:
@@ -143,48 +174,64 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, coarse: Setting | 
             made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
             made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
                                 "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+            if name == "finer":  # the surface as it was made: what was taken off it is off
+                made["surface"]["line_noise"] = "keep"
             thickness = of.number("block.thickness")
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
-                made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
+                made["interface"]["table"] = str(Path(file_beside(of.text("interface.table"), scene)).resolve())
             made.pop("sweep", None)
-            files.directory(place)
-            with files.replacing(place / f"{stem}.npy") as beside, open(beside, "wb") as file:
-                np.save(file, piece)
-            files.write(place / f"{stem}.toml", toml_of(made))
+            with files.outputs(place, (f"{stem}.npy", f"{stem}.toml"), inputs=inputs) as written:
+                with written.replacing(f"{stem}.npy") as beside, open(beside, "wb") as file:
+                    np.save(file, piece)
+                written.write(f"{stem}.toml", toml_of(made))
             rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
         return rows
 
-    parts = []
+    parts = [Part("waves", "truncation", "")]
+    if continuous:
+        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}}) as file:
+            made_of_it = surface_made(file).heights
+        order = 1 if spacing_also(0.5) else None  # None: that of the quantity
+        parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
+                          scenes("finer", [made_of_it], 1.0, "none", 0.5, spacing_also(0.5)), finer(2, order)))
     detrend = of.text("surface.detrend")
     flat = heights if detrend == "none" else maps.without_plane(heights)
     if detrend == "none" and maps.jump(heights) < maps.PERIODIC:
         parts.append(Part("edge", "geometry", "none: the map is periodic"))
     else:
         parts.append(Part("edge", "geometry", "the map in its mirror images",
-                          scenes("mirrored", [maps.mirrored(flat)], 2.0, "none", *(() if coarse is None else (2.0, coarse))),
-                          edges))
+                          scenes("mirrored", [maps.mirrored(flat)], 2.0, "none"), edges))
     if sites % 2 or sites < 32:
         parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
     else:
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", maps.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts)
+    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
 
 
-def surface_made(file: str) -> tuple[float, float]:
-    """Of the surface that a scene makes: its rms height (Å), and its rms slope by differences of neighbours."""
+class SurfaceMade(NamedTuple):
+    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]; doubts: notes on the file of a map."""
+
+    rms: float
+    slope: float
+    heights: np.ndarray
+    doubts: list[str]
+
+
+def surface_made(file: str) -> SurfaceMade:
+    """Returns the surface that a scene makes."""
+    made = program.surface(file)
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        text = program.call(["surface", file, "--out", str(Path(place) / "surface")])
-        slope = re.search(r"rms slope +(\S+) +differences", text.partition("the surface made")[2])
-        rms = read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
-    return rms, float(slope[1]) if slope else math.nan
+        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        heights = maps.read_map(str(Path(place) / "surface/heights.h5")).heights
+    return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
-    """Of a run, as `asperity plan` has it; NaN: it does not tell."""
+    """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
     try:
         text = program.call(["plan", scene, *program.sets(sets)])
     except Error:
@@ -195,7 +242,7 @@ def _seconds(scene: str, sets: list[str]) -> float:
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
-    """What a setting takes over what the scene takes, roughly."""
+    """Estimates the time of a setting over that of the scene."""
     set_to = dict(one.split("=", 1) for one in setting)
 
     def ratio(key: str) -> float:
@@ -207,7 +254,9 @@ def work_of(setting: Setting, scene: Variations) -> float:
 
 # Carrying it out.
 
-def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
+def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
+    """Returns the numbers of the scene with the parts of their errors. withheld: reason why no number is stated; "" if they
+    are."""
     base = plan.scene.outcome.result
     found: dict[str, Number] = {}
     for q in CURVED if curved else FLAT:
@@ -217,7 +266,7 @@ def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
         unit = {"binding_energy_ratio": "", "pull_off_stress": "MPa"}.get(q.path)
         if unit is None:
             unit = program.quantity(q.path)["unit"]
-        found[q.path] = number = Number(q.path, q.symbol, q.name, unit, value)
+        found[q.path] = number = stated(q, unit, value, base)
         for part in plan.parts:
             if (one := part.found(q)) is not None:
                 number.parts[part.name] = one
@@ -225,6 +274,15 @@ def _numbers(plan: Plan, curved: bool) -> dict[str, Number]:
             # The quasi-static path has no levels and no time steps either: what these have shifted is part of it.
             others = sum(number.parts[n].shift for n in ("levels", "timestep") if n in number.parts)
             number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
+    free = found.get("binding_energy")
+    parted = free is not None and free.least == 0.0 and free.largest < NO_ADHESION * base.number("delta_gamma", 0.0)
+    if parted:
+        free.unresolved = "no adhesion without load"
+    for number in found.values():
+        if parted and withheld:
+            number.bounded = "roughness that the map does not show lowers it further"
+        else:
+            number.withheld = withheld
     return found
 
 
@@ -233,7 +291,9 @@ class Estimating:
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
-                 say: Callable[[str], None] = print):
+                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
+        """Plans the estimate. withheld, condition: why the numbers OF_A_PATH are not stated, or what they hold for; also:
+        names of files that the caller will write there."""
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -247,8 +307,17 @@ class Estimating:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
         self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
         self.place = files.chosen(out, f"results/{self.name}-estimate")
-        of_file = keys["surface"]["kind"] == "file"
-        map_parts = _map_parts(keys, scene, self.place / "maps", spacing_also(2) if is_coarse(varied) else None) if of_file else ()
+        self.inputs = inputs_of(scene, keys)
+        files.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
+        self.withheld, self.condition = withheld, condition
+        pinning = answer.get("edge_pinning", 1.0)
+        if varied.moves and pinning > PINNED and not withheld:
+            self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
+                             f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
+                             "smaller surface.spacing")
+        of_file, map_parts, self.law = keys["surface"]["kind"] == "file", (), None
+        if of_file:
+            map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
         for name in only:
@@ -256,7 +325,7 @@ class Estimating:
                 raise SceneError(f"--parts {name}", "is none of them", "this scene has "
                                  + ", ".join(part.name for part in self.plan.parts), "name some of these")
         for part in self.plan.parts if only else []:
-            if part.name not in only and part.rows:
+            if part.name not in only and (part.rows or part.name == "waves"):
                 part.rows, part.what = [], "left out: --parts"
         self.rows = [self.plan.scene]
         for part in self.plan.parts:
@@ -265,7 +334,7 @@ class Estimating:
         self.jobs = self.runs.jobs(self.rows)
 
     def told(self) -> str:
-        """What will be run, and about how long it takes."""
+        """Tells how many runs the estimate takes, and about how long."""
         once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
         base = {(): _seconds(self.runs.scene, self.runs.common)}
         for row in once.values():
@@ -273,17 +342,20 @@ class Estimating:
             key = ("drive.mode=quasistatic",) * still
             if key not in base:
                 base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
-            mirrored = 1.0 if is_coarse(self.varied) else 4.0
-            factor = {"mirrored": mirrored, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            factor = {"mirrored": 4.0, "finer": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
             work += START + factor * base[key]
         return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
 
     def carry_out(self) -> tuple[Estimate | None, bool]:
-        """The estimate, None if the scene itself has no result; False: stopped before the end."""
+        """Carries out the runs. Returns the estimate, None if the scene itself has no result, and False if stopped early."""
         complete = self.runs.run(self.rows)
         if self.plan.scene.outcome.status != DONE:
             return None, complete
         result = self.plan.scene.outcome.result
+        numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, self._missing(result))
+        for path in OF_A_PATH:
+            if path in numbers:
+                numbers[path].withheld, numbers[path].condition = numbers[path].withheld or self.withheld, self.condition
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
         notes = list(self.notes)
@@ -295,13 +367,26 @@ class Estimating:
                 here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))
                 notes.append(f"The map in its mirror images binds by {there:.4g} in place of {here:.4g} meV/Å²: neither way to "
                              "make it periodic is right, and twice the error of the part edge is their difference.")
-        estimate = Estimate(self.name, _numbers(self.plan, result.number("scene.surface.radius") is not None), parts, notes,
+        estimate = Estimate(self.name, numbers, parts, notes,
                             self.keys, {k: result.part("run").get(k) for k in ("version", "git", "machine")}
                             | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
                                zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
         if complete:
-            files.write(self.place / RESULT, files.sealed_json(estimate.json()))
+            with files.outputs(self.place, [RESULT], inputs=self.inputs) as written:
+                written.write(RESULT, files.sealed_json(estimate.json()))
         return estimate, complete
+
+
+    def _missing(self, result: Values) -> str:
+        """Completes the part of the waves that a map does not show. Returns the reason why no number is stated; "" if they are."""
+        part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
+        if part is None:
+            return ""
+        modulus = self.varied.own("block.young") * GIGAPASCAL / (1.0 - self.varied.own("block.poisson") ** 2)
+        found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
+        part.what, part.relative = found.what, found.relative
+        self.notes += [found.note] * bool(found.note)
+        return found.withheld
 
 
 def _about(seconds: float) -> str:
@@ -310,13 +395,37 @@ def _about(seconds: float) -> str:
 
 def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
              seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
-    """The numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error), and of
-    each part of the error what it shifts. Runs that are there are not run again.
+    """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error),
+    and the shift by each part of the error. Runs that are there are not run again.
 
-    out      the directory; None: results/<scene>-estimate
-    jobs     runs side by side; they share the processors
-    seeds    surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path
-    parts    only these parts of the error: ["tail", "seeds"], or "tail,seeds"
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+    out : str or os.PathLike, optional
+        Directory; None: results/<scene>-estimate.
+    jobs : int
+        Runs side by side; they share the processors.
+    seeds : int, optional
+        Surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path.
+    parts : iterable of str
+        Only these parts of the error: ["tail", "seeds"], or "tail,seeds".
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    SceneError
+        The scene or an argument is refused, or files are in the way.
+    Stopped
+        The estimate stopped early; the same call continues.
+    Error
+        The run of the scene itself failed.
     """
     program.refuse_ranks()
     refuse_jobs(jobs)

@@ -4,55 +4,31 @@
 
 from __future__ import annotations
 
-import math
 import re
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import terminal
-from .estimates import Estimate, Number
+from . import files, terminal
+from .estimates import Estimate
 from .estimate_parts import GROUPS
-from .page import Page, minus
+from .page import Page, page_files
 from .plots import style as figures
 from .plots.style import BLUE, INK, Curve, drawn, finish
 from .sentences import ALWAYS_LEFT_OUT
-from .units import MILLIJOULE, NANONEWTON, shown
+from .stated_number import Found, Number, rounded
+from .units import shown
 
 SMALL = 0.1
 """Of the whole error: contributions below it are not quoted."""
 LEFT_OUT = [text for text in ALWAYS_LEFT_OUT if not text.startswith("edges")]  # the width, or a map's edges, are parts
 
 
-def rounded(value: float, error: float) -> tuple[str, str]:
-    """A number and its error, to two digits of the error."""
-    if not error > 0.0:
-        return f"{value:.6g}", "0"
-    digits = max(0, 1 - math.floor(math.log10(error)))
-    if digits > 8:
-        return f"{value:.1e}", f"{error:.1e}"
-    if digits == 0:
-        step = 10.0 ** (math.floor(math.log10(error)) - 1)
-        value, error = step * round(value / step), step * round(error / step)
-    return f"{value:.{digits}f}", f"{error:.{digits}f}"
-
-
-def _units(n: Number) -> list[tuple[float, str]]:
-    """Factors and units that people quote, the one to be quoted first."""
-    if n.unit == "meV/Å^2":
-        return [(MILLIJOULE, "mJ/m²"), (1.0, shown(n.unit))]
-    return [(1.0 / NANONEWTON, "nN")] if n.unit == "eV/Å" else [(1.0, shown(n.unit))]
-
-
 def quote(n: Number) -> str:
-    """"γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds; corrected by +27 (tail)."""
-    (factor, unit), *others = _units(n)
-
-    def number(factor: float, unit: str) -> str:
-        return f"{' ± '.join(rounded(factor * n.estimate, factor * n.error))} {unit}".strip()
-
-    text = f"{n.symbol} = {minus(number(factor, unit))} (" + "".join(f"{minus(number(*one))}; " for one in others) + \
-        "one standard error)"
+    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds; corrected by +27 (tail)."""
+    text, (factor, _) = str(n), n.units[0]
+    if n.reason or n.below == n.below:
+        return text
     large = sorted(((f.error, name) for name, f in n.parts.items() if f.error > SMALL * n.error), reverse=True)
     if large:
         text += ", of which " + ", ".join(f"± {rounded(0.0, factor * e)[1]} {name}" for e, name in large)
@@ -60,6 +36,15 @@ def quote(n: Number) -> str:
     if moved:
         text += "; corrected by " + ", ".join(f"{signed(factor * shift)} ({name})" for shift, name in moved)
     return text
+
+
+def lines_of(numbers: list[Number]) -> list[str]:
+    """Spells a line to quote for each number, and one line for all numbers that are not stated for the same reason."""
+    lines = [quote(n) for n in numbers if not n.reason]
+    for reason in dict.fromkeys(n.reason for n in numbers if n.reason):
+        some = [n.symbol for n in numbers if n.reason == reason]
+        lines.append(f"{', '.join(some)} {'is' if len(some) == 1 else 'are'} not stated: {reason}")
+    return lines
 
 
 def two_digits(value: float) -> str:
@@ -80,7 +65,7 @@ def _cell(n: Number, part: str, what: str) -> str:
 
 
 def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
-    """The scene, each part, and the sum: group, part, what was varied, and of each number its shift and error."""
+    """Returns rows of the scene, each part and the sum: group, part, what was varied, and shift and error of each number."""
     rows: list[list[str]] = [["the scene as it is", "", "", *(c for n in columns for c in (f"{n.value:.5g}", ""))], []]
     last = ""
     for group in GROUPS:
@@ -89,7 +74,7 @@ def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
                          *(_cell(n, part["name"], what) for n in columns for what in ("shift", "error"))])
             last = group
     rows.append([])
-    rows.append(["estimate", "", "", *(c for n in columns for c in rounded(n.estimate, n.error))])
+    rows.append(["estimate", "", "", *(c for n in columns for c in n.cells)])
     return rows
 
 
@@ -98,17 +83,17 @@ def heads_of(columns: list[Number]) -> list[str]:
 
 
 def tables_of(estimate: Estimate) -> list[list[Number]]:
-    """Numbers that stand beside each other: three a table."""
+    """Returns the numbers that stand beside each other, three a table."""
     numbers = list(estimate.numbers.values())
     return [numbers[i:i + 3] for i in range(0, len(numbers), 3)]
 
 
 def text_of(estimate: Estimate) -> str:
-    """For the terminal."""
+    """Returns the estimate as text for the terminal."""
     parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
     for columns in tables_of(estimate):
         parts += [terminal.table(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2)), ""]
-    parts += ["To quote:", *(f"  {quote(n)}" for n in estimate.numbers.values())]
+    parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
     parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed,
               *(f"note: {note}" for note in estimate.notes)]
@@ -116,12 +101,14 @@ def text_of(estimate: Estimate) -> str:
 
 
 def chart(estimate: Estimate, ax: Axes) -> bool:
-    """Of the first number: a bar from zero to each part's shift, with its standard error."""
+    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error."""
     n = estimate.first
-    factor, unit = _units(n)[0]
-    names = [*n.parts, "all"]
-    shifts = [factor * f.shift for f in n.parts.values()] + [factor * (n.estimate - n.value)]
-    errors = [factor * f.error for f in n.parts.values()] + [factor * n.error]
+    factor, unit = n.units[0]
+    whole = [] if n.reason else [("all", Found(n.estimate - n.value, n.error))]
+    if not n.parts:
+        return False
+    names, found = zip(*n.parts.items(), *whole)
+    shifts, errors = [factor * f.shift for f in found], [factor * f.error for f in found]
     places = range(len(names))
     ax.barh(places, shifts, xerr=errors, color=BLUE, alpha=0.75, height=0.6,
             error_kw={"capsize": 2, "elinewidth": 0.9, "ecolor": INK})
@@ -137,16 +124,16 @@ def chart(estimate: Estimate, ax: Axes) -> bool:
 
 
 def _set(text: str) -> str:
-    """Symbols as a page sets them: γ_{eff}."""
+    """Spells symbols as a page sets them: γ_{eff}."""
     return re.sub(r"_(\w+)", r"_{\1}", text)
 
 
 def page_of(estimate: Estimate) -> Page:
-    """Written by its write()."""
+    """Makes the page of an estimate, which its write() writes."""
     page = Page(estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
-    for n in list(estimate.numbers.values())[1:]:
-        page.add("paragraph", _set(quote(n)) + ".")
+    for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):
+        page.add("paragraph", _set(line) + ".")
     page.section("budget", "Budget")
     for columns in tables_of(estimate):
         page.table([*map(_set, heads_of(columns))], [row for row in rows_of(estimate, columns) if row])
@@ -159,9 +146,15 @@ def page_of(estimate: Estimate) -> Page:
     return page
 
 
+FILES = [*figures.files_of("estimate", ("png",)), *page_files(["budget"])]
+"""The names of the files that write() writes."""
+
+
 def write(estimate: Estimate) -> list[str]:
-    """The chart and the page beside estimate.json; names of what there is."""
+    """Writes the chart and the page beside estimate.json. Returns the names of the files."""
     fig = figures.make(lambda ax: chart(estimate, ax))
-    figures.save(fig, estimate.directory / "estimate", ("png",))
+    if fig is not None:
+        with files.outputs(estimate.directory, figures.files_of("estimate", ("png",))) as out:
+            figures.save(fig, out, "estimate", ("png",))
     page_of(estimate).write()
-    return ["estimate.json", "estimate.png", "report.html"]
+    return ["estimate.json", *["estimate.png"] * (fig is not None), "report.html"]

@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .page import minus
 from .result import Result, Values, finite
-from .terminal import duration, millijoules, number
+from .terminal import duration, millijoules, minus, number
 from .units import GIGAPASCAL, NANONEWTON
 
 
@@ -22,18 +22,22 @@ class KeyNumber:
     note: str = ""
 
 
+FEW = 99.5
+"""Sites in contact that are counted beside their fraction."""
+
+
 def percent(fraction: float) -> str:
     digits = 2 if abs(fraction) < 0.1 else 1
     return minus(f"{number(100 * fraction, digits)}\u00a0%")
 
 
 def energy(gamma: float, more: str = "") -> str:
-    """"69.91 meV/Å² (1120 mJ/m²)"; more: to be said in the brackets too."""
+    """Spells an energy over an area, meV/Å²: "69.91 meV/Å² (1120 mJ/m²)". more: text for the brackets."""
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
 
 
 def general(value: Any, digits: int = 4) -> str:
-    """A number of a scene; "?" for what is none."""
+    """Spells a number of a scene; "?" for a value that is no number."""
     return "?" if (number := finite(value)) is None else f"{number:.{digits}g}"
 
 
@@ -53,7 +57,7 @@ def state_in_words(run: Result, name: str) -> str:
 
 
 def _path(run: Result) -> str:
-    """" Dynamic path at 5 m/s: approach, pull-off."; "" of a result of the theory alone."""
+    """Spells the path: " Dynamic path at 5 m/s: approach, pull-off."; "" of a result of the theory alone."""
     if not run.segment_names or not (run.series or run.fields):
         return ""
     if run.segment_names == ["relax"]:
@@ -65,7 +69,7 @@ def _path(run: Result) -> str:
 
 
 def lead(run: Result) -> str:
-    """What was simulated, in two sentences."""
+    """Tells in two sentences what was simulated."""
     sites = run.number("scene.surface.sites")
     if not sites:
         return ""
@@ -82,7 +86,7 @@ def lead(run: Result) -> str:
 
 
 def _stress(gigapascal: float) -> tuple[str, str]:
-    """In a unit of its size."""
+    """Converts a stress, GPa, to a unit of its size. Returns number and unit."""
     for scale, unit in ((1.0, "GPa"), (1e-3, "MPa")):
         if abs(gigapascal) >= 0.1 * scale:
             return f"{gigapascal / scale:.3g}", unit
@@ -90,18 +94,18 @@ def _stress(gigapascal: float) -> tuple[str, str]:
 
 
 def smooth_pull_off(run: Result, gamma: float) -> float:
-    """The force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
+    """Returns the force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
 
 
 def reference(run: Result, key: str) -> float:
-    """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
+    """Returns the Δγ that an energy is compared with, meV/Å²; 0 if there is none. Persson's theory may have been given another."""
     own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
     return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
 def key_numbers(run: Result) -> list[KeyNumber]:
-    """The numbers that stand at the top of a page."""
+    """Returns the numbers that stand at the top of a page."""
     found: list[KeyNumber] = []
     at, pressed = run.load_words
 
@@ -120,7 +124,9 @@ def key_numbers(run: Result) -> list[KeyNumber]:
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
-        gamma("jkr.pull_off", "from the pull-off force, by JKR", "Δγ")
+        pinning = run.number("jkr.edge_pinning")
+        gamma("jkr.pull_off", "from the pull-off force, by JKR" + (
+            f": about {pinning:.3g} times too large, for rows of sites hold the edge of the contact" if pinning else ""), "Δγ")
         gamma("jkr.approach_averaged", "from the attraction on the approach, by JKR, averaged over 2 ps")
         if force is not None:
             jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
@@ -138,13 +144,13 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
-    if (lost := run.number("lost.cycle")) is not None:
-        add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
-            "lost at instabilities in a cycle" if run.number("dissipated_in_block.cycle") is not None else
-            "lost in a cycle (hysteresis)", _loss(run) if run.curved else f"{millijoules(lost)} mJ/m²; {_loss(run)}")
-    if (relaxed := run.number("dissipated_in_block.cycle")) is not None and not run.curved:
-        add(f"{relaxed:.4g}", "meV/Å²", "dissipated in the block in a cycle",
-            f"{millijoules(relaxed)} mJ/m²; as the block relaxes (block.prony)")
+    relaxes = run.number("dissipated_in_block.cycle") is not None
+    for key, name, note in (
+            ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
+            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block relaxes (block.prony)")):
+        if (value := run.number(key)) is not None:
+            add(f"{value * run.edge**2 / 1e3 if run.curved else value:.4g}", "eV" if run.curved else "meV/Å²", name,
+                note if run.curved else f"{millijoules(value)} mJ/m²; {note}")
     if not run.curved:
         gamma("work_of_interface.approach", "work of the interface, approach")
         gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
@@ -165,7 +171,10 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
     bonds, contact, pushed = map(run.number, ("pair_binding_energy", "contact_fraction", "repulsive_fraction"))
     at = run.load_words[0]
     at = "Without external force" if at == "at zero load" else "U" + at[1:]
-    if run.curved:
+    known, sites = run.number("binding_energy_uncertainty", 0.0), run.number("scene.surface.sites", 0.0) ** 2
+    if abs(state) <= known:
+        text = f"{at} the solids do not stick: the binding energy is below {energy(abs(state) + known)}."
+    elif run.curved:
         text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
     else:
         unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
@@ -175,7 +184,8 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
             text += (f" The bonds across the interface give {energy(bonds)}; bending the block into contact costs "
                      f"{energy(bonds - state)} of it.")
     if contact is not None:
-        text += f" {percent(contact)} of the sites are in contact"
+        count = f" ({round(contact * sites)} of {round(sites)})" * (contact * sites < FEW)
+        text += f" {percent(contact)} of the sites{count} are in contact"
         if pushed is not None:
             text += f"; the force on {percent(pushed)} of the sites is repulsive"
         text += "."
@@ -183,8 +193,14 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
 
 
 def _loss(run: Result) -> str:
-    """What the loss of a cycle was measured as."""
+    """Tells as which quantity the loss of a cycle was measured."""
     return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
+
+
+def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
+    """Tells the energy that a block that relaxes dissipates in a cycle, beside the loss; "" if the block does not relax."""
+    relaxed = run.number("dissipated_in_block.cycle")
+    return "" if relaxed is None else f" The block, which relaxes, dissipates {energy(relaxed)}."
 
 
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
@@ -195,10 +211,10 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         loop, *parts = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
         return f"A cycle of approach and pull-off loses {loop} eV" + (
             f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
-            "detaches." if all(parts) else ".")
+            "detaches." if all(parts) else ".") + _relaxing_sentence(run, lambda e: minus(f"{e * run.edge**2 / 1e3:.4g}") + " eV")
     text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
-    if (relaxed := run.number("dissipated_in_block.cycle")) is not None:
-        text += f" The block, which relaxes, dissipates {energy(relaxed)}; {energy(lost)} are lost at instabilities."
+    if relaxing := _relaxing_sentence(run, energy):
+        text += f" Of these works {energy(lost)} are lost at instabilities." + relaxing
     elif abs(lost) < 0.01 * flat:
         text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
     else:
@@ -211,13 +227,14 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
 
 
 def results(run: Result) -> list[str]:
-    """What the run came to, in sentences."""
+    """Tells the results of a run in sentences."""
     text: list[str] = []
     flat = run.number("delta_gamma", 0.0)
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0 and set(run.segment_names) <= {"approach", "pull-off", "relax"}:
+    kinds = {name.split()[0] for name in run.segment_names}
+    if into is not None and out is not None and flat > 0 and kinds <= {"approach", "hold", "pull-off", "relax"}:
         text.append(_cycle_sentence(run, into, out, flat))
     if (pinning := run.number("jkr.edge_pinning")) is not None:
         text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion by "
@@ -252,14 +269,14 @@ ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: t
 
 
 def effects(run: Result, on: bool) -> list[str]:
-    """What was simulated or, on = False, what was not, each with the key of the scene that decides it."""
+    """Returns the effects that were simulated or, with on = False, were not, each with the key of the scene that decides it."""
     found = run.part("run.effects")
     text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
     return text if on else [*text, *ALWAYS_LEFT_OUT]
 
 
 def provenance(result: Values) -> list[list[str]]:
-    """Rows of names and words, of a run or a sweep."""
+    """Returns rows of names and words on the origin of a run or a sweep."""
     rows = []
     for name, key in (("measured surface", "surface.origin"), ("version", "run.version"), ("git", "run.git"),
                       ("compiler", "run.compiler"), ("flags", "run.flags"), ("machine", "run.machine"),

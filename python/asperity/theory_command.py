@@ -14,6 +14,8 @@ import h5py
 from . import files, program, terminal, theories
 from .errors import SceneError
 from .result import Values
+from .scene import inputs_of
+from .stated_number import cut, with_error
 
 STATUS = {
     "adhesive": "the surfaces adhere without load",
@@ -23,19 +25,19 @@ STATUS = {
 
 
 def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
-    """Where the result goes, by the rules of the program (io/result_directory.hpp), and what to say of it."""
+    """Returns the directory of the result, by the rules of the program (io/result_directory.hpp), and the message about it."""
     place = files.chosen(asked, f"results/{name}-theory")
     if not (place / "result.json").exists() and not (place / "run.journal").exists():
         return place, []
     if asked is not None:
-        raise SceneError(str(place), "already holds a result", "results are not written over",
+        raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                          "name another directory (--out), or remove this one")
     free = files.numbered(place, lambda one: (one / "result.json").exists())
     return free, [f"{place} already holds a result; this one goes to {free}"]
 
 
-def _write_profile(path: Path, columns: list[dict[str, Any]]) -> None:
-    with files.replacing(path) as beside, h5py.File(beside, "w") as file:
+def _write_profile(out: files.Outputs, columns: list[dict[str, Any]]) -> None:
+    with out.replacing("theory.h5") as beside, h5py.File(beside, "w") as file:
         for column in columns:
             made = file.create_dataset(f"profile/{column['name']}", data=column["values"])
             made.attrs["unit"], made.attrs["meaning"] = column["unit"], column["meaning"]
@@ -47,7 +49,7 @@ def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _text(point: Values) -> str:
-    """What is printed."""
+    """Returns the printed text."""
     flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
@@ -89,9 +91,10 @@ def _text(point: Values) -> str:
     if point.find("theory.persson.converged") is False:
         lines.append("                 NOT converged to 1e-3: see the errors in the table")
     if (error := law.number("gamma_eff_expected_error")) is not None:
-        contact = law.number("contact_fraction"), law.number("contact_fraction_expected_error")
-        lines.append(f"  renormalised   γ_eff {law.number('gamma_eff_ratio'):.3f} ± {error / flat:.3f} Δγ, contact "
-                     "area {:.3f} ± {:.3f}: 19 of 20 simulated surfaces at zero load".format(*contact))
+        ratio, contact = law.number("gamma_eff_ratio", 0.0), law.number("contact_fraction", 0.0)
+        touching = with_error(contact, *cut(contact, law.number("contact_fraction_expected_error", 0.0), 0.0, 1.0))
+        lines.append(f"  renormalised   γ_eff/Δγ {with_error(ratio, *cut(ratio, error / flat, 0.0, max(ratio, 1.0)))}, contact "
+                     f"area {touching}: 19 of 20 simulated surfaces at zero load")
     if gamma is not None:
         place = law.number("separation")
         lines.append("  renormalised   mean separation " + (
@@ -125,9 +128,10 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
         print(json.dumps(point, ensure_ascii=False))
         return 0
     place, said = _directory(out, values.text("name"))
-    with files.in_use(place):
-        _write_profile(place / "theory.h5", profile)
-        files.write(place / "result.json", files.sealed_json(point))
+    names = ("theory.h5", "result.json")
+    with files.in_use(place), files.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
+        _write_profile(written, profile)
+        written.write("result.json", files.sealed_json(point))
     print(text)
     for note in filter(None, [*notes, *said]):
         print(f"  note: {note}")

@@ -76,9 +76,9 @@ def test_every_form_of_a_map_is_the_same_scene(place, known):
     for name, more in (("text.txt", {}), ("plain.npy", dict(unit="nm", size="16 nm")), ("map.h5", {}), ("map.h5:/scan", {})):
         from asperity.measured import scene_of
 
-        scene, _, also = scene_of(str(place / name), "5 GPa", 0.3, "0.2 J/m^2", place / re.sub(r"\W", "", name), **more)
-        numbers[name] = asperity.run(scene, {"drive.path": ["relax"]}).binding_energy
-        assert also(0.5) == []  # the range is resolved
+        made = scene_of(str(place / name), "5 GPa", 0.3, "0.2 J/m^2", place / re.sub(r"\W", "", name), **more)
+        numbers[name] = asperity.run(made.file, {"drive.path": ["relax"]}).binding_energy
+        assert made.also(0.5) == [] and not made.withheld and made.condition == "for a range of 0.3 nm"  # it is resolved
     assert all(n == pytest.approx(binding, rel=0.02) for n in numbers.values()), numbers
     assert np.ptp(list(numbers.values())) < 1e-4 * binding
 
@@ -91,10 +91,11 @@ def test_a_coarse_map_says_what_is_lost(place):
     assert "not one of several ranks" in said
     from asperity.measured import scene_of
 
-    _, notes, also = scene_of("rough.npy", "1MPa", 0.49, "50mJ/m2", place / "lost", size="1um", unit="nm", sites=20)
-    assert any("waves below 100 nm are lost: 20 of 64 points" in note for note in notes), notes
-    assert any("a smooth part that contains the jumps" in note for note in notes)
-    assert any("does not resolve" in note for note in notes) and also(0.5) < also(1) < also(2)
+    made = scene_of("rough.npy", "10MPa", 0.49, "50mJ/m2", place / "lost", size="1um", unit="nm", sites=20)
+    assert any("waves below 100 nm are lost: 20 of 64 points" in note for note in made.notes), made.notes
+    assert any("a smooth part that contains the jumps" in note for note in made.notes)
+    assert any("does not resolve" in note for note in made.notes) and made.also(0.5) < made.also(1) < made.also(2)
+    assert "the range of the attraction decides" in made.withheld
 
 
 STEP = np.where(np.arange(32) < 16, 0.0, 50.0) + np.zeros((32, 1))
@@ -157,7 +158,7 @@ def test_pieces_of_maps():
 
 def test_pieces_of_a_scaled_map_are_scaled_alike(place):
     draw = np.random.default_rng(4)
-    heights = np.cumsum(np.cumsum(draw.normal(size=(64, 64)), axis=0), axis=1)  # its opposite edges jump
+    heights = 0.1 * np.cumsum(np.cumsum(draw.normal(size=(64, 64)), axis=0), axis=1)  # its opposite edges jump
     np.save("map.npy", heights)
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "nm", "file_size": 83.2, "sites": 32,
                          "detrend": "periodic", "resample": "band-limited"},

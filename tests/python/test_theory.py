@@ -38,7 +38,7 @@ def test_the_numbers_of_the_paper(place):
 @pytest.mark.parametrize("given, says", [
     ("surface.rms=0.5 surface.q_max=512", "ends at Nyquist"), ("theory.spectrum=realised surface.rms=1", "the surface itself"),
     ("drive.load=3000", "only the load"),
-    ("surface.rms=1", ["renormalised   γ_eff 0.7", " ± ", "19 of 20 simulated surfaces"]),
+    ("surface.rms=1", ["renormalised   γ_eff/Δγ 0.7", " ± ", "19 of 20 simulated surfaces"]),
     ("surface.rms=0 surface.radius=4410 theory.delta_gamma=100", ["JKR pull-off   2078.", "Maugis' λ 3.2"])])
 def test_what_it_says(place, given, says):
     command("theory", "rough.toml", "--set", *given.split(), says=says)

@@ -189,7 +189,7 @@ std::uint64_t mix(std::uint64_t hash, const StepRecord& r) {
     if (!r.observed) return hash;
     for (double value : {r.interface_energy, r.elastic_energy, r.kinetic_energy, r.closest,
                          static_cast<double>(r.in_contact), static_cast<double>(r.repulsive),
-                         r.work, r.damped, r.interface_work, r.residual})
+                         r.work, r.damped, r.interface_work, r.residual, r.time_step_energy})
         hash = mix(hash, value);
     return hash;
 }
