@@ -21,12 +21,12 @@ struct Kept {
     std::size_t bytes;
 };
 
-/// Those in use and those kept are together never more than were in use at once since the last
+/// The arrays in use and the kept arrays together never exceed the largest use since the last
 /// clear().
 class Store {
 public:
     Store() { kept_.reserve(256); }
-    /// Null: there is none of this size.
+    /// Returns a kept array of this size, nullptr if there is none.
     void* take(std::size_t bytes) {
         const std::lock_guard lock(mutex_);
         in_use_ += bytes;
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    /// Those that nobody has asked for the longest go first.
+    /// Frees arrays until this size is left; those unused for the longest time go first.
     void shrink_to(std::size_t size) {
         auto first = kept_.begin();
         for (; size_ > size; ++first) {
@@ -76,7 +76,7 @@ private:
     std::size_t size_ = 0, in_use_ = 0, most_ = 0; ///< bytes
 };
 
-/// Never destroyed: arrays may be freed after main().
+/// Returns the store, which is never destroyed: arrays may be freed after main().
 Store& store() {
     static Store& only = *new Store;
     return only;

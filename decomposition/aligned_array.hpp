@@ -3,9 +3,9 @@
 //
 // Uninitialised arrays that start on a cache line.
 //
-// Freed ones of at most 128 MB are kept for the next ones of the same size, as many as were in use
-// at once: each relaxation makes its fields and waves anew, and fresh pages for them take up to a
-// third of the time of a short one, a tenth of a path of 512 x 512 sites.
+// Freed arrays of at most 128 MB are kept for the next arrays of the same size, as many as were in
+// use at once: each relaxation makes its fields and waves anew, and fresh pages for them take up to
+// a third of the time of a short one, a tenth of a path of 512 x 512 sites.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,14 @@
 
 namespace asperity {
 
-/// Throws std::bad_alloc. From any thread.
+/// Returns uninitialised memory that starts on a cache line. Callable from any thread. Throws
+/// std::bad_alloc.
 void* new_aligned(std::size_t bytes);
+/// Frees an array of new_aligned(), or keeps it for the next array of the same size.
 void free_aligned(void* array, std::size_t bytes);
-/// Before work that needs memory of another kind.
+/// Frees the kept arrays, before work that needs memory of another kind.
 void free_kept_arrays();
-std::size_t kept_arrays(); ///< bytes that are kept
+std::size_t kept_arrays(); ///< returns the size of the kept arrays, bytes
 
 struct FreeAligned {
     std::size_t bytes = 0;
@@ -27,7 +29,7 @@ struct FreeAligned {
 template <class T>
 using AlignedArray = std::unique_ptr<T[], FreeAligned>;
 
-/// Throws std::bad_alloc.
+/// Returns an uninitialised array of so many values. Throws std::bad_alloc.
 template <class T>
 AlignedArray<T> aligned_array(std::size_t size) {
     const std::size_t bytes = size * sizeof(T);

@@ -33,7 +33,7 @@ namespace {
 
 int count(std::size_t n) { return static_cast<int>(n); }
 
-/// What a launcher says of this process; 0 ranks: nothing.
+/// Information of a launcher about this process; 0 ranks: none.
 struct Launched {
     int ranks = 0, rank = 0;
 };
@@ -50,7 +50,7 @@ Launched launched() {
     return {};
 }
 
-/// The processors that this process may use, as a number: FNV-1a of their mask.
+/// Returns the processors that this process may use as a number: FNV-1a of their mask.
 std::uint64_t processors_allowed() {
     std::vector<cpu_set_t> mask(1);
     // A mask that is too short for the kernel is refused.

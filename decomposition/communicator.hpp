@@ -3,10 +3,10 @@
 //
 // The ranks of a run behind one value type.
 //
-// A run started by mpirun uses MPI; a run started alone never initialises it: there, what all ranks
-// do together costs nothing. Every MPI call of the project is in communicator.cpp. All member
-// functions but abort() and those that only tell (rank, size and the like) are collective: every
-// rank calls them in the same order.
+// A run started by mpirun uses MPI; a run started alone never initialises it: there, collective
+// calls cost nothing. Every MPI call of the project is in communicator.cpp. All member functions
+// are collective (every rank calls them in the same order) except abort() and those that return a
+// property (rank, size and the like).
 #pragma once
 
 #include <cstddef>
@@ -20,12 +20,13 @@
 
 namespace asperity {
 
-/// Thrown on the other ranks where the root failed; the root has the reason.
+/// Error on the other ranks if work failed on the root; the root has the reason.
 struct RootFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// One message to and from a neighbour in an exchange. The spans must stay valid until it returns.
+/// One message to and from a neighbour in an exchange. The spans must stay valid until the exchange
+/// returns.
 struct Message {
     int to = 0;
     int from = 0;
@@ -34,53 +35,57 @@ struct Message {
     std::span<double> receive;
 };
 
+/// The ranks of a run.
 class Communicator {
 public:
-    /// One rank, no MPI.
+    /// Makes one rank without MPI.
     Communicator() = default;
-    /// The ranks of a communicator in a program that has started MPI itself, by its number in
-    /// Fortran (MPI_Comm_c2f). They get one of their own, until MPI ends. Collective.
+    /// Returns a copy of a communicator of a program that has started MPI itself, by its number in
+    /// Fortran (MPI_Comm_c2f). The copy lasts until MPI ends. Collective.
     static Communicator of_fortran(int number);
 
     int rank() const { return rank_; }
     int size() const { return size_; }
-    /// Number of this rank among those of its machine.
+    /// Returns the number of this rank among those of its machine.
     int local_rank() const { return local_rank_; }
     bool root() const { return rank() == 0; }
 
-    /// Element-wise sum over the ranks, in place. The values must be such that their sum is exact
-    /// in any order (ExactSum bins, counts).
+    /// Sums each element over the ranks, in place. The sum of the values must be exact in any order
+    /// (ExactSum bins, counts).
     void sum(std::span<double> values) const;
     void sum(std::span<std::int64_t> values) const;
-    /// Over the ranks of this machine.
+    /// Returns the sum of the values of the ranks of this machine.
     double sum_on_machine(double value) const;
-    /// Threads of this rank, where OMP_NUM_THREADS is not set: the processors it may use, shared
-    /// with the ranks of its machine that may use the same ones; never more than it has.
-    /// Collective.
+    /// Sets the number of threads of this rank, unless OMP_NUM_THREADS is set: the processors it
+    /// may use, shared with the ranks of its machine that may use the same ones; never more than it
+    /// has. Collective.
     void share_processors() const;
-    /// The greatest of the ranks' values.
+    /// Returns the largest of the ranks' values.
     double max(double value) const;
-    /// Root's bytes to all.
+    /// Sends the root's bytes to all ranks.
     void broadcast(std::span<std::byte> bytes) const;
     void broadcast(std::span<double> values) const { broadcast(std::as_writable_bytes(values)); }
-    /// Every rank's values, one after the other in rank order; counts[r] is rank r's share.
+    /// Gathers every rank's values on all ranks, in rank order; counts[r] is rank r's share.
     void all_gather(std::span<const double> mine, std::span<const int> counts,
                     std::span<double> all) const;
-    /// As all_gather, on the root only.
+    /// Gathers every rank's values on the root, in rank order; counts[r] is rank r's share.
     void gather(std::span<const double> mine, std::span<const int> counts,
                 std::span<double> all) const;
-    /// All messages at once; returns when all have arrived. A message to oneself is a copy.
+    /// Exchanges all messages at once and returns when all have arrived. A message to oneself is a
+    /// copy.
     void exchange(std::span<const Message> messages) const;
     void barrier() const;
-    /// Whether all ranks call this within so many seconds. May be called while others are, or wait,
-    /// in another of these functions: it has messages of its own. After false only abort() is left.
+    /// Returns true if all ranks call this function within so many seconds. It has messages of its
+    /// own, so other ranks may be in another of these functions meanwhile. After false only abort()
+    /// may be called.
     bool all_come(double seconds) const;
-    /// The ranks that give the same colour, in the same order, until MPI ends.
+    /// Returns the ranks that give the same colour, in the same order. The result lasts until MPI
+    /// ends.
     Communicator split(int colour) const;
-    /// Ends all ranks with this exit code, now.
+    /// Ends all ranks at once with this exit code.
     [[noreturn]] void abort(int exit_code) const;
 
-    /// Runs work on the root. If it throws there, every rank throws: the root what it caught, the
+    /// Runs work on the root. If it throws there, every rank throws: the root its own error, the
     /// others RootFailure, so that all end together and the root alone reports the reason.
     void on_root(const std::function<void()>& work) const;
 
@@ -92,19 +97,19 @@ private:
     void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,
                 bool everywhere) const;
 
-    std::shared_ptr<const Mpi> mpi_; ///< none: one rank
+    std::shared_ptr<const Mpi> mpi_; ///< communicators of MPI; null: one rank
     int rank_ = 0, size_ = 1, local_rank_ = 0;
 };
 
-/// True if a launcher says that it has started more than one rank: mpirun of Open MPI, that of
-/// MPICH and its like, or srun. Within a batch job SLURM sets SLURM_PROCID and SLURM_NTASKS for the
-/// one process of the script too, but SLURM_STEP_NUM_TASKS for what srun starts only. PMIx alone
-/// does not tell how many there are: then MPI has to be asked. python/asperity/terminal.py has the
-/// same rule.
+/// Returns true if a launcher says that it has started more than one rank: mpirun of Open MPI, that
+/// of MPICH and its like, or srun. Within a batch job SLURM sets SLURM_PROCID and SLURM_NTASKS for
+/// the one process of the script too, but SLURM_STEP_NUM_TASKS only for the processes of srun. PMIx
+/// alone does not tell how many there are: then MPI has to be asked. python/asperity/terminal.py
+/// has the same rule.
 bool launched_in_parallel();
 
-/// Starts MPI if the process is launched_in_parallel(), and ends it. One in main(), which looks at
-/// unconnected().
+/// Session of MPI: starts MPI if the process is launched_in_parallel(), and ends it. main() makes
+/// one and checks unconnected().
 class ParallelSession {
 public:
     ParallelSession(int& argc, char**& argv);
@@ -113,12 +118,13 @@ public:
     ParallelSession& operator=(const ParallelSession&) = delete;
 
     const Communicator& world() const { return world_; }
-    /// The number of processes that the launcher says it has started, where MPI has connected none
-    /// of them (it is the launcher of another MPI, or srun without the PMI of this one); else 0.
+    /// Returns the number of processes that the launcher says it has started if MPI has connected
+    /// none of them (the launcher belongs to another MPI, or is srun without the PMI of this one);
+    /// otherwise 0.
     int unconnected() const { return unconnected_; }
-    /// Whether the launcher counts this process as the first.
+    /// Returns true if the launcher counts this process as the first.
     static bool first_started();
-    /// Name and version of the MPI library, or "none (one process)".
+    /// Returns name and version of the MPI library, or "none (one process)".
     static std::string library();
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Storage behind the views: one value a node of a tile, its halo, and padding for whole SIMD
+// Storage behind the views: one value per node of a tile, its halo, and padding for whole SIMD
 // vectors.
 #pragma once
 
@@ -32,13 +32,14 @@ inline void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std
 #endif
 }
 
-/// A stack of planes of T over a tile; zero at first. Movable, not copyable by accident.
+/// A stack of planes of T over a tile, initially zero.
 template <class T>
 class Field {
 public:
     Field() = default;
 
-    /// halo: frame of nodes around the tile, at least halo_width.
+    /// Makes a field of zeros. halo: width of the frame of nodes around the tile, at least
+    /// halo_width.
     Field(const Tile& tile, int planes, int halo = halo_width)
         : size_(size(tile, planes, halo)), halo_(halo) {
         const std::ptrdiff_t left = round_up(halo);
@@ -62,16 +63,16 @@ public:
     PlaneView<T> plane(int z) { return view_[z]; }
     PlaneView<const T> plane(int z) const { return view()[z]; }
     int halo() const { return halo_; }
-    /// All of it, halo and padding included.
+    /// Returns all values, halo and padding included.
     std::span<T> storage() { return {data_.get(), size_}; }
     std::span<const T> storage() const { return {data_.get(), size_}; }
     bool empty() const { return !data_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
-    /// What a field of this shape would take.
+    /// Returns the bytes that a field of this shape would take.
     static std::size_t bytes_for(const Tile& tile, int planes, int halo = halo_width) {
         return size(tile, planes, halo) * sizeof(T);
     }
-    /// Bit-for-bit copy from a field of the same shape.
+    /// Copies a field of the same shape, bit for bit.
     void copy_from(const Field& other) {
         for (std::size_t i = 0; i < size_; ++i)
             data_[i] = other.data_[i];
@@ -80,8 +81,9 @@ public:
 private:
     static constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
     static std::ptrdiff_t round_up(std::ptrdiff_t n) { return (n + line - 1) / line * line; }
-    /// Behind the owned nodes: the halo, and what a vector starting at the last owned node and read
-    /// at an offset of the halo still touches.
+    /// Returns the length of a stored row. Behind the owned nodes lie the halo and the nodes that a
+    /// vector still touches if it starts at the last owned node and is read at an offset of the
+    /// halo.
     static std::ptrdiff_t row_length(const Tile& tile, int halo) {
         return round_up(halo) + round_up(tile.nx + halo + line);
     }

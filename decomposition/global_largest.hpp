@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Where in the whole box a value of the sites is largest: the same site whatever the number of
-// ranks.
+// The site of the whole box at which a value is largest: the same site on any number of ranks.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -13,13 +12,15 @@
 
 namespace asperity {
 
+/// Largest value of the sites, and its site.
 struct LargestSite {
     double value = 0.0;
-    int x = 0, y = 0; ///< in the whole box
+    int x = 0, y = 0; ///< site in the whole box
 };
 
-/// value(x, y) of the tile's own sites, not negative; what is no number counts as the largest.
-/// Among equals the first row by row. Collective.
+/// Returns the site of the whole box with the largest value(x, y), a function of the tile's own
+/// sites that is not negative; a value that is not finite counts as the largest. Of equal values
+/// the first, row by row, is returned. Collective.
 template <class Value>
 LargestSite global_largest(const Communicator& ranks, const Tile& tile, const Value& value) {
     double worst = -1.0;

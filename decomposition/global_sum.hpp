@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Sums over all ranks whose value is bitwise identical whatever the number of ranks: bins of exact
-// sums are added, which rounds nothing, and rounded once at the end.
+// Sums over all ranks, bitwise identical on any number of ranks: bins of exact sums are added,
+// which rounds nothing, and rounded once at the end.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace detail {
 
-/// bins: room for those of all sums.
+/// Sums each of `mine` over the ranks into values. bins: workspace for the bins of all sums.
 inline void global_sums(const Communicator& ranks, std::span<const ExactSum> mine,
                         std::span<double> bins, std::span<double> values) {
     for (std::size_t i = 0; i < mine.size(); ++i) {
@@ -36,7 +36,7 @@ inline void global_sums(const Communicator& ranks, std::span<const ExactSum> min
 
 } // namespace detail
 
-/// Collective: one reduction for all of them.
+/// Returns the sums over all ranks with one reduction. Collective.
 template <std::size_t n>
 std::array<double, n> global_sums(const Communicator& ranks, const std::array<ExactSum, n>& mine) {
     std::array<double, ExactSum::bins * n> bins;
@@ -45,7 +45,8 @@ std::array<double, n> global_sums(const Communicator& ranks, const std::array<Ex
     return values;
 }
 
-/// The same for a number of sums known only when run.
+/// Returns the sums over all ranks with one reduction; their number is known only at run time.
+/// Collective.
 inline std::vector<double> global_sums(const Communicator& ranks,
                                        const std::vector<ExactSum>& mine) {
     std::vector<double> bins(ExactSum::bins * mine.size()), values(mine.size());
@@ -53,6 +54,7 @@ inline std::vector<double> global_sums(const Communicator& ranks,
     return values;
 }
 
+/// Returns the sum over all ranks. Collective.
 inline double global_sum(const Communicator& ranks, const ExactSum& mine) {
     return global_sums(ranks, std::array{mine})[0];
 }

@@ -10,11 +10,11 @@ namespace {
 
 constexpr int h = halo_width;
 
-/// Below this many nodes a halo is filled sooner than threads are woken.
+/// Number of nodes below which a halo is filled faster without threads.
 constexpr std::size_t worth_threads = 1024;
 
-/// Periodic columns of all owned rows, for a level held whole. Called by all threads; each takes
-/// the rows that it works on elsewhere.
+/// Fills the periodic columns of all owned rows of a level held whole. Called by all threads; each
+/// fills the rows on which it works elsewhere.
 void wrap_x(const HaloField& f) {
     const int nx = f.view.nx;
     for (int z = 0; z < f.planes; ++z)

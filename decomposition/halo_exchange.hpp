@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Fills the halo of displacement fields: from neighbouring tiles where a level is cut, by periodic
-// wrapping where a rank holds it whole.
+// Fills the halo of displacement fields: from neighbouring tiles if a level is cut, by periodic
+// wrapping if a rank holds it whole.
 //
 // Two phases, x then y (whose rows include the x halo just received, so corners come along), and in
 // each phase one message to each of the two neighbours that carries all levels. Values are copied,
@@ -18,20 +18,22 @@
 
 namespace asperity {
 
-/// One field of the exchange: planes [0, planes) of it.
+/// One field of the exchange: its planes [0, planes).
 struct HaloField {
     VolumeView<double> view;
     int planes = 0;
-    bool tiled = false; ///< cut over the ranks, or held whole by this rank
+    bool tiled = false; ///< cut over the ranks; false: held whole by this rank
 };
 
+/// Exchange of halos with the neighbouring tiles.
 class HaloExchange {
 public:
     HaloExchange(const Communicator& communicator, const ProcessGrid& grid)
         : communicator_(communicator), grid_(grid) {}
 
+    /// Fills the halos of all fields. Collective.
     void exchange(std::span<const HaloField> fields);
-    /// Bytes sent by this rank in the last exchange, to other ranks.
+    /// Returns the bytes that this rank sent to other ranks in the last exchange.
     std::size_t bytes_sent() const { return bytes_; }
 
 private:
@@ -45,15 +47,17 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Every rank's footprint of a level's plane, put together on every rank: the forces that fine
-/// tiles hand to a level that all ranks hold. Fields are in global coordinates of the level.
+/// Copies every rank's footprint of a level's plane to every rank: the forces that fine tiles hand
+/// to a level that all ranks hold. Fields are in global coordinates of the level. Collective.
 void gather_footprints(const Communicator& communicator, const ProcessGrid& grid, int level,
                        std::span<const PlaneView<double>> planes);
 
-/// A plane of a level as a dense sites * sites array (row-major) on the root; empty elsewhere.
+/// Returns a plane of a level as a dense sites * sites array (row-major) on the root; empty
+/// elsewhere. Collective.
 std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid,
                                  int level, PlaneView<const double> plane);
-/// The inverse: each rank copies its tile out of the root's array.
+/// Copies each rank's tile out of the root's dense array: the inverse of gather_plane().
+/// Collective.
 void scatter_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
                    std::vector<double>& dense, PlaneView<double> plane);
 

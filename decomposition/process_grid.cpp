@@ -11,7 +11,7 @@ namespace asperity {
 
 namespace {
 
-/// n cells cut into p runs whose lengths differ by at most one.
+/// Cuts n cells into p runs whose lengths differ by at most one.
 std::vector<int> even_cuts(int n, int p) {
     std::vector<int> cut(static_cast<std::size_t>(p) + 1);
     for (int i = 0; i <= p; ++i)
@@ -19,7 +19,7 @@ std::vector<int> even_cuts(int n, int p) {
     return cut;
 }
 
-/// Nodes of the largest tile over the mean tile.
+/// Returns the number of nodes of the largest tile over that of the mean tile.
 double fullest(int n, int px, int py) {
     const auto largest = [n](int p) { return static_cast<double>((n + p - 1) / p); };
     return largest(px) * largest(py) * px * py / (static_cast<double>(n) * n);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Which rows of a tile, in all planes, are a thread's: those it touches first, so that their pages
-// lie near it, and those it works on.
+// Distribution of the rows of a tile, in all planes, over threads: a thread touches its rows first,
+// so that their pages lie near it, and works on them.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,11 @@
 
 namespace asperity {
 
-/// Rows are worked on in bands of so many.
+/// Number of rows in a band, the unit of distribution over threads.
 inline constexpr int band_rows = 8;
 
-/// [first, last) of ny rows, of the calling thread in its team: whole bands, next to each other.
+/// Returns the rows [first, last) of ny rows of the calling thread in its team: whole, adjacent
+/// bands.
 inline std::pair<int, int> rows_of_thread(int ny) {
     const int bands = (ny + band_rows - 1) / band_rows;
     const auto cut = [&](int thread) {
@@ -24,8 +25,8 @@ inline std::pair<int, int> rows_of_thread(int ny) {
     return {cut(omp_get_thread_num()), cut(omp_get_thread_num() + 1)};
 }
 
-/// work(z, y) for every row y of [-halo, ny + halo) of every plane, each once, by the thread whose
-/// it is; rows of the halo are those of the tile's outermost rows. ny > 0.
+/// Calls work(z, y) once for every row y of [-halo, ny + halo) of every plane, on the thread that
+/// owns the row; the tile's outermost rows come with the rows of the halo. ny > 0.
 template <class Work>
 void each_row_by_its_thread(int ny, int halo, int planes, const Work& work) {
 #pragma omp parallel

@@ -80,6 +80,7 @@ struct SurfaceTransform<T>::Parts {
 
     Slab slab;
     int components;
+    bool under_way = false; ///< a stage lives
     typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
     typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
     /// Of each thread: two blocks of waves; or a row of sites of each component, and one of waves.
@@ -130,7 +131,14 @@ struct SurfaceTransform<T>::Parts {
             if (plan) F::destroy(plan);
     }
 
-    /// No more than there were when the arrays were made.
+    /// Begins a transform.
+    Parts& begin() {
+        if (under_way) throw std::logic_error("SurfaceTransform: another transform is under way");
+        under_way = true;
+        return *this;
+    }
+
+    /// Returns no more threads than there were when the arrays were made.
     int threads() const { return std::min(omp_get_max_threads(), static_cast<int>(own.size())); }
     /// From the start of one row of sites of a thread's own to that of the next.
     std::size_t row_length() const {
@@ -269,43 +277,141 @@ template <class T>
 SurfaceTransform<T>& SurfaceTransform<T>::operator=(SurfaceTransform&&) noexcept = default;
 
 template <class T>
+SiteRows<T> SurfaceTransform<T>::from_sites() const {
+    return SiteRows<T>(parts_->begin());
+}
+template <class T>
+WaveBlocks<T> SurfaceTransform<T>::from_waves() const {
+    return WaveBlocks<T>(parts_->begin());
+}
+template <class T>
 int SurfaceTransform<T>::threads() const {
     return parts_->threads();
-}
-template <class T>
-T* const* SurfaceTransform<T>::rows() const {
-    return parts_->of_thread().rows.data();
-}
-template <class T>
-void SurfaceTransform<T>::put_rows(int y) const {
-    parts_->put_rows(y);
-}
-template <class T>
-T* const* SurfaceTransform<T>::get_rows(int y) const {
-    return parts_->get_rows(y);
-}
-template <class T>
-void SurfaceTransform<T>::to_blocks() const {
-    parts_->exchange(true);
-}
-template <class T>
-void SurfaceTransform<T>::to_rows() const {
-    parts_->exchange(false);
-}
-template <class T>
-T* SurfaceTransform<T>::get_block(int b) const {
-    return parts_->get_block(b);
-}
-template <class T>
-void SurfaceTransform<T>::put_block(int b, const T* waves) const {
-    parts_->put_block(b, waves);
 }
 template <class T>
 T* SurfaceTransform<T>::room() const {
     return parts_->second_block();
 }
 
+template <class T>
+int TransformStage<T>::threads() const {
+    return parts_->threads();
+}
+template <class T>
+void TransformStage<T>::End::operator()(typename SurfaceTransform<T>::Parts* parts) const {
+    parts->under_way = false;
+}
+
+template <class T>
+T* const* SiteRows<T>::own() const {
+    return this->parts_->of_thread().rows.data();
+}
+template <class T>
+void SiteRows<T>::put(int y) const {
+    this->parts_->put_rows(y);
+}
+template <class T>
+T* const* SiteRows<T>::get(int y) const {
+    return this->parts_->get_rows(y);
+}
+template <class T>
+WaveBlocks<T> SiteRows<T>::to_blocks() && {
+    this->parts_->exchange(true);
+    return WaveBlocks<T>(*this->parts_.release());
+}
+
+template <class T>
+T* WaveBlocks<T>::get(int b) const {
+    return this->parts_->get_block(b);
+}
+template <class T>
+void WaveBlocks<T>::put(int b, const T* waves) const {
+    this->parts_->put_block(b, waves);
+}
+template <class T>
+T* WaveBlocks<T>::room() const {
+    return this->parts_->second_block();
+}
+template <class T>
+SiteRows<T> WaveBlocks<T>::to_rows() && {
+    this->parts_->exchange(false);
+    return SiteRows<T>(*this->parts_.release());
+}
+
+template <class T>
+WaveBlocks<T> to_blocks(const std::vector<PlaneView<const T>>& planes,
+                        const SurfaceTransform<T>& by) {
+    SiteRows<T> rows = by.from_sites();
+#pragma omp parallel for schedule(static) num_threads(rows.threads())
+    for (int y = 0; y < planes.front().ny; ++y) {
+        for (std::size_t c = 0; c < planes.size(); ++c)
+            std::copy_n(planes[c].line(y), planes[c].nx, rows.own()[c]);
+        rows.put(y);
+    }
+    return std::move(rows).to_blocks();
+}
+
+template <class T>
+WaveBlocks<T> to_blocks(const SiteField<T>& field, const SurfaceTransform<T>& by) {
+    std::vector<PlaneView<const T>> planes;
+    for (const Field<T>& component : field)
+        planes.push_back(component.plane(0));
+    return to_blocks(planes, by);
+}
+
+template <class T>
+void to_sites(const SiteRows<T>& rows, SiteField<T>& field) {
+#pragma omp parallel for schedule(static) num_threads(rows.threads())
+    for (int y = 0; y < field.front().plane(0).ny; ++y) {
+        const T* const* own = rows.get(y);
+        for (Field<T>& component : field) {
+            const PlaneView<T> plane = component.plane(0);
+            std::copy_n(*own++, plane.nx, plane.line(y));
+        }
+    }
+}
+
+template <class T>
+void to_waves(const SiteField<T>& field, const SurfaceTransform<T>& by, Waves<T>& waves) {
+    const WaveBlocks<T> blocks = to_blocks(field, by);
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < waves.blocks(); ++b)
+        std::copy_n(blocks.get(b), waves.length(), waves.block(b));
+}
+
+template <class From, class T>
+void to_sites(const Waves<From>& waves, const SurfaceTransform<T>& by, SiteField<T>& field) {
+    WaveBlocks<T> blocks = by.from_waves();
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < waves.blocks(); ++b) {
+        if constexpr (std::is_same_v<From, T>) {
+            blocks.put(b, waves.block(b));
+        } else {
+            combine_row(1.0, waves.block(b), 0.0, blocks.room(), static_cast<int>(waves.length()));
+            blocks.put(b, blocks.room());
+        }
+    }
+    to_sites(std::move(blocks).to_rows(), field);
+}
+
 template class SurfaceTransform<double>;
 template class SurfaceTransform<float>;
+template class TransformStage<double>;
+template class TransformStage<float>;
+template class SiteRows<double>;
+template class SiteRows<float>;
+template class WaveBlocks<double>;
+template class WaveBlocks<float>;
+template WaveBlocks<double> to_blocks(const std::vector<PlaneView<const double>>&,
+                                      const SurfaceTransform<double>&);
+template WaveBlocks<float> to_blocks(const SiteField<float>&, const SurfaceTransform<float>&);
+template WaveBlocks<double> to_blocks(const SiteField<double>&, const SurfaceTransform<double>&);
+template void to_sites(const SiteRows<float>&, SiteField<float>&);
+template void to_sites(const SiteRows<double>&, SiteField<double>&);
+template void to_waves(const SiteField<float>&, const SurfaceTransform<float>&, Waves<float>&);
+template void to_waves(const SiteField<double>&, const SurfaceTransform<double>&, Waves<double>&);
+template void to_sites(const Waves<float>&, const SurfaceTransform<float>&, SiteField<float>&);
+template void to_sites(const Waves<double>&, const SurfaceTransform<float>&, SiteField<float>&);
+template void to_sites(const Waves<double>&, const SurfaceTransform<double>&, SiteField<double>&);
 
 } // namespace asperity

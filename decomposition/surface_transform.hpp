@@ -3,24 +3,25 @@
 //
 // The Fourier transform of a surface in slabs of rows over the ranks.
 //
-// It is two loops of the caller, over rows of sites and over blocks of columns of waves
-// (waves.hpp), with one exchange of the ranks between them:
+// A transform is two loops of the caller, over rows of sites and over blocks of columns of waves
+// (waves.hpp), with one exchange between the ranks. Each stage is an object, which the next stage
+// consumes, so that the loops have one order and a transform has one owner:
 //
-//     #pragma omp parallel for schedule(static) num_threads(t.threads())
+//     SiteRows<T> rows = transform.from_sites();
+//     #pragma omp parallel for schedule(static) num_threads(rows.threads())
 //     for (int y = 0; y < slab.rows; ++y) {
-//         T* const* rows = t.rows(); // of each component, to be written
-//         ...
-//         t.put_rows(y);
+//         ... rows.own() ...  // a row of each component, to be written
+//         rows.put(y);
 //     }
-//     t.to_blocks();
-//     #pragma omp parallel for schedule(static) num_threads(t.threads())
+//     WaveBlocks<T> blocks = std::move(rows).to_blocks();
+//     #pragma omp parallel for schedule(static) num_threads(blocks.threads())
 //     for (int b = 0; b < slab.blocks(); ++b)
-//         ... t.get_block(b) ...
+//         ... blocks.get(b) ...
 //
-// and back by put_block(), to_rows() and get_rows(). So what is done to a row or a block is done
-// while it is in the cache. FFTW works in arrays of a thread's own, by plans made by estimate, not
-// by measurement, and always on as many columns: a transform is bitwise identical on any number of
-// threads and ranks.
+// and back by from_waves(), put(), to_rows() and get(). A row or a block is used while it is in the
+// cache, and may be put back changed before the next stage. FFTW works in arrays of each thread's
+// own, by plans made by estimate, not by measurement, and always on the same number of columns: a
+// transform is bitwise identical on any number of threads and ranks.
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -44,7 +45,12 @@ SiteField<T> site_field(const Slab& slab, int components) {
     return field;
 }
 
-/// Between the sites of a surface and its waves; T is double or float. One transform at a time.
+template <class T>
+class SiteRows;
+template <class T>
+class WaveBlocks;
+
+/// Transforms between the sites of a surface and its waves, one at a time; T is double or float.
 template <class T>
 class SurfaceTransform {
 public:
@@ -53,28 +59,91 @@ public:
     SurfaceTransform(SurfaceTransform&&) noexcept;
     SurfaceTransform& operator=(SurfaceTransform&&) noexcept;
 
-    /// Of a loop over rows or blocks, at most.
-    int threads() const;
+    /// Begins a transform whose rows of sites are to be put. Throws std::logic_error if a stage of
+    /// another transform still lives.
+    SiteRows<T> from_sites() const;
+    /// Begins a transform whose blocks of waves are to be put. Throws as from_sites() does.
+    WaveBlocks<T> from_waves() const;
 
-    /// A row of sites of each component, this thread's own.
-    T* const* rows() const;
-    /// These become row y of the slab.
-    void put_rows(int y) const;
-    /// Row y of the slab, in rows().
-    T* const* get_rows(int y) const;
-    /// From rows that were put to blocks, and back. Collective.
-    void to_blocks() const;
-    void to_rows() const;
-    /// N^2 u_q of this rank's block b, in room(); it may be changed.
-    T* get_block(int b) const;
-    /// The waves of block b, which may be in room(), as u_q.
-    void put_block(int b, const T* waves) const;
-    /// A block of this thread's own.
+    /// Returns the largest number of threads of a loop over rows or blocks.
+    int threads() const;
+    /// Returns room for one block, this thread's own; get() and put() of blocks overwrite it.
     T* room() const;
 
-private:
     struct Parts;
+
+private:
     std::unique_ptr<Parts> parts_;
 };
+
+/// The only stage of a transform that is under way; it ends the transform when it goes.
+template <class T>
+class TransformStage {
+public:
+    /// Returns the largest number of threads of a loop over rows or blocks.
+    int threads() const;
+
+protected:
+    explicit TransformStage(typename SurfaceTransform<T>::Parts& parts) : parts_(&parts) {}
+    struct End {
+        void operator()(typename SurfaceTransform<T>::Parts* parts) const;
+    };
+    std::unique_ptr<typename SurfaceTransform<T>::Parts, End> parts_;
+};
+
+/// A transform at its rows of sites.
+template <class T>
+class SiteRows : public TransformStage<T> {
+public:
+    /// Returns a row of sites of each component, this thread's own.
+    T* const* own() const;
+    /// Transforms the rows in own(), as row y of the slab, along x.
+    void put(int y) const;
+    /// Transforms row y of the slab back along x and returns it, in own().
+    T* const* get(int y) const;
+    /// Exchanges the rows that were put for blocks of waves. Collective.
+    WaveBlocks<T> to_blocks() &&;
+
+private:
+    friend SurfaceTransform<T>;
+    friend WaveBlocks<T>;
+    using TransformStage<T>::TransformStage;
+};
+
+/// A transform at its blocks of waves.
+template <class T>
+class WaveBlocks : public TransformStage<T> {
+public:
+    /// Transforms this rank's block b along y and returns it, N^2 u_q, in this thread's room; it
+    /// may be changed there.
+    T* get(int b) const;
+    /// Transforms block b of waves u_q back along y; they may stand in room().
+    void put(int b, const T* waves) const;
+    /// Returns room for one block, this thread's own.
+    T* room() const;
+    /// Exchanges the blocks that were put for rows of sites. Collective.
+    SiteRows<T> to_rows() &&;
+
+private:
+    friend SurfaceTransform<T>;
+    friend SiteRows<T>;
+    using TransformStage<T>::TransformStage;
+};
+
+/// Transforms planes of sites, one for each component, or a field, as far as blocks. Collective.
+template <class T>
+WaveBlocks<T> to_blocks(const std::vector<PlaneView<const T>>& planes,
+                        const SurfaceTransform<T>& by);
+template <class T>
+WaveBlocks<T> to_blocks(const SiteField<T>& field, const SurfaceTransform<T>& by);
+/// Transforms rows back along x into a field.
+template <class T>
+void to_sites(const SiteRows<T>& rows, SiteField<T>& field);
+/// Sets waves to N^2 times those of a field. Collective.
+template <class T>
+void to_waves(const SiteField<T>& field, const SurfaceTransform<T>& by, Waves<T>& waves);
+/// Sets a field to that of some waves. Collective.
+template <class From, class T>
+void to_sites(const Waves<From>& waves, const SurfaceTransform<T>& by, SiteField<T>& field);
 
 } // namespace asperity

@@ -6,15 +6,16 @@
 
 namespace asperity {
 
+/// Nodes of a level that a rank owns.
 struct Tile {
     int x0 = 0; ///< first node owned, in nodes of this level, counted over the whole box
     int y0 = 0;
-    int nx = 0; ///< nodes owned
+    int nx = 0; ///< number of nodes owned
     int ny = 0;
     int sites = 0; ///< nodes of this level across the whole (periodic, square) box
 };
 
-/// i folded into [0, n).
+/// Returns i folded into [0, n).
 inline int periodic(int i, int n) {
     const int r = i % n;
     return r < 0 ? r + n : r;

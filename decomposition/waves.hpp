@@ -3,14 +3,14 @@
 //
 // Fields on a square surface as plane waves, u(r) = sum_q u_q exp(i q r).
 //
-// u is real, so half of the waves say everything: columns q_x = 0 .. N/2, rows q_y = 0 .. N-1 (the
-// upper half of which are negative). A sum over all waves counts the columns inside twice. With u_q
-// normalised like this, Parseval reads  sum_r a.b = N^2 sum_q conj(a_q).b_q.
+// u is real, so half of the waves describe it: columns q_x = 0 .. N/2, rows q_y = 0 .. N-1 (the
+// upper half of which are negative). A sum over all waves counts the inner columns twice. With this
+// normalisation of u_q, Parseval reads  sum_r a.b = N^2 sum_q conj(a_q).b_q.
 //
-// A rank holds a slab of rows of the sites, and of the waves a range of columns. These are kept in
-// blocks of block_columns (kernels/surface_rows.hpp), the last of which is filled up with zeros: a
-// block of all components is small enough for a core's cache, so that it is transformed along y
-// and multiplied there while memory is read and written once (surface_transform.hpp).
+// A rank holds a slab of rows of the sites, and of the waves a range of columns. The columns are
+// kept in blocks of block_columns (kernels/surface_rows.hpp), the last of which is filled up with
+// zeros: a block of all components is small enough for a core's cache, so that it is transformed
+// along y and multiplied there while memory is read and written once (surface_transform.hpp).
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -29,11 +29,11 @@ namespace asperity {
 struct Slab {
     Communicator ranks;
     int sites = 0;
-    int first = 0; ///< row of sites
-    int rows = 0;  ///< of sites
+    int first = 0; ///< first row of sites of this rank
+    int rows = 0;  ///< number of rows of sites
 
-    /// The whole surface, or this rank's share of it. Collective. Throws std::invalid_argument
-    /// where a rank would have no row.
+    /// Cuts a surface into the shares of the ranks (one rank: the whole surface). Collective.
+    /// Throws std::invalid_argument if a rank would have no row.
     Slab(int sites, const Communicator& ranks);
 
     int columns() const { return sites / 2 + 1; }
@@ -41,22 +41,23 @@ struct Slab {
     int first_row(int rank) const {
         return static_cast<int>(static_cast<long long>(sites) * rank / ranks.size());
     }
-    /// Of all ranks' waves.
+    /// Returns the number of blocks of the waves of all ranks.
     int all_blocks() const { return (columns() + block_columns - 1) / block_columns; }
-    /// A rank may have none, but the first has one.
+    /// Returns a rank's first block. A rank may have no block, but the first has one.
     int first_block(int rank) const {
         return (all_blocks() * rank + ranks.size() - 1) / ranks.size();
     }
     int first_block() const { return first_block(ranks.rank()); }
     int blocks() const { return first_block(ranks.rank() + 1) - first_block(); }
-    /// Numbers in a block of waves.
+    /// Returns the number of values in a block of waves.
     std::size_t block_length(int components) const {
         return 2 * block_columns * static_cast<std::size_t>(components) *
                static_cast<std::size_t>(sites);
     }
-    /// The wave q = 0 is this rank's.
+    /// Returns true if this rank holds the wave q = 0.
     bool holds_uniform() const { return ranks.rank() == 0; }
-    /// How often a sum over all waves counts each column of a block of this rank.
+    /// Returns the multiplicities with which a sum over all waves counts the columns of a block of
+    /// this rank.
     std::array<double, block_columns> weights(int block) const {
         std::array<double, block_columns> of{};
         for (int i = 0; i < block_columns; ++i) {
@@ -87,19 +88,19 @@ public:
 
     const Slab& slab() const { return slab_; }
     int components() const { return components_; }
-    int blocks() const { return slab_.blocks(); } ///< of this rank
-    /// Numbers in a block.
+    int blocks() const { return slab_.blocks(); } ///< returns the number of blocks of this rank
+    /// Returns the number of values in a block.
     std::size_t length() const { return slab_.block_length(components_); }
     T* block(int b) { return data_.get() + static_cast<std::size_t>(b) * length(); }
     const T* block(int b) const { return data_.get() + static_cast<std::size_t>(b) * length(); }
-    /// The pair of a wave, if it is this rank's; else null.
+    /// Returns the pair of a wave if this rank holds it; otherwise nullptr.
     const T* wave(int c, int nx, int ny) const {
         const int b = nx / block_columns - slab_.first_block();
         if (b < 0 || b >= blocks()) return nullptr;
         return block(b) + 2 * (block_columns * (static_cast<std::ptrdiff_t>(c) * slab_.sites + ny) +
                                nx % block_columns);
     }
-    /// The real part of the wave q = 0, where slab().holds_uniform().
+    /// Returns the real part of the wave q = 0; only if slab().holds_uniform().
     T& uniform(int c) { return block(0)[slab_.block_length(c)]; }
     T uniform(int c) const { return block(0)[slab_.block_length(c)]; }
     std::size_t bytes() const { return static_cast<std::size_t>(blocks()) * length() * sizeof(T); }
@@ -110,17 +111,17 @@ private:
     AlignedArray<T> data_;
 };
 
-/// Sums of the surface by parts, rows of sites or blocks of waves: within a part, then in the order
-/// of parts, whatever the number of threads and ranks.
+/// Sums of the surface by parts, rows of sites or blocks of waves: first within a part, then in the
+/// order of parts, on any number of threads and ranks.
 class OrderedSums {
 public:
     enum class Over { rows, blocks };
     OrderedSums(const Slab& slab, Over over, std::size_t sums)
         : slab_(slab), over_(over), sums_(sums),
           parts_(static_cast<std::size_t>(parts_of(slab.ranks.rank())) * sums) {}
-    /// Of a part of this rank.
+    /// Returns the sums of a part of this rank.
     double* part(int i) { return parts_.data() + static_cast<std::size_t>(i) * sums_; }
-    /// Times N^2. Collective; the same on every rank.
+    /// Returns the sums over all parts times N^2, the same on every rank. Collective.
     std::vector<double> total() const;
 
 private:
@@ -134,14 +135,14 @@ private:
     std::vector<double> parts_;
 };
 
-/// A block's part of dot().
+/// Returns the part of a block in dot().
 template <class A, class B>
 double dot_of_block(int b, const Waves<A>& a, const Waves<B>& with) {
     return block_dot(a.block(b), with.block(b), a.components() * a.slab().sites,
                      a.slab().weights(b).data());
 }
 
-/// sum_r a.b of the fields that the waves stand for. Collective.
+/// Returns sum_r a.b of the fields that the waves stand for. Collective.
 template <class A, class B>
 double dot(const Waves<A>& a, const Waves<B>& with) {
     OrderedSums sums(a.slab(), OrderedSums::Over::blocks, 1);
@@ -151,12 +152,12 @@ double dot(const Waves<A>& a, const Waves<B>& with) {
     return sums.total()[0];
 }
 
-/// to <- a from + keep to
+/// Sets to <- a from + b to.
 template <class From, class To>
-void combine(double a, const Waves<From>& from, double keep, Waves<To>& to) {
+void combine(double a, const Waves<From>& from, double b, Waves<To>& to) {
 #pragma omp parallel for schedule(static)
-    for (int b = 0; b < from.blocks(); ++b)
-        combine_row(a, from.block(b), keep, to.block(b), static_cast<int>(from.length()));
+    for (int i = 0; i < from.blocks(); ++i)
+        combine_row(a, from.block(i), b, to.block(i), static_cast<int>(from.length()));
 }
 
 } // namespace asperity

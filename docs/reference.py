@@ -32,18 +32,35 @@ def commands() -> str:
     return "".join(f"\n## {title}\n\n```text\n{text.strip()}\n```\n" for title, text in pages)
 
 
+def listed(text: str) -> str:
+    """Returns the entries of a section of a NumPy docstring as a list: a line "name : type", and its indented meaning."""
+    entries = re.findall(r"^(\S.*)\n((?: +.*(?:\n|$))*)", text + "\n", re.M)
+    lines = []
+    for head, meaning in entries:
+        name, _, kind = head.partition(" : ")
+        lines.append(f"- `{name}`{f' ({kind})' if kind else ''}: {escaped(' '.join(meaning.split()))}")
+    return "\n".join(lines)
+
+
+def escaped(text: str) -> str:
+    """Returns a text with the signs escaped that Markdown would read."""
+    return re.sub(r"`[^`]*`|[<*$]", lambda found: found[0] if found[0][0] == "`" else "\\" + found[0], text)
+
+
 def prose(doc: str | None) -> str:
-    """A docstring as Markdown: examples are indented in it, and lists of arguments have two blanks behind the name."""
+    """Returns a docstring as Markdown: indented examples as code, sections of NumPy's style as lists."""
     doc = re.sub(r"^\w+\(self.*\n+", "", doc or "")  # the signature that pybind11 writes
     parts = []
     for part in inspect.cleandoc(doc).split("\n\n"):
-        if re.match(r" {4}", part):
+        if section := re.match(r"(\w+)\n-+\n", part):
+            parts += [f"*{section[1]}*", listed(part[section.end():])]
+        elif re.match(r" {4}", part):
             part = f"```{'python' if 'asperity' in part else 'text'}\n" + inspect.cleandoc("\n" + part) + "\n```"
+            parts.append(part)
         elif re.match(r"\w+ {2,}\S", part):
-            part = f"```text\n{part}\n```"
+            parts.append(f"```text\n{part}\n```")
         else:
-            part = re.sub(r"`[^`]*`|[<*$]", lambda found: found[0] if found[0][0] == "`" else "\\" + found[0], part)
-        parts.append(part)
+            parts.append(escaped(part))
     return "\n\n".join(parts).strip() + "\n"
 
 

@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-/// The commit that this program was built from, with "-dirty" if the tree had changes; "unknown"
+/// Commit that this program was built from, with "-dirty" if the tree had changes; "unknown"
 /// outside git.
 extern const char* const build_commit;
 

@@ -29,14 +29,14 @@
 namespace asperity {
 namespace {
 
-/// Of commands that need one process: rank 0 does the work, the others wait for it.
+/// Calls work on rank 0 for commands that need one process; the other ranks wait.
 int on_root(const Communicator& world, const std::function<int()>& work) {
     int code = io::exit_code::done;
     world.on_root([&] { code = work(); });
     return code;
 }
 
-/// In the order of --help.
+/// Returns the commands in the order of --help.
 std::vector<Command> all_commands() {
     return {
         {"run",
@@ -81,9 +81,10 @@ std::vector<Command> all_commands() {
          }},
         {"surface",
          "make or read the surface, print and write its statistics and heights",
-         {takes::scene, takes::set, takes::out("results/<scene>-surface")},
+         {takes::scene, takes::set, takes::out("results/<scene>-surface"), takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return surface_command(surface_case_of(given, world.size()), given.out, world);
+             return surface_command(surface_case_of(given, world.size()), given.out, given.json,
+                                    world);
          }},
         {"theory", "the theories of a scene, without simulating it", {}},
         {"theory-points",

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Where the time of a run goes: one clock a line of the step, named like the line.
+// Wall time of the parts of a run: one clock for each line of the step, named like the line.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 namespace asperity {
 
+/// Parts of a run with clocks of their own.
 enum class Phase {
     interpolate, ///< constrained planes follow the coarse planes
     interface,   ///< forces of the substrate
@@ -29,18 +30,20 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Phase::co
     {"interpolate", "interface", "advance", "thermostat", "exchange", "device",
      "sums",        "observe",   "relax",   "checkpoint", "output"};
 
+/// Wall time and number of calls of a phase.
 struct PhaseClock {
     double seconds = 0.0;
     long long calls = 0;
 };
 
+/// Clocks of all phases.
 class Phases {
 public:
     using Clock = std::chrono::steady_clock;
 
     const PhaseClock& operator[](Phase p) const { return clocks_[static_cast<std::size_t>(p)]; }
 
-    /// Runs from its construction to its end.
+    /// Timer that runs from its construction to its destruction.
     class Timer {
     public:
         Timer(Phases& phases, Phase phase)
@@ -56,8 +59,9 @@ public:
         PhaseClock& clock_;
         Clock::time_point start_;
     };
+    /// Returns a timer of a phase.
     Timer time(Phase phase) { return Timer(*this, phase); }
-    /// Does the work on the phase's clock.
+    /// Calls work() on the clock of a phase.
     template <class Work>
     void during(Phase phase, const Work& work) {
         const Timer timer(*this, phase);

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is known of one time step, or of one point of a quasi-static path. Which of these numbers a
-// run records, and under which names: engine/run/series.hpp.
+// The numbers of one time step, or of one point of a quasi-static path. engine/run/series.hpp
+// selects and names those that a run records.
 #pragma once
 
 #include <array>
 
 namespace asperity {
 
-/// What is counted of the sites that the substrate acts on (count_contacts(), interface.hpp).
+/// Counts of the sites on which the substrate acts (count_contacts(), interface.hpp).
 struct ContactCount {
     long long in_contact = 0, repulsive = 0; ///< sites
     double closest = 0.0; ///< smallest pair distance, Å; infinite beyond the interaction range
@@ -22,35 +22,39 @@ struct ContactCount {
     }
 };
 
-/// Global values, bitwise identical on every rank. Energies in eV.
+/// Global numbers of a step or point, bitwise identical on every rank. Energies in eV.
 struct StepRecord : ContactCount {
-    long long step = 0;       ///< its number; of a quasi-static path, of the point
+    long long step = 0;       ///< number of the step, or of the point of a quasi-static path
     double time = 0.0;        ///< fs
     double top = 0.0;         ///< displacement of the top plane, Å
-    double mean_height = 0.0; ///< of the lowest layer above the substrate's zero, Å
+    double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
-    // Along x and y, of a path that slides; else 0.
+    // Numbers along x and y, of a path that slides; else 0.
     std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
-    std::array<double, 2> lateral_force{}; ///< of the substrate on the lowest layer, eV/Å
-    // Only where the step was observed, like the contacts:
+    std::array<double, 2> lateral_force{}; ///< force of the substrate on the lowest layer, eV/Å
+    // Numbers of observed steps only, like the contacts:
     bool observed = false;
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    /// Done on the solids by the drive and by forces from outside, from rest apart: it includes
-    /// what the block had at the start, and what was written to its fields.
+    /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m: with it the energies are
+    /// what the leapfrog conserves over springs (thermostat.hpp).
+    double time_step_energy = 0.0;
+    /// Work of the drive and of forces from outside on the solids, from rest apart: it includes the
+    /// energy of the block at the start, and that of values written to its fields.
     double work = 0.0;
-    double branch_energy = 0.0; ///< of elastic_energy, that of a block's branches
-    double relaxed = 0.0;       ///< what these have dissipated since the start
-    /// Since the start: damped, less the heat that a thermostat's noise gave; of a quasi-static
-    /// path what was dissipated at instabilities.
+    double branch_energy = 0.0; ///< part of elastic_energy in a block's branches
+    double relaxed = 0.0;       ///< energy dissipated by the branches since the start
+    /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
+    /// the energy dissipated at instabilities.
     double damped = 0.0;
     double interface_work = 0.0; ///< int F dz of the mean height, likewise
-    /// (work - energy - damped) over the largest of the energies and of the work so far.
+    /// Residual of the energy balance: (work - energy - time_step_energy - damped) over the largest
+    /// of the energies and of the work so far.
     double residual = 0.0;
 
     double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
 
-    /// For checkpoints.
+    /// Passes the members to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
         v("step", step);
@@ -65,6 +69,7 @@ struct StepRecord : ContactCount {
         v("interface_energy", interface_energy);
         v("elastic_energy", elastic_energy);
         v("kinetic_energy", kinetic_energy);
+        v("time_step_energy", time_step_energy);
         ContactCount::visit(v);
         v("work", work);
         v("branch_energy", branch_energy);

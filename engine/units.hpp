@@ -14,6 +14,6 @@ inline constexpr double per_picosecond = 1e-3;                      ///< 1/fs
 inline constexpr double picosecond = 1e3;                           ///< fs
 inline constexpr double boltzmann = 8.617333262e-5;                 ///< eV/K
 inline constexpr double milli_per_unit = 1e3;                       ///< meV/eV
-inline constexpr double millijoule_per_square_metre = 16.021766208; ///< of a meV/Å^2
+inline constexpr double millijoule_per_square_metre = 16.021766208; ///< mJ/m^2 in a meV/Å^2
 
 } // namespace asperity::units

@@ -24,7 +24,7 @@ constexpr const char* layout =
     "/position is [atom][3], /type [atom] a number from 0, its attribute "
     "names \"A B\", /box [2]; or write it by asperity convert";
 
-/// Å per unit of a data set's numbers, which are in Å where it does not say.
+/// Returns Å per unit of a data set's numbers; without a unit they are in Å.
 double unit_of(const std::string& file, const NumberSet& set) {
     for (const char* name : {"unit", "units"})
         if (const auto found = set.texts.find(name); found != set.texts.end()) {
@@ -36,7 +36,7 @@ double unit_of(const std::string& file, const NumberSet& set) {
     return 1.0;
 }
 
-/// The data sets of a file of atoms; those that are not there have no shape.
+/// Reads the data sets of a file of atoms; missing ones have no shape.
 std::map<std::string, NumberSet> sets_of(const std::string& file, bool values) {
     const auto those_there = [](const Hdf5File& opened) {
         std::vector<std::string> names;

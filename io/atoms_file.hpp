@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Atoms of a rigid substrate from HDF5, as `asperity convert` writes it from other formats:
+// Atoms of a rigid substrate from HDF5, as `asperity convert` writes them from other formats:
 //
 //     /position   [atom][3], Å; x and y from the box's lower corner, in [0, width)
-//     /type       [atom]: which of the names in its attribute `names`, which are separated by
-//     blanks /box        [2]: the widths of the periodic box along x and y, Å
+//     /type       [atom], index into the names of its attribute `names` (separated by blanks)
+//     /box        [2], widths of the periodic box along x and y, Å
 //
-// Refused is every file from which a wrong number could follow; libhdf5 opens those alone whose
-// digest is right.
+// The reader refuses every file from which a wrong number could follow; libhdf5 opens a file only
+// if its digest is right.
 #pragma once
 
 #include <cstddef>
@@ -18,17 +18,20 @@
 
 namespace asperity::io {
 
+/// Atoms of a substrate as a file holds them.
 struct AtomsFile {
-    std::vector<std::string> types;  ///< as the file names them, in the order of their first atoms
-    std::vector<std::int32_t> type;  ///< of each atom: which of `types`
-    double width_x = 0, width_y = 0; ///< of the periodic box, Å
-    std::vector<double> x, y, z;     ///< Å; x and y from the box's lower corner, in [0, width)
+    /// Names of the types, in the order of their first atoms in the file
+    std::vector<std::string> types;
+    std::vector<std::int32_t> type;  ///< index into `types` of each atom
+    double width_x = 0, width_y = 0; ///< widths of the periodic box, Å
+    /// Positions of the atoms, Å; x and y from the box's lower corner, in [0, width)
+    std::vector<double> x, y, z;
 };
 
-/// Throws SceneError.
+/// Reads the atoms of a substrate. Throws SceneError if the file is damaged or inconsistent.
 AtomsFile read_atoms_file(const std::string& file);
 
-/// How many atoms the file holds; 0 where it cannot be read.
+/// Returns the number of atoms that the file announces, 0 if the file cannot be read.
 std::size_t atoms_announced(const std::string& file);
 
 } // namespace asperity::io

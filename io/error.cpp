@@ -9,7 +9,7 @@ namespace asperity::io {
 
 namespace {
 
-/// Lines after the first are set in, so that a cause of several lines still reads as one.
+/// Indents the lines after the first, so that a cause of several lines still reads as one.
 std::string indented(const std::string& text) {
     std::string result;
     for (const char c : text) {
@@ -37,7 +37,7 @@ std::string plain(std::string_view word) { // case and the kind of dash do not c
     return result;
 }
 
-/// Edits (insert, delete, replace, swap neighbours) that lead from a to b.
+/// Returns the number of edits (insert, delete, replace, swap neighbours) from a to b.
 int distance(const std::string& a, const std::string& b) {
     const std::size_t n = b.size() + 1;
     std::vector<int> table((a.size() + 1) * n);

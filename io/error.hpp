@@ -10,7 +10,7 @@
 //         fix: what to do about it
 //
 // A scene may be wrong in many places; its error holds them all, so that one reading of the
-// terminal is enough. Only main prints; only main exits.
+// terminal is enough. Only main prints and exits.
 #pragma once
 
 #include <stdexcept>
@@ -21,29 +21,29 @@
 
 namespace asperity::io {
 
-/// What the shell sees. The numbers are a contract.
+/// Exit codes of the commands. The numbers are a contract with scripts.
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int internal = 1;     ///< a mistake of ours
+inline constexpr int internal = 1;     ///< an error of the program itself
 inline constexpr int scene = 2;        ///< usage or scene
 inline constexpr int physics = 3;      ///< energy, NaN, time step
 inline constexpr int input_output = 4; ///< files
 inline constexpr int stopped = 75;     ///< stopped early, a valid checkpoint is there
 } // namespace exit_code
 
-/// One thing that is wrong: where (may be empty), what, why and what to do (the last two may be
-/// empty).
+/// One mistake in a scene, a command line or a file. where, why and fix may be empty.
 struct Problem {
     std::string where;
     std::string what;
     std::string why;
     std::string fix;
 };
-/// The problem in the grammar above, without a newline at the end.
+/// Returns the problem in the grammar above, without a newline at the end.
 std::string format(const Problem& problem);
-/// The name among candidates that a misspelt word most likely meant; empty if none is near.
+/// Returns the candidate that a misspelt word most likely meant; empty if none is near.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
+/// Base of all errors: problems, and the exit code of the command that fails with them.
 class Error : public std::runtime_error {
 public:
     Error(int code, Problem problem);
@@ -57,17 +57,17 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// The scene, the command line or an input that the scene names is wrong (exit 2).
+/// Error in the scene, in the command line or in an input that the scene names (exit 2).
 struct SceneError : Error {
     explicit SceneError(Problem p) : Error(exit_code::scene, std::move(p)) {}
     explicit SceneError(std::vector<Problem> p) : Error(exit_code::scene, std::move(p)) {}
 };
-/// A guard of the physics stopped the run (exit 3).
+/// Error of the physics: a guard stopped the run (exit 3).
 struct PhysicsError : Error {
     PhysicsError(std::string what, std::string why, std::string fix)
         : Error(exit_code::physics, Problem{"", std::move(what), std::move(why), std::move(fix)}) {}
 };
-/// A file could not be read or written (exit 4).
+/// Error of a file that could not be read or written (exit 4).
 struct FileError : Error {
     FileError(std::string path, std::string what, std::string why, std::string fix = "")
         : Error(exit_code::input_output,

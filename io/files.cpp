@@ -25,8 +25,8 @@ constexpr char seal_name[17] = "asperity digest\n";
 /// The last bytes of a sealed file.
 struct SealBytes {
     char name[16];
-    std::uint64_t length; ///< of what comes before
-    std::uint64_t digest; ///< of what comes before
+    std::uint64_t length; ///< length of the preceding bytes
+    std::uint64_t digest; ///< digest of the preceding bytes
 };
 static_assert(sizeof(SealBytes) == 32);
 

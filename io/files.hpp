@@ -3,14 +3,14 @@
 //
 // Files that must not be lost, and the directories they are in.
 //
-// An open directory: its files are named relative to it (openat and its kind), so a file is never
-// written into another directory that has taken its name.
+// A Directory names its files relative to an open directory (openat and its kind), so a file is
+// never written into another directory that has taken its name.
 //
-// OutputFile is the one way to write a file that matters: beside its place, every result of the
-// system checked, brought to the disk, then renamed into its place, and the directory's entry
-// brought to the disk too. Until then an earlier file of that name stays as it is, whatever
-// happens. HDF5 files are written through it as well (hdf5_file.hpp), and end in a digest of all
-// their bytes (seal), which readers check.
+// OutputFile is the one way to write a file that matters. It writes a temporary file beside the
+// place, checks every result of the system, brings the bytes to the disk, renames the file into its
+// place, and brings the directory's entry to the disk too. An earlier file of that name stays as it
+// is until the rename, whatever happens. HDF5 files are written through OutputFile as well
+// (hdf5_file.hpp) and end in a digest of all their bytes (seal), which readers check.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ namespace asperity::io {
 
 using Bytes = std::span<const std::byte>;
 
-/// A file descriptor, closed at its end.
+/// A file descriptor that its destructor closes.
 class Descriptor {
 public:
     Descriptor() = default;
@@ -39,40 +39,43 @@ public:
     }
     int get() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
-    /// Closes now. False: the system reported an error, which is in errno.
+    /// Closes the descriptor. Returns false if the system reported an error, which is in errno.
     bool close();
 
 private:
     int fd_ = -1;
 };
 
+/// An open directory.
 class Directory {
 public:
-    /// Opens it; it must exist. Throws FileError.
+    /// Opens an existing directory. Throws FileError.
     explicit Directory(const std::string& path);
-    /// Makes it, and those above it, where they are missing.
+    /// Creates the directory and its parents if they are missing, and opens it. Throws FileError.
     static Directory make(const std::string& path);
 
-    const std::string& path() const { return path_; } ///< as it was given
+    const std::string& path() const { return path_; } ///< returns the path as it was given
     std::string operator/(const std::string& name) const { return path_ + "/" + name; }
     int fd() const { return fd_->get(); }
 
-    /// Throws FileError where the system does not tell.
+    /// Returns true if the directory has an entry of this name. Throws FileError if the system
+    /// cannot tell.
     bool exists(const std::string& name) const;
-    /// Opens a file in it; an empty descriptor and errno where that fails.
+    /// Opens a file of the directory. Returns an empty descriptor, with errno set, if that fails.
     Descriptor open(const std::string& name, int flags) const;
-    /// Removes a file, if it is there. Throws FileError, as the others do.
+    /// Removes a file, if it is there. Throws FileError.
     void remove(const std::string& name) const;
+    /// Renames a file within the directory. Throws FileError.
     void rename(const std::string& from, const std::string& to) const;
-    /// Names in it on the disk (fsync).
+    /// Brings the names in the directory to the disk (fsync). Throws FileError.
     void sync() const;
 
 private:
     std::string path_;
-    std::shared_ptr<const Descriptor> fd_; ///< shared by copies
+    std::shared_ptr<const Descriptor> fd_; ///< open directory, shared by copies
 };
 
-/// A file: by its path, or by its name in an open directory.
+/// Place of a file: a path, or a name in an open directory.
 class FilePlace {
 public:
     FilePlace(const char* path) : name_(path) {}
@@ -80,9 +83,9 @@ public:
     FilePlace(Directory directory, std::string name)
         : directory_(std::move(directory)), name_(std::move(name)) {}
     std::string path() const { return directory_ ? *directory_ / name_ : name_; }
-    std::string name() const;    ///< in its directory
-    Directory directory() const; ///< Throws FileError.
-    /// An empty descriptor and errno where that fails.
+    std::string name() const;    ///< returns the name in its directory
+    Directory directory() const; ///< opens the directory of the file; throws FileError
+    /// Opens the file. Returns an empty descriptor, with errno set, if that fails.
     Descriptor open(int flags) const;
 
 private:
@@ -90,24 +93,25 @@ private:
     std::string name_;
 };
 
+/// A file that appears in its place whole or not at all.
 class OutputFile {
 public:
-    /// Opens a temporary file beside it. Throws FileError, as all that follows does.
+    /// Opens a temporary file beside the place. Throws FileError, as all members do.
     explicit OutputFile(const FilePlace& place);
-    /// Not put in its place: gone.
+    /// Deletes the temporary file unless commit() has put it in its place.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
 
     int fd() const { return file_.get(); }
-    /// Appends.
+    /// Appends bytes.
     void write(Bytes bytes);
     /// Appends the digest of all bytes that are in the file.
     void seal();
-    /// To the disk, and into its place.
+    /// Brings the file to the disk and renames it into its place.
     void commit();
 
-    /// How the names of temporary files end.
+    /// Ending of the names of temporary files.
     static constexpr const char* suffix = ".part";
 
 private:
@@ -121,33 +125,37 @@ private:
 /// Writes a text, whole or not at all. Throws FileError.
 void write_whole(const FilePlace& place, const std::string& text);
 
-/// What the end of a file says of it.
+/// State of the digest at the end of a file: there is none, it agrees with the bytes, or it
+/// differs.
 enum class Seal { none, whole, broken };
+/// Compares the digest at the end of a file with its bytes.
 Seal check_seal(int fd);
-/// The digest at the end of a file, as it is stated there; nothing where there is none.
+/// Returns the digest stated at the end of a file; nothing if the file has none.
 std::optional<std::uint32_t> sealed_digest(const Directory& directory, const std::string& name);
 
-/// The digest by which damage is noticed, of these bytes after those of `before`: the CRC-32 of
-/// zlib, so that other programs can check it too; Python has it as zlib.crc32. A change within 32
-/// neighbouring bits is always noticed, any other with a probability of 1 - 2^-32. It is no
-/// protection against intent.
+/// Continues the digest `before` over these bytes: the CRC-32 of zlib (zlib.crc32 in Python), so
+/// that other programs can check it too. The digest shows every change within 32 neighbouring bits,
+/// and any other with a probability of 1 - 2^-32. It is no protection against intent.
 std::uint32_t digest_of(Bytes bytes, std::uint32_t before = 0);
-/// Of the first bytes of a file; nothing where there are fewer.
+/// Returns the digest of the first `length` bytes of a file; nothing if the file is shorter.
 std::optional<std::uint32_t> digest_of(int fd, std::uint64_t length);
 
-// System calls, repeated until all bytes are transferred or one fails.
+// System calls, repeated until all bytes are transferred or one of them fails.
 
-/// Throws FileError: what the system refused, with the reason in errno.
+/// Throws FileError with what the system refused; errno holds the reason.
 [[noreturn]] void fail_by_system(
     const std::string& path, const char* what,
     const char* fix = "check the permissions of its directory and the space on its disk");
-/// Brings a file, or the entries of a directory, to the disk. False: errno says why not.
+/// Brings a file, or the entries of a directory, to the disk. Returns false, with errno set, on
+/// failure.
 bool bring_to_disk(int fd);
-/// All bytes to the file at this offset; false: errno says why not.
+/// Writes all bytes to the file at this offset. Returns false, with errno set, on failure.
 bool write_all(int fd, Bytes bytes, std::uint64_t offset);
-/// Bytes of the file from this offset; fewer at its end; -1: errno says why.
+/// Reads bytes of the file from this offset. Returns their number, smaller at the end of the file,
+/// or -1 with errno set.
 std::ptrdiff_t read_some(int fd, std::span<std::byte> bytes, std::uint64_t offset);
-/// Calls take with the first bytes of the file, part by part. False: there are fewer.
+/// Calls take with the first `length` bytes of the file, part by part. Returns false if the file is
+/// shorter.
 bool read_parts(int fd, std::uint64_t length, const std::function<void(Bytes)>& take);
 
 } // namespace asperity::io

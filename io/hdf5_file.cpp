@@ -29,7 +29,7 @@ static_assert(std::is_same_v<hid_t, std::int64_t>);
 
 namespace {
 
-/// What the library says went wrong, from the bottom of its stack.
+/// Returns the library's error from the bottom of its stack.
 std::string cause(bool* by_system = nullptr) {
     std::string text;
     H5Ewalk2(
@@ -39,7 +39,7 @@ std::string cause(bool* by_system = nullptr) {
             return 0;
         },
         &text);
-    // Of a call of the system: "..., errno = 28, error message = 'No space left on device', ...".
+    // Error of a system call: "..., errno = 28, error message = 'No space left on device', ...".
     constexpr std::string_view system = "error message = '";
     if (const std::size_t at = text.find(system); at != std::string::npos) {
         if (by_system) *by_system = true;
@@ -54,7 +54,7 @@ std::vector<hsize_t> extents(const Hdf5File::Shape& shape) { return {shape.begin
 /// Tells readers that the file ended in a digest when it was whole.
 constexpr const char* seal_attribute = "asperity_digest";
 
-/// Of a file that is written: why the disk refused it; empty: it did not.
+/// Reason why the disk refused a file that is written; empty: it did not.
 using Refusal = std::string;
 
 /// One handle, closed by the function of its kind. refusal: of an object of a file that is written,
@@ -80,8 +80,8 @@ private:
 /// Before anything else is asked of the library, anywhere: its start installs the exit handler.
 const herr_t no_exit_handler = H5dont_atexit();
 
-/// How a file is opened that a descriptor of ours leads to, whatever has become of its directory.
-/// Without the library's locks: who may write a file is decided elsewhere (result_directory.hpp).
+/// Opens the file of a descriptor of this process, whatever has become of its directory. Without
+/// the library's locks: result_directory.hpp decides who may write a file.
 hid_t open_descriptor(int fd, bool create) {
     const std::string path = fmt::format("/proc/self/fd/{}", fd);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -93,7 +93,7 @@ hid_t open_descriptor(int fd, bool create) {
 
 } // namespace
 
-/// Where the bytes are, and the library's handle of the file.
+/// Bytes of an open file, and the library's handle of it.
 struct Hdf5File::Open {
     std::string path;
     std::unique_ptr<OutputFile> output; ///< null: the file is read
@@ -118,7 +118,7 @@ struct Hdf5File::Open {
         check_disk();
         throw FileError(path, object + " " + what, reason, "check that the file is whole");
     }
-    /// The handle of an object; fails where the library gave none.
+    /// Returns the handle of an object; fails if the library gave none.
     Handle handle(hid_t made, herr_t (*close)(hid_t), const std::string& object,
                   const std::string& what) const {
         if (made < 0) fail(object, what);
@@ -274,7 +274,7 @@ void Hdf5File::create(const std::string& dataset, std::int64_t type, const Shape
     // No times in the file: the same data are the same bytes.
     herr_t done = H5Pset_obj_track_times(layout, false);
     std::vector<hsize_t> most = extents(shape), chunk = most;
-    if (!shape.empty() && shape[0] == 0) { // it grows: about 8 kB a chunk, or one row
+    if (!shape.empty() && shape[0] == 0) { // a growing one: about 8 kB a chunk, or one row
         const std::uint64_t row = H5Tget_size(type) * volume({shape.begin() + 1, shape.end()});
         chunk[0] = std::max<hsize_t>(1, 8192 / std::max<hsize_t>(1, row));
         done = std::min(done, H5Pset_chunk(layout, static_cast<int>(chunk.size()), chunk.data()));
@@ -344,7 +344,7 @@ void Hdf5File::write_attribute(const std::string& object, const std::string& nam
     };
     const auto write = [&]<class T>(const T& it) {
         if constexpr (std::is_same_v<T, std::string>) {
-            // Of variable length: such strings are text to Python, fixed ones are bytes.
+            // Strings of variable length are text to Python, fixed ones are bytes.
             const char* start = it.c_str();
             put_text(H5T_VARIABLE, 0, 1, &start);
         } else if constexpr (std::is_same_v<T, std::vector<std::string>>) {

@@ -32,7 +32,7 @@ using NumberSets = std::map<std::string, NumberSet>;
 
 constexpr const char* take_another = "take a copy that is whole, or write it again";
 
-/// What no filter of HDF5 makes of so many bytes: more means values that were never written.
+/// Largest ratio of compression by filters of HDF5: more means values that were never written.
 constexpr double best_compression = 1100.0;
 
 NumberSet number_set(const Hdf5File& file, const std::string& name, const NumbersWanted& wanted) {
@@ -77,7 +77,7 @@ std::string text_of(PayloadReader& from) {
     return {text.begin(), text.end()};
 }
 
-/// All but the values, which follow it in the order of the sets.
+/// Writes everything but the values, which follow in the order of the sets.
 PayloadWriter head_of(const NumberSets& sets) {
     PayloadWriter head;
     head.put(std::uint64_t{sets.size()});
@@ -151,7 +151,7 @@ void set_limit(int what, double value) {
     ::setrlimit(static_cast<__rlimit_resource_t>(what), &limit);
 }
 
-/// Of the child: a crash of it is nobody's but its own, and it ends in any case.
+/// Limits the child's resources: its crash concerns no other process, and it ends in any case.
 void set_limits(const std::string& file) {
     for (const int number : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGXCPU})
         std::signal(number, SIG_DFL);
@@ -168,7 +168,7 @@ void set_limits(const std::string& file) {
         set_limit(RLIMIT_AS, pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) + more);
 }
 
-/// What the child does. Nothing of it may leave it: neither an exception nor exit handlers.
+/// Carries out the child's work. Nothing may leave it: neither an exception nor exit handlers.
 void answer(Shared& shared, const std::string& file, const NumbersWanted& wanted) {
     Answer kind;
     NumberSets sets;

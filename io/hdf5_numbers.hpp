@@ -6,7 +6,7 @@
 // libhdf5 crashes on some damaged files, and some make it ask for any amount of memory or time. So
 // a child process opens the file, with limits on its memory and processor time, and hands the
 // numbers over in a file in memory; this process opens no such file. A file that ends in a digest,
-// as those of Asperity do, is refused where its bytes are others.
+// as those of Asperity do, is refused if the digest does not agree with its bytes.
 #pragma once
 
 #include "io/hdf5_file.hpp"
@@ -18,25 +18,26 @@
 
 namespace asperity::io {
 
-/// A data set of numbers.
+/// A data set of numbers and its attributes.
 struct NumberSet {
     Hdf5File::Shape shape;
-    std::vector<double> values;               ///< none where they were not asked for
+    std::vector<double> values; ///< values in row-major order; empty if they were not asked for
     std::map<std::string, std::string> texts; ///< attributes that are one text
-    std::map<std::string, double> numbers;    ///< and those that are one number
+    std::map<std::string, double> numbers;    ///< attributes that are one number
 };
 
-/// What is wanted of a file.
+/// Data sets and attributes to be read from a file.
 struct NumbersWanted {
-    const char* what; ///< "the height map"
-    /// The names of data sets of numbers; or throws. Called in the child process.
+    const char* what; ///< name of the contents in messages: "the height map"
+    /// Returns the names of the data sets to read, or throws. Called in the child process.
     std::function<std::vector<std::string>(const Hdf5File&)> data_sets;
-    std::vector<const char*> texts, numbers; ///< attributes, where they are there
-    bool values = true;                      ///< false: shape and attributes alone
+    std::vector<const char*> texts, numbers; ///< names of the attributes to read, if they are there
+    bool values = true;                      ///< read the values; false: shape and attributes only
 };
 
-/// The data sets by name, and "/" with the attributes of the file; sizes are compared with the
-/// bytes in the file and with the memory before anything is read. Throws SceneError.
+/// Reads the wanted data sets by name, and "/" with the attributes of the file. Compares their
+/// sizes with the bytes in the file and with the free memory before reading anything. Throws
+/// SceneError.
 std::map<std::string, NumberSet> read_numbers(const std::string& file, const NumbersWanted& wanted);
 
 } // namespace asperity::io

@@ -81,7 +81,7 @@ void make_square(HeightMap& map, bool crop) {
 } // namespace
 
 HeightMap read_height_map(const std::string& name, const MapOptions& options) {
-    HeightMap map = read_map_file(name, options.unit);
+    HeightMap map = read_map_file(name, options);
     if (map.unit_assumed)
         map.notes.push_back("the file does not say the unit of its heights: taken as Å");
     if (map.missing > 0) treat_missing(map, options.fill);

@@ -3,16 +3,18 @@
 //
 // Height maps: what a file holds, and what a scene takes of it.
 //
-//     format       recognized by         size and unit
-//     HDF5         its first bytes       attributes unit (or units), scale, size_x, size_y,
-//     size_unit NumPy        its first bytes       none text matrix  numbers               none
+//     format        recognized by      size and unit
+//     HDF5          its first bytes    attributes unit (or units), scale, size_x, size_y, size_unit
+//     NumPy         its first bytes    none
+//     text matrix   numbers            none
 //
-// HDF5: the data set named after a colon ("map.h5:/NAME"), else /heights, else the only one of
-// numbers with two dimensions; attribute origin says whose map it is. Sizes are in size_unit, else
-// in the unit of the heights; an attribute that the data set has not is looked for at the file.
-// Text: one row of the map a line, numbers separated by blanks; # starts a comment. Row r is y = r,
-// column c is x = c. A map of n points is n pixels wide. Files of other formats are converted first
-// (python/asperity/convert.py).
+// HDF5: the data set is that named after a colon ("map.h5:/NAME"), else /heights, else the only one
+// of numbers with two dimensions; its attribute origin says whose map it is. Sizes are in
+// size_unit, else in the unit of the heights; an attribute that the data set lacks is taken from
+// the file. A number stands for `scale` units, whoever says the unit; numbers of 1e30 and more are
+// missing points. Text: one row of the map a line, numbers separated by blanks; # starts a comment.
+// Row r is y = r, column c is x = c. A map of n points is n pixels wide. Files of other formats are
+// converted first (python/asperity/convert.py).
 #pragma once
 
 #include <cstddef>
@@ -22,44 +24,51 @@
 
 namespace asperity::io {
 
+/// Heights of a map and what its file says of them.
 struct HeightMap {
-    std::string format; ///< as in the table above
-    std::string source; ///< the file (and data set)
-    std::string origin; ///< whose map it is, where the file tells it
+    std::string format; ///< format, one of the table above
+    std::string source; ///< file (and data set)
+    std::string origin; ///< owner of the map, if the file names one
     std::size_t rows = 0, columns = 0;
-    std::vector<double> heights;         ///< Å, heights[y * columns + x]; NaN where one is missing
-    std::optional<double> width, height; ///< along x and y, Å, where the file tells them
-    std::string unit = "Å";              ///< of the heights in the file: "nm", "0.03 nm"
-    bool unit_assumed = false;           ///< neither the file nor the scene says it: Å
-    std::size_t missing = 0;             ///< points without a finite height
-    std::string first_missing;      ///< the place of the first: file:line:column or [row, column]
-    std::string first_missing_text; ///< what stands there
-    std::vector<std::string> notes; ///< what was assumed, filled or cut, one sentence each
+    std::vector<double> heights;         ///< heights[y * columns + x], Å; NaN at missing points
+    std::optional<double> width, height; ///< widths along x and y, Å, if the file has them
+    std::string unit = "Å";              ///< unit of the heights in the file: "nm", "0.03 nm"
+    bool unit_assumed = false;           ///< neither the file nor the scene gives a unit: Å
+    std::size_t missing = 0;             ///< number of points without a finite height
+    /// place of the first missing point: file:line:column or [row, column]
+    std::string first_missing;
+    std::string first_missing_text;  ///< text at that place
+    std::vector<std::string> doubts; ///< possible mistakes in the file, one sentence each
+    std::vector<std::string> notes;  ///< assumptions, fillings and cuts, one sentence each
 };
 
+/// Options of a scene for reading a map. Unit and size hold over those of the file; doubts name
+/// both.
 struct MapOptions {
-    std::string unit = "auto"; ///< of the heights; "auto": what the file says, else Å
-    bool fill = false;         ///< missing points: by Laplace's equation; else they are refused
-    bool crop = false;         ///< not square: the middle; else it is refused
+    std::string unit = "auto"; ///< unit of the heights; "auto": the unit of the file, else Å
+    bool fill = false;         ///< missing points are filled by Laplace's equation; false: refused
+    bool crop = false;         ///< a map that is not square is cut to its middle; false: refused
+    std::optional<double> size{}; ///< shorter edge, Å; empty: the size in the file
 };
 
-/// What the file holds; name: a file, or file:/dataset. Throws SceneError.
-HeightMap read_map_file(const std::string& name, const std::string& unit = "auto");
-/// What a scene takes of it: a map that is square, whole and finite. Throws SceneError, told with
-/// the line and column, or the row and column in HDF5.
+/// Reads the map of a file. name: a file, or file:/dataset. Throws SceneError.
+HeightMap read_map_file(const std::string& name, const MapOptions& said = {});
+/// Reads a map that is square, whole and finite, as a scene needs it. Throws SceneError with the
+/// line and column of the mistake, or the row and column in HDF5.
 HeightMap read_height_map(const std::string& name, const MapOptions& options = {});
 
-/// Gives every NaN of heights[y * columns + x] the value that makes it the mean of its neighbours
-/// (four, fewer at the map's edge): Laplace's equation with the heights around as boundary values.
-/// To 1e-9 of the largest height; there must be one that is no NaN.
+/// Gives every NaN of heights[y * columns + x] the mean of its neighbours (four, fewer at the map's
+/// edge): Laplace's equation with the heights around as boundary values, to 1e-9 of the largest
+/// height. At least one height must be a number.
 void fill_missing(std::vector<double>& heights, std::size_t rows, std::size_t columns);
 
-/// What is written beside the heights.
+/// A column of numbers that is written beside the heights.
 struct MapColumn {
-    std::string name, unit; ///< "/spectrum/q"
+    std::string name, unit; ///< path in the file ("/spectrum/q") and unit of the values
     std::vector<double> values;
 };
-/// HDF5 data set /heights (with unit and sizes). Whole or not at all. Throws FileError.
+/// Writes the HDF5 data set /heights (with unit and sizes) and the columns, whole or not at all.
+/// Throws FileError.
 void write_height_map(const std::string& file, const HeightMap& map,
                       const std::vector<MapColumn>& columns = {});
 

@@ -19,7 +19,7 @@ namespace {
 /// In front of each payload.
 struct Head {
     std::uint64_t kind;
-    std::uint64_t size; ///< of the payload, bytes
+    std::uint64_t size; ///< size of the payload, bytes
 };
 
 } // namespace

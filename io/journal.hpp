@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A file that only grows: records, one after the other, of which a mark tells how many bytes there
-// were at some moment, and their digest.
+// A file of records that only grows. A mark tells the number of its bytes at some moment, and their
+// digest.
 //
-// A run appends to it what it finds; a checkpoint holds the mark of its moment. Whatever happened
-// to the file after that moment (half a record, a full disk, a kill) is cut off when the run goes
-// on from the checkpoint, and what came before it is checked against the digest.
+// A run appends its results to the journal; a checkpoint holds the mark of its moment. When the run
+// goes on from the checkpoint, everything after the mark (half a record, a full disk, a kill) is
+// cut off, and the bytes before the mark are checked against the digest.
 #pragma once
 
 #include "io/files.hpp"
@@ -21,29 +21,31 @@
 
 namespace asperity::io {
 
+/// A file of records with a mark.
 class Journal {
 public:
+    /// Length of the file at some moment, bytes, and the digest of these bytes.
     struct Mark {
         std::uint64_t bytes = 0;
         std::uint32_t digest = 0;
     };
 
-    /// Whether the file holds the mark's bytes as they were.
+    /// Returns true if the file still begins with the bytes of the mark.
     static bool holds(const Directory& directory, const std::string& name, const Mark& mark);
-    /// Copies the mark's bytes from one directory into another. Throws FileError.
+    /// Copies the bytes of the mark from one directory into another. Throws FileError.
     static void copy(const Directory& from, const Directory& to, const std::string& name,
                      const Mark& mark);
-    /// Opens the file (makes it where it is missing) and cuts it to its first bytes, which must be
-    /// held. Throws FileError.
+    /// Opens the file (creates it if it is missing) and cuts it to its first `bytes` bytes, which
+    /// must exist. Throws FileError.
     Journal(const Directory& directory, const std::string& name, std::uint64_t bytes = 0);
 
-    /// kind: what it is, a number of the caller's. Throws FileError, and does so again for every
-    /// record after one that failed.
+    /// Appends a record. kind: a number of the caller's. Throws FileError, also for every record
+    /// after one that failed.
     void append(std::uint64_t kind, Bytes payload);
     Mark mark() const { return {bytes_, digest_}; }
     /// Brings all records to the disk. Throws FileError.
     void synchronize();
-    /// All records from the first, one at a time. Throws FileError.
+    /// Calls take with every record, the first one first. Throws FileError.
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
 private:
@@ -54,10 +56,10 @@ private:
     bool failed_ = false;
 };
 
-/// Numbers of a record's payload, in the order they are put.
+/// Writer of a record's payload: numbers in the order in which they are put.
 class PayloadWriter {
 public:
-    /// A number, or a range of them.
+    /// Appends a number, or a range of numbers.
     template <class T>
     void put(const T& values) {
         if constexpr (std::ranges::contiguous_range<T>) {
@@ -74,6 +76,7 @@ private:
     std::vector<std::byte> bytes_;
 };
 
+/// Reader of a record's payload: numbers in the order in which they were put.
 class PayloadReader {
 public:
     explicit PayloadReader(Bytes bytes) : bytes_(bytes) {}

@@ -3,14 +3,17 @@
 #include "io/json.hpp"
 
 #include "io/error.hpp"
+#include "io/files.hpp"
 
 #include <fmt/format.h>
+
+#include <span>
 
 namespace asperity::io {
 
 namespace {
 
-/// Of arrays and objects in one another. Results are six deep; copying and freeing are recursive.
+/// Largest depth of arrays and objects. Results are six deep; copying and freeing are recursive.
 constexpr int deepest = 64;
 
 } // namespace
@@ -34,6 +37,26 @@ Json parse_json(std::string_view text, const std::string& file) {
         throw FileError(file, "this is no JSON that can be read", error.what(),
                         "if the file was cut short, run the scene again");
     }
+}
+
+namespace {
+
+/// The text with the digest of its own behind it.
+std::string sealed(std::string text) {
+    return text + fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
+                              digest_of(std::as_bytes(std::span(text))));
+}
+
+} // namespace
+
+std::string sealed_json(const Json& object) {
+    std::string text = json_text(object, 2);
+    text.resize(text.rfind("\n}"));
+    return sealed(std::move(text));
+}
+
+bool is_sealed_json(std::string_view text) {
+    return text == sealed(std::string(text.substr(0, text.rfind(",\n  \"digest\": "))));
 }
 
 const Json* find(const Json& object, std::string_view path) {

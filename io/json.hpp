@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// JSON whose objects keep the order in which their members were put. Headers need its name alone,
-// from <nlohmann/json_fwd.hpp>.
+// JSON whose objects keep the order of their members. Headers need its name alone, from
+// <nlohmann/json_fwd.hpp>.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,11 +14,16 @@ namespace asperity::io {
 
 using Json = nlohmann::ordered_json;
 
-/// indent < 0: one line. NaN and infinity are written as null.
+/// Returns the text of a value; indent < 0: on one line. NaN and infinity are written as null.
 std::string json_text(const Json& value, int indent = -1);
-/// Throws FileError with the place of the mistake; `file` is named in it.
+/// Parses a text. Throws FileError with `file` and the place of the mistake.
 Json parse_json(std::string_view text, const std::string& file);
-/// A member by its path, find(json, "energy.residual"), or nullptr.
+/// Returns an object as the text of a file, whose last member `digest` is of all bytes before the
+/// comma in front of it.
+std::string sealed_json(const Json& object);
+/// Returns true if a text ends in the digest of what is before it.
+bool is_sealed_json(std::string_view text);
+/// Returns a member by its path, find(json, "energy.residual"); nullptr if there is none.
 const Json* find(const Json& object, std::string_view path);
 
 } // namespace asperity::io

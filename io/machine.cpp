@@ -23,8 +23,8 @@ namespace fs = std::filesystem;
 
 std::string commit = "unknown";
 
-/// Bytes behind a name in a file of "name: value kB" or "name value" lines, or of the number alone;
-/// empty if there is none ("max").
+/// Returns the bytes behind a name in a file of "name: value kB" or "name value" lines, or of the
+/// number alone; nothing if there is none ("max").
 std::optional<double> entry(const fs::path& path, const std::string& name) {
     std::ifstream file(path);
     for (std::string line; std::getline(file, line);) {

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Reading of the formats; what a scene makes of a map is in height_map.cpp.
+// Reading of the formats; what their numbers mean is in map_meaning.cpp, what a scene makes of a
+// map in height_map.cpp.
 #include "io/height_map.hpp"
 
 #include "io/hdf5_numbers.hpp"
+#include "io/map_meaning.hpp"
 #include "io/scene_file.hpp"
 #include "io/units.hpp"
 
@@ -30,26 +32,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Heights beyond are no surface of atoms (10 cm), and sums of their squares lose all digits.
-constexpr double largest_height = 1e9; // Å
 constexpr std::size_t longest_edge = 1u << 17;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// What a file says of its units.
-struct Units {
-    std::optional<std::string> unit; ///< of the heights
-    double scale = 1.0;              ///< the heights are that many units, if the scene says none
-    bool of_sizes = false;           ///< width and height are in the unit of the heights too
-};
-
-/// Å per unit, refused if it is no length.
-double length_unit(const std::string& unit, const std::string& where) {
-    const std::optional<double> factor = conversion(unit, "Å");
-    if (!factor || !std::isfinite(*factor) || !(*factor > 0.0))
-        refuse(where, fmt::format("heights in '{}' cannot be read", unit.substr(0, 40)),
-               "that is no unit of length", "say which it is: file_unit = \"nm\"");
-    return *factor;
-}
 
 /// The data set that is named, else /heights, else the only one that can be a map.
 std::string map_in(const Hdf5File& file, const std::string& named) {
@@ -74,7 +57,8 @@ std::string map_in(const Hdf5File& file, const std::string& named) {
     if (dimensions != 2 || !file.holds_numbers(name))
         refuse(file.path() + ":" + name, "is no height map",
                fmt::format("a map is numbers of 2 dimensions, it has {}", dimensions),
-               "name another data set");
+               dimensions == 3 ? convert_first(file.path()) + " --channel 1"
+                               : "name another data set");
     return name;
 }
 
@@ -84,10 +68,17 @@ std::optional<T> find(const std::map<std::string, T>& attributes, const char* na
     return found == attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-HeightMap read_map_hdf5(const std::string& file, const std::string& named, Units& units) {
+HeightMap read_map_hdf5(const std::string& file, const std::string& named, MapUnits& units) {
     auto sets = read_numbers(
         file, {"the height map",
-               [&](const Hdf5File& opened) { return std::vector{map_in(opened, named)}; },
+               [&](const Hdf5File& opened) {
+                   for (const char* sign : {"/Measurement_000", "/pixel_to_nm_scaling"})
+                       if (opened.exists(sign))
+                           refuse(file, "is a file of an instrument's program",
+                                  fmt::format("its {} says what its numbers stand for", sign + 1),
+                                  convert_first(file));
+                   return std::vector{map_in(opened, named)};
+               },
                {"unit", "units", "size_unit", "origin"},
                {"scale", "size_x", "size_y"}});
     const NumberSet whole = std::move(sets.extract("/").mapped());
@@ -105,16 +96,13 @@ HeightMap read_map_hdf5(const std::string& file, const std::string& named, Units
     units.unit = find(set.texts, "unit");
     if (!units.unit) units.unit = find(set.texts, "units");
     units.scale = find(set.numbers, "scale").value_or(1.0);
+    if (!(units.scale > 0.0) || !std::isfinite(units.scale))
+        refuse(map.source, fmt::format("its attribute scale = {:g} is no factor", units.scale),
+               "a number of the map stands for so many units",
+               "correct the attribute, or remove it");
     map.width = find(set.numbers, "size_x");
-    if (!map.width) return map;
-    map.height = find(set.numbers, "size_y").value_or(*map.width);
-    // Sizes are in the file's own unit, whatever the scene says of the heights.
-    std::optional<std::string> unit = find(set.texts, "size_unit");
-    if (!unit) unit = units.unit;
-    units.of_sizes = !unit;
-    const double factor = unit ? length_unit(*unit, map.source) : 1.0;
-    *map.width *= factor;
-    *map.height *= factor;
+    if (map.width) map.height = find(set.numbers, "size_y").value_or(*map.width);
+    units.of_sizes = find(set.texts, "size_unit");
     return map;
 }
 
@@ -133,49 +121,6 @@ std::string file_contents(const std::string& file) {
     if (stream.bad() || static_cast<std::size_t>(stream.gcount()) != text.size())
         refuse(file, "the height map cannot be read to its end", std::strerror(errno), "");
     return text;
-}
-
-/// Heights and sizes in Å, missing points counted.
-void complete(HeightMap& map, const Units& units, const std::string& unit_wanted) {
-    const bool given = unit_wanted != "auto";
-    if (!given && !units.unit && units.of_sizes)
-        refuse(map.source, "the file does not say the unit of its sizes and heights",
-               "in an unknown unit they may be anything",
-               "say which it is: surface.file_unit = \"nm\"");
-    map.unit_assumed = !given && !units.unit;
-    const std::string unit = given ? unit_wanted : units.unit.value_or("Å");
-    const double scale = given ? 1.0 : units.scale;
-    map.unit = scale == 1.0 ? unit : fmt::format("{:g} {}", scale, unit);
-    const double factor = scale * length_unit(unit, map.source);
-    for (std::optional<double>* size : {&map.width, &map.height}) {
-        if (!*size) continue;
-        if (units.of_sizes) **size *= factor;
-        if (!(**size > 0.0) || !std::isfinite(**size))
-            refuse(map.source, "the map has no size", fmt::format("{} Å", **size),
-                   "set surface.file_unit and surface.file_size");
-    }
-    double largest = 0.0;
-    for (std::size_t i = 0; i < map.heights.size(); ++i) {
-        double& height = map.heights[i];
-        if (!std::isfinite(height)) {
-            if (map.first_missing.empty()) {
-                map.first_missing =
-                    fmt::format("{}[{}, {}]", map.source, i / map.columns, i % map.columns);
-                map.first_missing_text = fmt::format("{}", height);
-            }
-            height = nan;
-            ++map.missing;
-            continue;
-        }
-        height *= factor;
-        largest = std::max(largest, std::abs(height));
-    }
-    if (!(largest <= largest_height))
-        refuse(map.source, fmt::format("a height of the map is {:g} Å", largest),
-               fmt::format("that is more than {:g} Å (10 cm)", largest_height),
-               fmt::format("the heights are read in {}: set surface.file_unit, or mark points "
-                           "without a height as nan",
-                           map.unit));
 }
 
 /// Does a comment of a matrix say what Gwyddion and SPIP write into their headers? Gwyddion writes
@@ -202,6 +147,8 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
     map.format = "text matrix";
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
     std::size_t first_line = 0;
+    std::vector<std::size_t> blocks; // rows of each, between lines without numbers
+    bool between = true;
     for (std::size_t line = 1, at = 0; at < text.size(); ++line) {
         const std::size_t end = std::min(text.find('\n', at), text.size());
         std::string_view rest = text.substr(at, end - at);
@@ -230,14 +177,19 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
                     "a map is HDF5, .npy, or a plain matrix: numbers separated by blanks, one row "
                     "a line",
                     convert_first(file));
-            if (!std::isfinite(*value) && map.first_missing.empty()) {
+            if (!(std::abs(*value) < no_height) && map.first_missing.empty()) {
                 map.first_missing = place(word.data());
                 map.first_missing_text = word.substr(0, 40);
             }
             map.heights.push_back(*value);
             ++columns;
         }
-        if (columns == 0) continue;
+        if (columns == 0) {
+            between = true;
+            continue;
+        }
+        if (std::exchange(between, false)) blocks.push_back(0);
+        ++blocks.back();
         if (map.rows++ == 0) map.columns = columns, first_line = line;
         if (columns != map.columns)
             refuse(place(start), "the rows of the map are not of one length",
@@ -245,6 +197,11 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
                                map.columns),
                    "give every row as many numbers");
     }
+    if (blocks.size() > 1 && blocks[0] > 1 &&
+        std::ranges::count(blocks, blocks[0]) == std::ssize(blocks))
+        refuse(file, fmt::format("holds {} blocks of {} rows", blocks.size(), blocks[0]),
+               "lines without numbers separate them: they may be several maps",
+               convert_first(file) + " --channel 1; or take those lines out if it is one map");
     if (map.columns == 3 && map.rows > 3)
         refuse(file, "has three numbers a line",
                "they are points x, y and height rather than the rows of a map",
@@ -325,7 +282,7 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     if (extent.size() != 2)
         refuse(file, "is no height map",
                fmt::format("it has {} dimensions, a map has 2", extent.size()),
-               "name another file");
+               extent.size() == 3 ? convert_first(file) + " --channel 1" : "name another file");
     const std::size_t size = static_cast<std::size_t>(type[3] - '0');
     HeightMap map;
     map.format = "NumPy";
@@ -344,7 +301,7 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     return map;
 }
 
-HeightMap read_raw(const std::string& file, const std::string& dataset, Units& units) {
+HeightMap read_raw(const std::string& file, const std::string& dataset, MapUnits& units) {
     const fs::path name(file);
     if (is_hdf5(file)) return read_map_hdf5(file, dataset, units);
     if (!dataset.empty() || name.extension() == ".h5")
@@ -360,7 +317,7 @@ HeightMap read_raw(const std::string& file, const std::string& dataset, Units& u
 
 } // namespace
 
-HeightMap read_map_file(const std::string& name, const std::string& unit) {
+HeightMap read_map_file(const std::string& name, const MapOptions& said) {
     std::string file = name, dataset;
     if (const std::size_t colon = file.find(":/"); colon != std::string::npos) {
         dataset = file.substr(colon + 1);
@@ -371,7 +328,7 @@ HeightMap read_map_file(const std::string& name, const std::string& unit) {
         refuse(file, "the height map cannot be opened",
                fs::exists(file, error) ? "it is no file" : "there is no such file",
                "check surface.file");
-    Units units;
+    MapUnits units;
     HeightMap map = read_raw(file, dataset, units);
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
@@ -381,7 +338,8 @@ HeightMap read_map_file(const std::string& name, const std::string& unit) {
                fmt::format("{} x {} points, {} along an edge at most", map.rows, map.columns,
                            longest_edge),
                "cut a piece out of it before");
-    complete(map, units, unit);
+    complete(map, units, said);
+    note_doubts(map);
     return map;
 }
 

@@ -8,7 +8,7 @@ namespace asperity::io {
 
 namespace {
 
-/// Whether path has this name, "*" standing for one name of a group.
+/// Returns true if path has this name, "*" standing for one name of a group.
 bool matches(std::string_view name, std::string_view path) {
     const std::size_t star = name.find('*');
     if (star == std::string_view::npos) return name == path;

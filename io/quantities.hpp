@@ -8,8 +8,8 @@
 // not here and states the units from here in result.json; the summary of a run, the columns and
 // attributes of run.h5 and docs/reference/result.md (`asperity defaults --results`) follow.
 //
-// Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list.
-// Units: as io/units.hpp reads them; "1" for a pure number, "" for what is no number.
+// Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list. Units: as
+// io/units.hpp reads them; "1" for a pure number, "" if the value is no number.
 #pragma once
 
 #include <span>
@@ -18,10 +18,11 @@
 
 namespace asperity::io {
 
+/// Description of a result.
 struct Quantity {
     std::string_view name;
     std::string_view unit;
-    std::string_view per; ///< what it is divided by, or the whole that it belongs to
+    std::string_view per; ///< divisor of the value, or the whole that the value belongs to
     std::string_view meaning;
 };
 
@@ -31,7 +32,7 @@ inline constexpr std::string_view area = "nominal area", block = "whole block",
                                   contact = "area in contact of a sphere";
 }
 
-/// In the order of the file.
+/// Quantities of result.json, in the order of the file.
 inline constexpr Quantity result_quantities[] = {
     {"name", "", "", "name of the scene"},
     {"failure.exit_code", "1", "", "exit code of a command that failed"},
@@ -79,18 +80,28 @@ inline constexpr Quantity result_quantities[] = {
     {"lost.cycle", "meV/Å^2", per::area,
      "energy lost over a whole cycle, from and to rest beyond the interaction range, with "
      "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
-     "+ work_of_drive.pull_off"},
+     "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "energy that still moves at the end of the approach (dynamic, at T = 0, without a load): "
-     "kinetic energy and that of vibrations, above the state at zero load"},
+     "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without "
+     "a load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "what a block that relaxes (block.prony) has dissipated by relaxing on the approach, beside "
-     "lost.approach: work_of_drive.approach = change of the energies of interface and block, "
-     "branches included, + lost.approach + dissipated_in_block.approach"},
-    {"dissipated_in_block.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "energy that a block that relaxes (block.prony) has dissipated by relaxing on the approach, "
+     "beside lost.approach"},
+    {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
+     "the same of the pull-off: at its end a block that is still stretched comes to rest, without "
+     "work of the drive"},
     {"dissipated_in_block.cycle", "meV/Å^2", per::area, "the same over a whole cycle"},
+    {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
+     "convergence of dissipated_in_block.approach"},
+    {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
+     "convergence of dissipated_in_block.pull_off"},
+    {"stored.approach", "meV/Å^2", per::area,
+     "change of the energy of interface and block (branches included) on the approach of a "
+     "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, on the approach, on "
+     "the pull-off and in each segment; over a cycle nothing is stored"},
+    {"stored.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
@@ -120,27 +131,39 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
     {"segments[].name", "", "", "as the scene has it"},
     {"segments[].work_of_drive", "meV/Å^2", per::area,
-     "work of the drive on the solids, also sideways; from rest where the path starts, and to rest "
-     "beyond the interaction range at a pull-off"},
+     "work of the drive on the solids, also sideways; on dynamic paths from rest where the path "
+     "starts, and to rest beyond the interaction range at a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "∫ F dz of the mean height; left out at a controlled top on quasi-static paths"},
     {"segments[].lost", "meV/Å^2", per::area,
      "energy damped on the way, or dissipated at instabilities; at a temperature the "
-     "net heat, damped less what the thermostat's noise gives: it fluctuates as the energy does"},
+     "net heat, damped less what the thermostat's noise gives: at rest it fluctuates as the energy "
+     "does and does not grow, and the first segment includes what warms the block from 0 K"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "what a block that relaxes has dissipated by that, beside lost"},
+     "energy that a block that relaxes has dissipated by that, beside lost"},
+    {"segments[].stored", "meV/Å^2", per::area,
+     "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
+     "dissipated_in_block"},
     {"segments[].kinetic", "meV/Å^2", per::area,
-     "energy that still moves at the end of an approach or a pull-off of a dynamic path at T = 0, "
-     "as "
-     "kinetic.*"},
+     "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
+     "path "
+     "at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "convergence of work_of_drive and lost (quasi-static), for the sequence of instabilities that "
+     "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
+     "of instabilities that "
      "the path takes"},
     {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
     {"segments[].friction", "eV/Å", per::block,
      "force against a slide: the work of what moves the block sideways, over the distance"},
     {"segments[].largest_friction", "eV/Å", per::block, "the largest force against the slide"},
-    {"segments[].pressure", "MPa", "", "at its end: of the substrate on the lowest layer"},
+    {"segments[].pressure", "MPa", "",
+     "at its end: of the substrate on the lowest layer; at a temperature the average by which the "
+     "segment ends"},
+    {"segments[].pressure_scatter", "MPa", "",
+     "thermal noise: rms of the force about that average"},
+    {"segments[].pressure_averaged_over", "ps", "",
+     "time of the average: one transit of sound, or a tenth of the potential's width at "
+     "drive.velocity if that is shorter"},
     {"segments[].mean_height", "Å", "", "at its end"},
     {"segments[].top_displacement", "Å", "", "at its end"},
     {"segments[].contact_fraction", "1", per::sites,
@@ -223,15 +246,20 @@ inline constexpr Quantity result_quantities[] = {
      "curved)"},
     {"relaxed.residual_force", "eV/Å", "", "largest force left on a node"},
     {"energy.balance_error", "1", "largest term",
-     "energy balance: energy.work - kinetic - elastic - interface - damped, at the "
-     "last recorded step, over the largest energy or work so far"},
+     "energy balance: energy.work - kinetic - elastic - interface - damped (- time_step at a "
+     "temperature), at the last recorded step, over the largest energy or work so far"},
     {"energy.work", "eV", per::block,
      "work of the drive on the solids since they were at rest apart: it includes the energy that "
      "they have where the path starts"},
-    {"energy.kinetic", "eV", per::block, "kinetic energy at the last recorded step"},
+    {"energy.kinetic", "eV", per::block,
+     "kinetic energy of the velocities at the last recorded step; at rest at a temperature T it is "
+     "(3/2) N k T on average"},
     {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
     {"energy.interface", "eV", per::block,
      "energy of the interface at the last recorded step: pairs, or the wall's law"},
+    {"energy.time_step", "eV", per::block,
+     "at a temperature: -(dt²/8) Σ F²/m at the last recorded step; with it the energies are what "
+     "the time step conserves"},
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped on dynamic paths (less the heat of the thermostat's "
      "noise), dissipated at instabilities on quasi-static ones"},
@@ -253,6 +281,9 @@ inline constexpr Quantity result_quantities[] = {
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},
+    {"interface.table_error", "1", "delta_gamma",
+     "bound of the error of energies of flat surfaces, and so of binding energies, that the spline "
+     "between the rows of these tables and the noise of the rows make"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},
@@ -281,7 +312,7 @@ inline constexpr Quantity result_quantities[] = {
      "front of it"},
 };
 
-/// In run.h5, but the series (engine/run/series.hpp); "@" leads to an attribute.
+/// Data sets of run.h5 except the series (engine/run/series.hpp); "@" leads to an attribute.
 inline constexpr Quantity run_quantities[] = {
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
@@ -319,7 +350,7 @@ inline constexpr Quantity run_quantities[] = {
     {"profile/stress_variance", "GPa^2", "", "T(q), of the stress at full contact"},
 };
 
-/// The name of a quantity of result.json; one that is not in the table does not compile.
+/// The name of a quantity of result.json; a name that is not in the table does not compile.
 struct Key {
     consteval Key(const char* name) : quantity(&find(name)) {}
     const Quantity* quantity;
@@ -334,10 +365,10 @@ private:
 
 inline std::string_view unit_of(Key key) { return key.quantity->unit; }
 
-/// The quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
+/// Returns the quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 
-/// docs/reference/result.md. series: the columns of the series.
+/// Returns the page docs/reference/result.md. series: the columns of the series.
 std::string result_markdown(std::span<const Quantity> series);
 
 } // namespace asperity::io

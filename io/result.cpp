@@ -16,8 +16,8 @@ namespace asperity::io {
 
 namespace {
 
-/// Where a name leads in a tree, made on the way. "*" stands for member and "[]" for element; the
-/// tree of units has one entry for all elements.
+/// Returns the place of a name in a tree, which is created. "*" stands for member and "[]" for
+/// element; the tree of units has one entry for all elements.
 Json& place(Json& root, std::string_view name, const std::string& member, std::size_t element,
             bool units) {
     Json* at = &root;
@@ -88,18 +88,14 @@ Json Result::json() const {
     Json all = Json::object();
     for (const auto& [name, value] : values_->items())
         if (!value.is_null()) all[name] = value;
-    all["units"]["digest"] = ""; // of sealed_json
+    all["units"]["digest"] = ""; // the digest that sealed_json adds
     return all;
 }
 
 std::string Result::text(int indent) const { return json_text(json(), indent) + "\n"; }
 
 void write_result(const Directory& directory, const Result& result) {
-    std::string text = result.text();
-    text.resize(text.rfind("\n}"));
-    text += fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
-                        digest_of(std::as_bytes(std::span(text))));
-    write_whole({directory, "result.json"}, text);
+    write_whole({directory, "result.json"}, sealed_json(result.json()));
 }
 
 } // namespace asperity::io

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// result.json: what a command computed.
+// result.json: the numbers that a command computed.
 //
-// A Result holds values under the names of io/quantities.hpp, and the unit of each; what was not
-// computed is left out of the file. A run that fails writes its result too, with the reason. The
-// directory is chosen in io/result_directory.hpp.
+// A Result holds values under the names of io/quantities.hpp, and the unit of each; values that
+// were not computed are left out of the file. A run that fails writes its result too, with the
+// reason. The directory is chosen in io/result_directory.hpp.
 #pragma once
 
 #include "io/files.hpp"
@@ -23,48 +23,51 @@
 
 namespace asperity::io {
 
+/// Values of result.json.
 class Result {
 public:
     using Value = std::variant<bool, long long, double, std::string, std::vector<double>,
                                std::vector<long long>, std::vector<std::string>>;
 
-    /// With what the program was built from (run.version, ...) and nothing else.
+    /// Sets the version, compiler and machine (run.version, ...) and nothing else.
     Result();
     ~Result();
     Result(Result&&) noexcept;
 
-    /// Sets a value; one that is set already is replaced. NaN and infinity are written as null.
+    /// Sets a value, in place of an earlier one. NaN and infinity are written as null.
     void set(Key key, Value value);
-    /// Nothing where the optional is empty.
+    /// Sets a value unless the optional is empty.
     template <class T>
     void set(Key key, const std::optional<T>& value) {
         if (value) set(key, Value(*value));
     }
-    /// member: in place of the "*" of the key.
+    /// Sets a value. member: the name in place of the "*" of the key.
     void set(Key key, std::string_view member, Value value);
-    /// element: in place of the "[]" of the key; elements before it must be there.
+    /// Sets a value. element: the index in place of the "[]" of the key; earlier elements must
+    /// exist.
     void set(Key key, std::size_t element, Value value);
-    /// An empty list and the units of its elements; list: a key that ends in "[]".
+    /// Sets an empty list and the units of its elements. list: a key that ends in "[]".
     void set_list(Key list);
-    /// The scene and the units of its keys (Schema::json(), Schema::units()).
+    /// Sets the scene and the units of its keys (Schema::json(), Schema::units()).
     void set_scene(nlohmann::ordered_json scene, nlohmann::ordered_json units);
 
-    /// A number that was set (of a key without "*" and "[]"), or nothing.
+    /// Returns a number that was set (of a key without "*" and "[]"), or nothing.
     std::optional<double> number(Key key) const;
 
-    /// Values in the order of result_quantities, then `scene` and `units`.
+    /// Returns the values in the order of result_quantities, then `scene` and `units`.
     nlohmann::ordered_json json() const;
-    /// indent < 0: one line.
+    /// Returns the text of json(); indent < 0: on one line.
     std::string text(int indent = 2) const;
 
 private:
     void put(Key key, const std::string& member, std::size_t element, Value&& value);
 
-    std::unique_ptr<nlohmann::ordered_json> values_; ///< with `units` among them
+    /// values, and their units in the member `units`
+    std::unique_ptr<nlohmann::ordered_json> values_;
 };
 
-/// Writes result.json, whole or not at all, with a last member `digest`: of all bytes before the
-/// comma in front of it. Throws FileError.
+/// Writes result.json, whole or not at all. Its last member `digest` is the digest of all bytes
+/// before the comma in front of it. Throws FileError.
 void write_result(const Directory& directory, const Result& result);
 
 } // namespace asperity::io

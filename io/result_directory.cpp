@@ -6,11 +6,15 @@
 #include "io/files.hpp"
 #include "io/json.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <ctime>
+#include <exception>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <string_view>
 
 #include <fcntl.h>
 #include <fmt/chrono.h>
@@ -78,32 +82,49 @@ std::string choose(const ResultRequest& request) {
 void check(const ResultRequest& request, const Directory& directory) {
     const std::string& path = directory.path();
     const Holds found = holds(path);
-    if (found == Holds::result && !request.resume) {
-        const bool resumable =
-            directory.exists(run_file::checkpoint) || directory.exists(run_file::checkpoint_before);
-        throw SceneError(Problem{path, "already holds a result", "results are not written over",
+    const auto there = [&](const char* name) { return directory.exists(name); };
+    const bool resumable = there(run_file::checkpoint) || there(run_file::checkpoint_before);
+    if (found == Holds::result && request.resume && !resumable && !there(run_file::journal))
+        throw SceneError(Problem{"--resume auto", path + " holds a result and no checkpoint",
+                                 "the run in it has ended",
+                                 "nothing is left to do; for a new run give another --out"});
+    if (found == Holds::result && !request.resume)
+        throw SceneError(Problem{path, "already holds a result, result.json",
+                                 "results are not written over",
                                  std::string("name another directory (--out), or remove this one") +
                                      (resumable ? "; or go on with it: --resume auto" : "")});
-    }
     if (found == Holds::unfinished && !request.resume && !request.restart)
-        throw SceneError(Problem{path, "holds an unfinished run",
-                                 "starting anew would throw away what it has done",
-                                 "go on with it: --resume auto; or name another directory: --out; "
-                                 "or throw it away: --restart"});
+        throw SceneError(Problem{
+            path,
+            fmt::format("holds an unfinished run, {}",
+                        there(run_file::journal) ? run_file::journal : run_file::checkpoint),
+            "starting anew would throw away what it has done",
+            "go on with it: --resume auto; or name another directory: --out; "
+            "or throw it away: --restart"});
 }
 
-/// What was not put in its place, and, to start anew, the files of a run.
-void remove_files(const Directory& directory, bool of_run) {
-    std::vector<std::string> names;
-    if (of_run)
-        names = {run_file::journal, run_file::checkpoint, run_file::checkpoint_before, "run.h5",
-                 "result.json"};
+/// Whether a file is what a command that was killed left of one of these files.
+bool is_left_of(const std::string& file, const std::vector<std::string>& names) {
+    const std::string_view end = OutputFile::suffix;
+    if (!file.ends_with(end)) return false;
+    const std::string_view beside = std::string_view(file).substr(0, file.size() - end.size());
+    const std::size_t dot = beside.rfind('.'); // in front of the number of the process
+    return dot != std::string_view::npos && dot + 1 < beside.size() &&
+           beside.find_first_not_of("0123456789", dot + 1) == std::string_view::npos &&
+           std::find(names.begin(), names.end(), beside.substr(0, dot)) != names.end();
+}
+
+/// Removes what was not put in its place, and, to start anew, the files of a run.
+void remove_files(const Directory& directory, const ResultRequest& request) {
+    std::vector<std::string> names = request.files;
+    names.emplace_back(FileRecord::name);
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(directory.path(), error))
-        if (entry.path().string().ends_with(OutputFile::suffix))
-            names.push_back(entry.path().filename().string());
-    for (const std::string& name : names)
-        directory.remove(name);
+        if (const std::string file = entry.path().filename().string(); is_left_of(file, names))
+            directory.remove(file);
+    if (request.restart)
+        for (const std::string& file : request.files)
+            directory.remove(file);
 }
 
 // The lock.
@@ -128,10 +149,19 @@ Holder read_lock(int fd) {
     return {host, process, since};
 }
 
+/// Whether a file begins as the text of a lock does, as far as it was written.
+bool is_lock(int fd) {
+    constexpr std::string_view first = "host ";
+    char text[first.size()];
+    const std::ptrdiff_t n = read_some(fd, std::as_writable_bytes(std::span(text)), 0);
+    return n >= 0 && first.starts_with(std::string_view(text, static_cast<std::size_t>(n)));
+}
+
 } // namespace
 
 ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string& path)
-    : made_(::access(path.c_str(), F_OK) != 0), directory_(Directory::make(path)) {
+    : made_(::access(path.c_str(), F_OK) != 0), directory_(Directory::make(path)),
+      record_(directory_) {
     const std::string first = first_place(request).string();
     if (request.asked.empty() && !request.resume && path != first)
         notes_.push_back(
@@ -143,7 +173,8 @@ ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
     lock();
     check(request, directory_);
-    remove_files(directory_, request.restart);
+    record_.claim(request.files, request.inputs);
+    remove_files(directory_, request);
 }
 
 void ResultDirectory::require_in_place() const {
@@ -158,6 +189,10 @@ void ResultDirectory::require_in_place() const {
 }
 
 ResultDirectory::~ResultDirectory() {
+    try {
+        record_.release(std::uncaught_exceptions() == 0 && !directory_.exists(run_file::journal));
+    } catch (const std::exception&) { // the files stay unfinished in the record
+    }
     if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
     lock_ = Descriptor();
     std::error_code ignored;
@@ -176,6 +211,12 @@ void ResultDirectory::lock() {
         const bool kept = ::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0;
         const bool by_other = !kept && errno == EWOULDBLOCK;
         if (kept && !is_lock_in_place()) continue; // given back just now
+        if (!made && !is_lock(lock_.get())) {
+            lock_ = Descriptor(); // it stays in its place
+            throw SceneError(Problem{file, "is there already and is not replaced",
+                                     "it is not the lock of a run: it does not begin with a host",
+                                     "move it away, or name another directory (--out)"});
+        }
         holder = read_lock(lock_.get());
         const bool here = holder.host == host_name();
         // Where the file system knows no such locks, whoever makes the file has it.

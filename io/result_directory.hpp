@@ -12,10 +12,15 @@
 // refused without a flock too: not every file system carries flocks from host to host. Where it
 // knows none, whoever makes the file has it, and a file that is there is refused.
 // python/asperity/files.py takes the same lock.
+//
+// What may be replaced in it: nothing but files of a command that did not come to its end
+// (file_record.hpp).
 #pragma once
 
+#include "io/file_record.hpp"
 #include "io/files.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -25,15 +30,19 @@ struct ResultRequest {
     std::string asked; ///< --out; empty: results/<name>
     std::string name;
     bool resume = false; ///< an unfinished run goes on; without --out in the last directory of name
-    bool restart = false; ///< an unfinished run is thrown away
+    bool restart = false;                 ///< an unfinished run is thrown away
+    std::vector<std::string> files = {};  ///< names of all files that the command writes
+    std::vector<std::string> inputs = {}; ///< paths of the files that the command reads
 };
 
 class ResultDirectory {
 public:
-    /// Makes the directory and takes it. Throws SceneError where it holds a result, or an
-    /// unfinished run that nobody spoke of; FileError where it is in use or cannot be made.
+    /// Makes the directory and takes it. Throws SceneError where it holds a result, an unfinished
+    /// run that nobody spoke of, or a file that would have to be replaced; FileError where it is in
+    /// use or cannot be made.
     explicit ResultDirectory(const ResultRequest& request);
-    /// Gives it back. One that was made and is still empty is removed.
+    /// Gives it back. The files of a run that can be resumed stay unfinished in the record. A
+    /// directory that was made and is still empty is removed.
     ~ResultDirectory();
     ResultDirectory(const ResultDirectory&) = delete;
     ResultDirectory& operator=(const ResultDirectory&) = delete;
@@ -54,14 +63,24 @@ private:
     bool made_; ///< by this object
     Directory directory_;
     Descriptor lock_;
+    FileRecord record_;
 };
 
 /// Files of a run in its directory.
 namespace run_file {
+inline constexpr const char* series = "run.h5";
+inline constexpr const char* result = "result.json";
+inline constexpr const char* last_good = "last-good.h5";
+inline constexpr const char* checkpoint_damaged = "checkpoint-damaged.h5";
+inline constexpr const char* checkpoint_next = "checkpoint-next.part"; ///< whole, not yet in place
 inline constexpr const char* journal = "run.journal";
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* checkpoint_before = "checkpoint-before.h5";
 inline constexpr const char* lock = "run.lock";
+/// All but the lock.
+inline constexpr std::array all = {
+    journal, checkpoint, checkpoint_before, checkpoint_damaged, checkpoint_next,
+    series,  result,     last_good};
 } // namespace run_file
 
 } // namespace asperity::io

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How data sets of run.h5 get their units and descriptions, and the parts of H5MD 1.1
-// (nongnu.org/h5md) that a run of rough solids has: who wrote the file, and a trajectory of
-// particles. Which data sets there are, engine/run/recorder.cpp decides.
+// Units and descriptions of the data sets of run.h5, and the parts of H5MD 1.1 (nongnu.org/h5md)
+// that a run of rough solids has: who wrote the file, and a trajectory of particles.
+// engine/run/recorder.cpp decides which data sets there are.
 //
 //     /particles/trajectory/box          dimension 3, periodic in x and y; edges of each frame
 //     /particles/trajectory/position     value [frame][particle][3], step [frame], time [frame]
-//     /particles/trajectory/velocity     the same, where asked for
+//     /particles/trajectory/velocity     as position, if it is asked for
 //
 // All elements of a frame share their step and time; numbers are single precision, in Å, ps and
 // Å/ps (units as MDAnalysis reads them: "Angstrom", "ps"). Particles keep their order.
@@ -23,12 +23,13 @@
 
 namespace asperity::io {
 
-/// Gives a data set its `unit` and `description` from io/quantities.hpp; a path that is not
-/// described there throws std::logic_error. Or from a quantity of another table.
+/// Gives a data set its `unit` and `description` from io/quantities.hpp. Throws std::logic_error if
+/// that table does not describe the path.
 void describe(Hdf5File& file, const std::string& dataset);
+/// Gives a data set the unit and description of a quantity of another table.
 void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
-/// A new data set with these attributes.
+/// Writes a new data set with its unit and description.
 template <class T>
 void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
                      const std::vector<T>& data) {
@@ -36,18 +37,19 @@ void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File:
     describe(file, dataset);
 }
 
-/// An attribute of an object, and its unit as the attribute <name>_unit.
+/// Writes an attribute of an object, and its unit as the attribute <name>_unit.
 void write_described_attribute(Hdf5File& file, const std::string& object, const std::string& name,
                                double value);
 
-/// The attributes of "/": the scene as TOML, version and commit of the program.
+/// Writes the attributes of "/": the scene as TOML, version and commit of the program.
 void describe_origin(Hdf5File& file, const std::string& scene);
 
-/// /h5md with version, author and creator.
+/// Writes the group /h5md with version, author and creator.
 void write_h5md_head(Hdf5File& file);
 
-/// The group of the trajectory, and what H5MD wants of it once: its box.
+/// Group of the trajectory.
 inline constexpr const char* trajectory = "/particles/trajectory";
+/// Creates the group of the trajectory and its box, which H5MD wants once.
 void describe_trajectory(Hdf5File& file);
 
 } // namespace asperity::io

@@ -62,30 +62,4 @@ std::optional<double> number_of(std::string_view word) {
     return value;
 }
 
-std::array<std::vector<double>, 2> read_two_columns(const std::string& file) {
-    const auto fail = [](const std::string& where, const std::string& what) {
-        refuse(where, what, "", "write 2 numbers a line, separated by blanks");
-    };
-    std::ifstream in(file);
-    std::array<std::vector<double>, 2> columns;
-    std::string text;
-    for (int line = 1; std::getline(in, text); ++line) {
-        if (line > 1'000'000) fail(file, "has more than a million lines");
-        const std::string place = fmt::format("{}:{}", file, line);
-        std::string_view rest = std::string_view(text).substr(0, text.find('#'));
-        for (std::vector<double>& column : columns) {
-            const std::string_view word = take_word(rest);
-            if (word.empty()) break;
-            const std::optional<double> value = number_of(word);
-            if (!value || !std::isfinite(*value))
-                fail(place, fmt::format("'{}' is no finite number", word.substr(0, 40)));
-            column.push_back(*value);
-        }
-        if (columns[0].size() != columns[1].size()) fail(place, "has fewer than 2 numbers");
-    }
-    if (in.bad()) fail(file, "cannot be read");
-    if (columns[0].empty()) fail(file, "holds no numbers");
-    return columns;
-}
-
 } // namespace asperity::io

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the readers of files that a scene names share (maps, atoms, tables).
+// Functions that the readers of a scene's files share (maps, atoms, tables).
 //
 // Such files come from elsewhere and may be damaged: sizes are compared with the file and with the
-// memory there is before anything is allocated. What is wrong is a mistake of the scene:
-// SceneError.
+// free memory before anything is allocated. Every mistake in them is one of the scene: SceneError.
 #pragma once
 
 #include "io/error.hpp"
@@ -18,22 +17,20 @@
 
 namespace asperity::io {
 
+/// Throws SceneError with this problem.
 [[noreturn]] void refuse(std::string where, std::string what, std::string why, std::string fix);
-/// What to do with a file of another format: "convert it first: asperity convert X.gwy X.h5".
+/// Returns the advice for a file of another format: "convert it first: asperity convert X.gwy
+/// X.h5".
 std::string convert_first(const std::string& file);
-/// Refuses what is larger than the memory; what: "the height map".
+/// Throws SceneError if so many bytes exceed the free memory. what: "the height map".
 void require_memory(const std::string& where, const char* what, double bytes);
 
-/// Whether the first bytes are those of HDF5.
+/// Returns true if the first bytes of the file are those of HDF5.
 bool is_hdf5(const std::string& file);
 
-/// Takes the next word off a line, which ends at its "#"; empty: there is none.
+/// Removes the next word from a line, which ends at its "#", and returns it; empty at the end.
 std::string_view take_word(std::string_view& line);
-/// A number, or NaN for what no double holds; nothing if the word is none.
+/// Returns the number of a word: NaN if no double holds it, nothing if the word is no number.
 std::optional<double> number_of(std::string_view word);
-
-/// The first two columns of numbers in a text file; what a row has beyond them is left out, and "#"
-/// begins a comment. Refused with the line where a row has one number, or where there are none.
-std::array<std::vector<double>, 2> read_two_columns(const std::string& file);
 
 } // namespace asperity::io

@@ -23,7 +23,7 @@ using Key = Schema::Key;
 using Words = Schema::Words;
 using Choice = Schema::Choice;
 
-/// A choice as it is written; "every:" takes a number.
+/// Returns a choice as it is written; "every:" takes a number.
 std::string quoted(const std::string& choice) {
     return fmt::format("\"{}{}\"", choice, choice.ends_with(':') ? "N" : "");
 }
@@ -50,8 +50,8 @@ Problem no_such_choice(const std::string& word, const Words& choices) {
             near.empty() ? "take one of them" : fmt::format("did you mean \"{}\"?", near)};
 }
 
-/// A member of a list: one of the choices, or a choice ending in ':' with a positive number behind
-/// it.
+/// Returns true if a member of a list is one of the choices, or a choice ending in ':' with a
+/// positive number behind it.
 bool fits(const std::string& member, const Words& choices) {
     for (const std::string& choice : choices) {
         if (member == choice && !choice.ends_with(':')) return true;
@@ -77,9 +77,11 @@ struct Store {
         static constexpr const char* types[] = {
             "a value of another form", "true or false", "a whole number", "a number", "a string",
             "a list of strings"};
-        return {"", "is of the wrong type",
-                fmt::format("{} is needed, this is {}", needed, types[value.index()]),
-                fmt::format("write, for example, {}", example)};
+        return {
+            "", "is of the wrong type",
+            fmt::format("{} is needed, this is {}", needed, types[value.index()]),
+            fmt::format("write, for example, {}", example) +
+                (value.index() == 0 ? "; several values of a key are for `asperity sweep`" : "")};
     }
 
     Problem operator()(bool* field) const {
@@ -92,7 +94,7 @@ struct Store {
         const auto* text = as<std::string>();
         if (text && text->size() > 18 &&
             text->find_first_not_of("+-0123456789_") == std::string::npos)
-            return out_of_range(range, ""); // it does not fit into 64 bits
+            return out_of_range(range, ""); // the number does not fit into 64 bits
         const auto* integer = as<long long>();
         if (!integer) {
             const auto* number = as<double>();
@@ -105,7 +107,7 @@ struct Store {
         into = *integer;
         return {};
     }
-    /// The word of a number stands for 0.
+    /// Stores a number; its word stands for 0.
     template <class T>
     bool none(T* field) const {
         const auto* text = as<std::string>();
@@ -150,7 +152,7 @@ struct Store {
         if (none(field)) return {};
         return or_none(quantity(field));
     }
-    /// The number in the base unit.
+    /// Stores the number in the base unit.
     Problem quantity(double* field) const {
         double number = 0.0;
         const auto* text = as<std::string>();
@@ -276,7 +278,8 @@ struct Load {
     }
 };
 
-/// As it stands in a scene. Numbers have all digits, and a point, so that they stay numbers.
+/// Returns a value as it stands in a scene. Numbers have all digits, and a point, so that they stay
+/// numbers.
 std::string toml_value(const Json& value) {
     if (value.is_number_float()) {
         std::string text = fmt::format("{}", value.get<double>());
@@ -290,7 +293,7 @@ std::string toml_value(const Json& value) {
     return "[" + text + "]";
 }
 
-/// What may stand there: a range with its unit, or choices, or a kind.
+/// Returns the allowed values: a range with its unit, or choices, or a kind.
 std::string allowed(const Key& key, const std::string& quote) {
     std::string text = quoted_choices(key.choices, " | ", quote);
     const std::string kind = key.kind();

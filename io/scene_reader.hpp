@@ -3,12 +3,12 @@
 //
 // A TOML reader driven by a schema; it knows no physics.
 //
-// A Schema is a list of keys, each bound to a field of some plain struct. What the field holds
+// A Schema is a list of keys, each bound to a field of some plain struct. The value of the field
 // before a scene is read is the key's default. Reading goes once through the text and once through
-// the overrides (--set section.key=value), writes what is right into the fields and collects what
-// is wrong; nothing is thrown before everything has been looked at. Where each value came from is
-// kept in Positions, so that checks which need several keys, or the mesh, or the number of ranks,
-// can still point to file:line:column.
+// the overrides (--set section.key=value), writes valid values into the fields and collects all
+// mistakes; nothing is thrown before everything has been read. Positions keeps the origin of each
+// value, so that checks which need several keys, or the mesh, or the number of ranks, can still
+// point to file:line:column.
 //
 // The same schema writes the struct back as TOML, as JSON and as the reference page in docs/.
 #pragma once
@@ -29,17 +29,17 @@
 
 namespace asperity::io {
 
-/// Where every key that was set was set.
+/// Place at which each key was set.
 struct Positions {
     std::string file;
     std::map<std::string, std::string> keys; ///< "file:line:column" or "--set section.key=value"
 
     bool is_set(const std::string& key) const { return keys.contains(key); }
-    /// The file's name where the key has its default.
+    /// Returns the place at which a key was set; the file's name if the key has its default.
     std::string where(const std::string& key) const { return is_set(key) ? keys.at(key) : file; }
 };
 
-/// Collects what is wrong with a scene; throws it together.
+/// Collector of the mistakes in a scene, which are thrown together:
 ///     Problems problems(scene.positions);
 ///     problems.add("drive.timestep", "... is over the stability limit", "why", "fix");
 ///     problems.throw_if_any();
@@ -48,13 +48,13 @@ public:
     Problems() = default;
     explicit Problems(const Positions& positions) : positions_(positions) {}
 
-    /// Points to the key's position; the message begins with the key's name.
+    /// Adds a problem at the key's position; its message begins with the key's name.
     void add(const std::string& key, const std::string& what, std::string why = "",
              std::string fix = "");
     void add(Problem problem) { list_.push_back(std::move(problem)); }
     bool empty() const { return list_.empty(); }
     const std::vector<Problem>& list() const { return list_; }
-    /// Throws SceneError with all of them.
+    /// Throws SceneError with all problems, if there are any.
     void throw_if_any() const;
 
 private:
@@ -62,7 +62,7 @@ private:
     std::vector<Problem> list_;
 };
 
-/// Values a number may take.
+/// Interval of values that a number may take.
 struct Range {
     double low = -std::numeric_limits<double>::infinity();
     double high = std::numeric_limits<double>::infinity();
@@ -70,7 +70,7 @@ struct Range {
     bool high_open = false;
 
     bool contains(double x) const;
-    /// "> 0", "0 to 1", "4 or more", with the unit.
+    /// Returns the interval in words, with the unit: "> 0", "0 to 1", "4 or more".
     std::string text(std::string_view unit) const;
 };
 inline Range any() { return {}; }
@@ -80,26 +80,27 @@ inline Range at_least(double low) {
 }
 inline Range between(double low, double high) { return {low, high, false, false}; }
 
-/// A key and the values it takes one after the other, as they would stand behind --set key=.
+/// A key and its values, one after the other, as they would stand behind --set key=.
 struct Variation {
     std::string key;
     std::string values; ///< "1,2,5" or "0.5:10:0.5"
     std::string where;  ///< file:line:column
 };
 
+/// Keys of a scene, each bound to a field.
 class Schema {
 public:
     using Words = std::vector<std::string>;
-    /// A number and a quantity each, the latter in the key's unit.
+    /// List of pairs of a number and a quantity, the latter in the key's unit.
     using Pairs = std::vector<std::pair<double, double>>;
-    /// Such a list as it stands in a scene.
+    /// List of pairs as it stands in a scene.
     using RawPairs = std::vector<std::pair<double, std::variant<double, std::string>>>;
 
-    /// A value as it stands in a scene, before it is bound. Empty: of a type no key has.
+    /// Value as it stands in a scene, before it is bound. Empty: of a type that no key has.
     using Value =
         std::variant<std::monostate, bool, long long, double, std::string, Words, RawPairs>;
 
-    /// A field of some enumeration, by the number of its word.
+    /// Field of an enumeration, set and read by the index of its word.
     struct Choice {
         std::function<void(std::size_t)> set;
         std::function<std::size_t()> get;
@@ -107,79 +108,85 @@ public:
     using Field = std::variant<bool*, int*, long long*, std::optional<long long>*, double*,
                                std::optional<double>*, std::string*, Choice, Words*, Pairs*>;
 
+    /// A key of a scene: its name, field, documentation and allowed values.
     struct Key {
         std::string name;
         Field field;
-        std::string doc;    ///< one line, for people
+        std::string doc;    ///< one line of documentation
         std::string unit{}; ///< base unit of a quantity; empty: a bare number
         Range range{};
-        std::string word{};    ///< the word that stands for an empty field, or for one that is 0
-        Words choices{};       ///< of a choice, or of a list's members
+        std::string word{};    ///< word that stands for an empty field, or for a field that is 0
+        Words choices{};       ///< words of a choice, or of a list's members
         bool numerals = false; ///< a choice may be a whole number without quotes, too
-        /// Of a bare number that was a quantity: the unit it had, and what to say to one in it.
+        /// Former unit of a bare number, and the message for a value that still has one.
         struct Was {
             std::string unit{}, why{}, fix{};
         };
         Was was{};
-        std::optional<double>* length = nullptr; ///< of a count: where a length is stored, Å
+        /// Length from which a count follows, Å; null: counts only
+        std::optional<double>* length = nullptr;
         std::string section{};
-        std::function<bool()> omitted{}; ///< set: true when writing the key back would change the
-                                         ///< meaning
+        /// Returns true if writing the key back would change the meaning; empty: always written.
+        std::function<bool()> omitted{};
 
         std::string path() const { return section + "." + name; }
-        std::string kind() const; ///< boolean, integer, number, text, choice, list or pairs
+        std::string kind() const; ///< returns boolean, integer, number, text, choice, list or pairs
         bool written() const { return !omitted || !omitted(); }
-        /// What is empty: stored; else what is wrong.
+        /// Stores a value in the field. Returns the problem with the value; its `what` is empty on
+        /// success.
         Problem store(const Value& value) const;
         nlohmann::ordered_json load() const;
     };
 
-    /// Keys that follow belong to this section.
+    /// Begins a section; the keys that follow belong to it.
     void section(std::string name, std::string doc) {
         sections_.emplace_back(std::move(name), std::move(doc));
     }
 
-    /// True or false, or a text.
+    /// Adds a key that is true or false, or a text.
     template <class T>
     Key& key(std::string name, T& field, std::string doc) {
         return add({name, &field, doc});
     }
+    /// Adds a key that is a whole number.
     template <class T>
     Key& integer(std::string name, T& field, Range range, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .range = range});
     }
-    /// A quantity (number in the unit, or string with any unit of that dimension); unit "" : a bare
-    /// number.
+    /// Adds a key that is a quantity (a number in the unit, or a string with any unit of that
+    /// dimension); unit "": a bare number.
     Key& number(std::string name, double& field, std::string unit, Range range, std::string doc) {
         return add({name, &field, doc, unit, range});
     }
-    /// A quantity, or a whole number without unit, or a word: radius = "none".
+    /// Adds a key that is a quantity, a whole number without unit, or a word: radius = "none".
     template <class T>
     Key& number_or(std::string name, std::optional<T>& field, std::string word, std::string unit,
                    Range range, std::string doc) {
         return add({name, &field, doc, unit, range, word});
     }
-    /// The same for a field that is 0 where there is none: max_steps = "none".
+    /// Adds a key whose field is 0 if the scene says "none": max_steps = "none".
     template <class T>
     Key& number_or_none(std::string name, T& field, std::string unit, Range range,
                         std::string doc) {
         return add({name, &field, doc, unit, range, "none"});
     }
-    /// A whole number, or a length of which the reader's user makes one: sites = "133 nm".
+    /// Adds a key that is a whole number, or a length from which the caller derives the number:
+    /// sites = "133 nm".
     Key& count_or_length(std::string name, int& field, std::optional<double>& length, Range range,
                          std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .range = range, .length = &length});
     }
-    /// A list of strings. A member is right if it equals a choice, or starts with a choice that
-    /// ends in ':' and goes on with a positive whole number ("every:1000"). No choices: anything.
+    /// Adds a key that is a list of strings. A member is valid if it equals a choice, or starts
+    /// with a choice that ends in ':' and goes on with a positive whole number ("every:1000").
+    /// Without choices every member is valid.
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .choices = choices});
     }
-    /// A list of pairs [number, quantity]; the range is that of both.
+    /// Adds a key that is a list of pairs [number, quantity]; the range is that of both.
     Key& pairs(std::string name, Pairs& field, std::string unit, Range range, std::string doc) {
         return add({name, &field, doc, unit, range});
     }
-    /// An enumeration, by its names.
+    /// Adds a key that is an enumeration, by its names.
     template <class E>
     Key& choice(std::string name, E& field, std::vector<std::pair<std::string, E>> names,
                 std::string doc) {
@@ -196,18 +203,18 @@ public:
         return add({.name = name, .field = choice, .doc = doc, .choices = words});
     }
 
-    /// What scenes of earlier releases have and this one refuses.
+    /// Key or value of earlier releases that this one refuses.
     struct Removed {
         std::string key; ///< section.key
-        /// The value that the key no longer takes, or a member of its list; empty: the whole key is
-        /// gone.
+        /// Value that the key no longer takes, or a member of its list; empty: the whole key is
+        /// removed.
         std::string word;
         std::string why, fix;
     };
     void removed(Removed what) { removed_.push_back(std::move(what)); }
 
-    /// A section without keys of its own: keys of the others, each with a list or range of values.
-    /// Only their names are looked at here.
+    /// Section without keys of its own: it has keys of other sections, each with a list or range of
+    /// values. Only the names of these keys are checked here.
     struct Variations {
         std::string name, doc, example;
         std::vector<Variation>* into = nullptr;
@@ -217,21 +224,23 @@ public:
     const std::vector<Key>& keys() const { return keys_; }
     const Variations& variations() const { return variations_; }
     const Key* find(std::string_view path) const;
-    /// Null: that was never there, or still is.
+    /// Returns the description of a removed key or value; nullptr if it never existed or still
+    /// does.
     const Removed* find_removed(std::string_view key, std::string_view word = "") const;
 
-    /// Reads text (the contents of file) and overrides ("section.key=value"). Problems are added,
-    /// not thrown.
+    /// Reads text (the contents of file) and overrides ("section.key=value"). Adds mistakes to
+    /// problems and throws none.
     void read(std::string_view text, const std::string& file,
               const std::vector<std::string>& overrides, Positions& positions,
               Problems& problems) const;
 
-    /// The fields as a scene; with docs, each key has its line of explanation.
+    /// Returns the fields as a scene in TOML; with docs, each key has its line of explanation.
     std::string toml(bool with_docs) const;
     nlohmann::ordered_json json() const;
-    /// The unit of each value of json(): "1" for a pure number, "" for what is no number.
+    /// Returns the unit of each value of json(): "1" for a pure number, "" if the value is no
+    /// number.
     nlohmann::ordered_json units() const;
-    /// The reference page.
+    /// Returns the reference page of the keys.
     std::string markdown() const;
 
 private:
@@ -243,9 +252,9 @@ private:
     Variations variations_;
 };
 
-/// The name by which a command line asks for it.
+/// Name by which a command line asks for the standard input.
 inline constexpr std::string_view standard_input = "-";
-/// Contents of a file, or of the standard input; SceneError if it cannot be read.
+/// Reads a file, or the standard input. Throws SceneError if it cannot be read.
 std::string read_scene_file(const std::string& file);
 
 } // namespace asperity::io

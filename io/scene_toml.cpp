@@ -27,9 +27,9 @@ namespace {
 /// reading would take all memory, or the stack (a table is freed recursively).
 constexpr std::size_t largest_scene = 4u << 20; ///< bytes
 constexpr int deepest_key = 32;                 ///< parts of a dotted key
-constexpr std::size_t most_problems = 50;       ///< that are told one by one
+constexpr std::size_t most_problems = 50;       ///< number of problems that are reported one by one
 
-/// Where in the text a key has more parts than that (its line, from 1), 0 if none has.
+/// Returns the line, from 1, of a key in the text with more parts than that, 0 if there is none.
 int line_of_deep_key(std::string_view text) {
     int line = 1, dots = 0;
     for (std::size_t i = 0; i < text.size(); ++i) {
@@ -68,7 +68,7 @@ struct Position {
     std::string text() const {
         return line == 0 ? file : fmt::format("{}:{}:{}", file, line, column);
     }
-    /// That of the text; overrides last.
+    /// Returns the order of the text; overrides come last.
     std::tuple<bool, int, int> order() const { return {line == 0, line, column}; }
 };
 
@@ -103,7 +103,7 @@ std::string cut(std::string text) {
     return text;
 }
 
-/// The value as the user wrote it, more or less, for messages; long ones are cut.
+/// Returns the value approximately as the user wrote it, for messages; long ones are cut.
 std::string shown(const toml::node& node) {
     std::ostringstream text;
     if (node.is_table())
@@ -121,7 +121,7 @@ std::string shown(const toml::node& node) {
     return cut(std::move(result));
 }
 
-/// What the line of a syntax error looks like it was meant to be.
+/// Returns advice on the probable intention of a line with a syntax error.
 std::string syntax_advice(std::string_view text, int line_number) {
     std::istringstream lines{std::string(text)};
     std::string line;
@@ -232,7 +232,7 @@ private:
         return {file_, static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
     }
 
-    /// Enough was found; what comes is counted only.
+    /// Returns true if enough problems were found; further ones are only counted.
     bool full() {
         if (found_.size() < most_problems) return false;
         ++untold_;
@@ -273,7 +273,7 @@ private:
         }
     }
 
-    /// `surface.rms = [1, 2]` (which is a table in a table), or "surface.rms" = "0.5:10:0.5".
+    /// Reads `surface.rms = [1, 2]` (a table in a table), or "surface.rms" = "0.5:10:0.5".
     void variations(const toml::table& table, const std::string& above) {
         for (const auto& [name, node] : table) {
             const std::string path = above + std::string(name.str());
@@ -297,7 +297,7 @@ private:
         }
     }
 
-    /// As it would stand behind --set key=: strings without their quotes.
+    /// Returns a value as it would stand behind --set key=: strings without their quotes.
     static std::string as_override(const toml::node& node) {
         if (const auto* text = node.as_string()) return text->get();
         return shown(node);
@@ -336,7 +336,7 @@ private:
         const std::string section = dot == std::string::npos ? "" : path.substr(0, dot);
         const std::string name = path.substr(dot + 1); // npos + 1 is 0
         std::vector<std::string> here, everywhere;
-        std::map<std::string, std::string> path_of; // of each name, the last
+        std::map<std::string, std::string> path_of; // path of each name, the last one
         for (const Schema::Key& key : schema_.keys()) {
             if (key.section == section) here.push_back(key.name);
             everywhere.push_back(key.name);
@@ -390,7 +390,7 @@ std::string read_scene_file(const std::string& file) {
         throw cannot("it is a directory", "name a .toml file in it");
     std::ifstream stream(piped ? "/dev/stdin" : file, std::ios::binary);
     if (!stream) throw cannot(std::strerror(errno), "check its permissions");
-    std::string text(largest_scene + 1, '\0'); // not the file's size: a pipe has none
+    std::string text(largest_scene + 1, '\0'); // instead of the file's size: a pipe has none
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
     if (stream.bad()) throw cannot(std::strerror(errno), "check its permissions");
     text.resize(static_cast<std::size_t>(stream.gcount()));

@@ -17,15 +17,15 @@ namespace asperity::io {
 
 namespace {
 
-/// Characters seen, not bytes: the bytes that begin a character.
+/// Returns the number of visible characters: the bytes that begin a character.
 int visible_width(std::string_view text) {
     return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
     }));
 }
 
-/// Somebody sees what is written there at once. Open MPI's mpirun gives its ranks a terminal of
-/// their own, wherever the output goes in the end: that is none.
+/// Returns true if somebody reads the stream at once. Open MPI's mpirun gives its ranks a terminal
+/// of their own, wherever the output goes in the end: this one does not count.
 bool is_terminal(std::FILE* stream) {
     return ::isatty(::fileno(stream)) != 0 && !std::getenv("OMPI_COMM_WORLD_SIZE");
 }
@@ -38,7 +38,8 @@ bool colours(std::FILE* stream) {
 }
 
 constexpr double bar_seconds = 0.2;
-/// Lines get rarer as a run gets longer: after 2 s, 10 s, then each 10 % of the time so far.
+/// Returns the time to the next line, which grows with the run: 2 s, 10 s, then each 10 % of the
+/// time so far.
 double line_seconds(double elapsed) {
     return elapsed < 10.0 ? 2.0 : elapsed < 100.0 ? 10.0 : 0.1 * elapsed;
 }
@@ -59,7 +60,7 @@ std::string simulated_per_day(double fs_per_day) {
     return fmt::format("{} ps/day", amount(fs_per_day / 1e3));
 }
 
-/// Columns of the terminal that a line may fill.
+/// Returns the columns of the terminal that a line may fill.
 int columns_of(std::FILE* stream) {
     struct winsize window {};
     const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &window) == 0 && window.ws_col > 10;
@@ -185,14 +186,14 @@ void Progress::update(const State& state) {
     }
 }
 
-/// What nobody can read any more is no reason to end a run.
+/// Writes a text; a failure is no reason to end a run.
 void Progress::put(const std::string& text) {
     std::fwrite(text.data(), 1, text.size(), to_);
     std::fflush(to_);
 }
 
 void Progress::say(const std::string& sentence) {
-    first_steps_ = -1; // what follows is of another kind and speed
+    first_steps_ = -1; // the next steps are of another kind and speed
     if (mode_ == ProgressMode::off) return;
     finish();
     put(sentence + "\n");

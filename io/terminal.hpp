@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is shown in a terminal: tables; what a run is doing, how fast, and how long it will still
-// take.
+// Output in a terminal: tables; and the progress of a run: its phase, speed and remaining time.
 #pragma once
 
 #include <chrono>
@@ -15,62 +14,64 @@
 
 namespace asperity::io {
 
-/// Columns aligned by what is seen (UTF-8 counts as one); headings bold on a terminal, unless
-/// NO_COLOR is set or TERM is "dumb".
+/// Table in a terminal. Columns are aligned by visible characters (UTF-8 counts as one); headings
+/// are bold on a terminal, unless NO_COLOR is set or TERM is "dumb".
 class Table {
 public:
-    /// sides: '<' for a column flush left, '>' for one flush right; without it the first is flush
-    /// left and the others flush right.
+    /// Sets headings and alignment. sides: '<' for a column flush left, '>' for one flush right; by
+    /// default the first is flush left and the others flush right.
     explicit Table(std::vector<std::string> heads, std::string sides = "");
-    void row(std::vector<std::string> cells); ///< missing cells are empty
-    void rule() { rows_.emplace_back(); }     ///< a line across
+    void row(std::vector<std::string> cells); ///< adds a row; missing cells are empty
+    void rule() { rows_.emplace_back(); }     ///< adds a line across
     std::string text(bool with_colours) const;
     void print(std::FILE* stream) const;
 
 private:
     std::vector<std::string> heads_;
     std::string sides_;
-    std::vector<std::vector<std::string>> rows_; ///< empty: a rule
+    std::vector<std::vector<std::string>> rows_; ///< an empty row is a line across
 };
 
-/// A number for people: with so many decimals, or with more where these would show less than three
-/// significant digits, and by powers of ten where it is tiny or huge: "69.91", "0.00412",
-/// "4.12e-07". "-" for what is not finite.
+/// Returns a number for people: with so many decimals, or with more if these would show less than
+/// three significant digits, and with powers of ten if it is tiny or huge: "69.91", "0.00412",
+/// "4.12e-07". "-" for a value that is not finite.
 std::string number(double value, int decimals);
-/// The same with so many significant digits, where powers of ten are not needed.
+/// Returns a number with so many significant digits, unless it needs powers of ten.
 std::string cell(double value, int digits = 4);
 
-/// "bar" redraws one line, on a terminal; "lines" prints a line now and then, for logs and under
-/// mpirun (where ranks see no terminal); "auto" picks.
+/// Mode of progress reports. "bar" redraws one line, on a terminal; "lines" prints a line now and
+/// then, for logs and under mpirun (where ranks see no terminal); "auto" picks one of them.
 enum class ProgressMode { automatic, bar, lines, off };
-std::optional<ProgressMode> progress_mode(std::string_view name); ///< "auto", "bar", "lines", "off"
+/// Returns the mode named "auto", "bar", "lines" or "off"; nothing for another name.
+std::optional<ProgressMode> progress_mode(std::string_view name);
 
-/// Updates cost a look at the clock; call them every few steps, from one rank.
+/// Progress report of one rank. An update costs a look at the clock; call update() every few steps.
 class Progress {
 public:
+    /// State of the run at an update.
     struct State {
         std::string phase;      ///< "approach, F = -12.3 eV/Å"
-        long long steps = 0;    ///< done so far, in all
-        double time_fs = 0.0;   ///< simulated so far; 0: no clock in this run
-        double fraction = -1.0; ///< done of the whole path, 0..1; negative: unknown
+        long long steps = 0;    ///< steps done so far, in all
+        double time_fs = 0.0;   ///< simulated time so far, fs; 0: the run has no clock
+        double fraction = -1.0; ///< part of the whole path that is done, 0..1; negative: unknown
     };
-    /// quiet: nothing is printed (ranks other than 0).
+    /// Starts the clock. quiet: print nothing (ranks other than 0).
     Progress(ProgressMode mode, bool quiet = false, std::FILE* to = stderr);
     ~Progress() { finish(); }
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    /// True when enough time has passed that update() would print: build the phase text
-    /// only then.
+    /// Returns true if enough time has passed that update() would print, so that callers build the
+    /// phase text only then.
     bool due() const;
     void update(const State& state);
-    /// A sentence of its own ("pull-off begins"), whatever the mode but off. Rates are counted
-    /// anew.
+    /// Prints a sentence ("pull-off begins") in every mode but off, and begins a new count of the
+    /// rates.
     void say(const std::string& sentence);
-    /// Clears the bar. Called by the destructor too.
+    /// Clears the bar. The destructor calls it too.
     void finish();
 
-    ProgressMode mode() const { return mode_; } ///< after "auto" was decided
+    ProgressMode mode() const { return mode_; } ///< returns the mode; "auto" is resolved
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -79,7 +80,7 @@ private:
     ProgressMode mode_;
     std::FILE* to_;
     Clock::time_point start_ = Clock::now();
-    Clock::time_point last_; ///< when it was printed
+    Clock::time_point last_; ///< time of the last print
     long long first_steps_ = -1;
     long long last_steps_ = 0;
     double first_time_ = 0.0;
@@ -87,13 +88,13 @@ private:
     bool bar_drawn_ = false;
 };
 
-/// One line as it would be printed: phase, steps/s, simulated time a day, time left.
+/// Returns one progress line: phase, steps/s, simulated time a day, time left.
 std::string progress_line(const Progress::State& state, double seconds, long long steps_done,
                           double time_done_fs, double fraction_done);
 
-/// "1 h 02 min", "3 min 20 s", "12 s".
+/// Returns a duration in words: "1 h 02 min", "3 min 20 s", "12 s".
 std::string duration_text(double seconds);
-/// Seconds of "23h50m", "90s", "1d", "45m30s", "3600"; empty if it is none.
+/// Returns the seconds of "23h50m", "90s", "1d", "45m30s" or "3600"; nothing for another text.
 std::optional<double> parse_duration(std::string_view written);
 
 } // namespace asperity::io

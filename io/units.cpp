@@ -88,10 +88,17 @@ void skip_blanks(std::string_view& text) {
     }
 }
 
-/// How it may be written too: superscripts, "**", the dot of a product.
+/// Other spellings: superscripts, "**", the dot of a product, and "µ" in UTF-8 that a program took
+/// for Latin-1 (in files of SUR).
 constexpr std::pair<std::string_view, std::string_view> spellings[] = {
-    {"⁰", "^0"}, {"¹", "^1"}, {"²", "^2"}, {"³", "^3"},  {"⁴", "^4"}, {"⁵", "^5"}, {"⁶", "^6"},
-    {"⁷", "^7"}, {"⁸", "^8"}, {"⁹", "^9"}, {"⁻^", "^-"}, {"**", "^"}, {"·", "*"},
+    {"⁰", "^0"},  {"¹", "^1"},
+    {"²", "^2"},  {"³", "^3"},
+    {"⁴", "^4"},  {"⁵", "^5"},
+    {"⁶", "^6"},  {"⁷", "^7"},
+    {"⁸", "^8"},  {"⁹", "^9"},
+    {"⁻^", "^-"}, {"**", "^"},
+    {"·", "*"},   {"\u00C2\u00B5", "\u00B5"},
+    {"Â²", "^2"}, {"Ã\u0085", "Å"}, // UTF-8 that was read as Latin-1
 };
 
 std::string plain(std::string_view unit) {
@@ -102,7 +109,7 @@ std::string plain(std::string_view unit) {
     return text;
 }
 
-/// The power behind a symbol: ^2, ^-1; 1 if there is none.
+/// Returns the power behind a symbol: ^2, ^-1; 1 if there is none.
 std::optional<int> take_power(std::string_view& text) {
     if (!skip(text, "^")) return 1;
     const int sign = skip(text, "-") ? -1 : 1;
@@ -131,7 +138,7 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"eV/Å", "\"0.1 meV/Å\""},
 };
 
-/// What the units of a dimension measure.
+/// Names of the dimensions.
 constexpr std::pair<std::array<int, 4>, const char*> measures[] = {
     {number, "a bare number"},
     {length, "a length"},
@@ -219,10 +226,15 @@ ParsedQuantity parse_quantity(std::string_view text, std::string_view base) {
     if (name[0] == ',') {
         const bool one_number = digits.find_first_of(".eE") == std::string::npos &&
                                 name.find(',', 1) == std::string_view::npos;
-        return one_number ? wrong("a comma is no decimal point",
-                                  fmt::format("write \"{}.{}\"", digits, name.substr(1)))
-                          : wrong("it is a list, and one number is needed",
-                                  "several values of a key are for `asperity sweep`");
+        return one_number
+                   ? wrong("a comma is no decimal point, and one number is needed",
+                           fmt::format("write \"{}.{}\" if that is meant; several values "
+                                       "are for `asperity sweep`",
+                                       digits, name.substr(1)))
+                   : wrong(
+                         "it is a list, and one number is needed",
+                         "give one of them; all of them are for `asperity sweep SCENE --set KEY=" +
+                             std::string(text) + "`");
     }
     const std::optional<Unit> unit = parse_unit(name);
     if (!unit) return wrong(fmt::format("'{}' is no unit known here", name), usual);

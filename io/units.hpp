@@ -14,27 +14,29 @@
 
 namespace asperity::io {
 
+/// A unit: powers of the base dimensions and a factor.
 struct Unit {
     std::array<int, 4> dimension{}; ///< powers of length, mass, time, temperature
-    double factor = 1.0;            ///< in SI: factor * 10^power
+    double factor = 1.0;            ///< factor * 10^power is the unit in SI
     int power = 0;
 
     bool operator==(const Unit&) const = default;
 };
 
-/// Empty if the text is no unit.
+/// Parses a unit. Returns nothing if the text is no unit.
 std::optional<Unit> parse_unit(std::string_view text);
 
+/// Value of a text, or the reason why it is no quantity.
 struct ParsedQuantity {
     double value = 0.0;
-    std::string why; ///< empty: fine. Else what is wrong with the text
-    std::string fix; ///< and what would be right
+    std::string why; ///< error of the text; empty: it is valid
+    std::string fix; ///< valid text to write instead
 };
-/// A number with a unit (or without: then it is in base) converted to base.
+/// Converts a number with a unit (without: in base) to the unit base.
 ParsedQuantity parse_quantity(std::string_view text, std::string_view base);
-/// How many base units one of these units is; empty if they are of different dimension.
+/// Returns the number of base units in one unit; nothing if their dimensions differ.
 std::optional<double> conversion(std::string_view unit, std::string_view base);
-/// A value that a key of this base unit could have: "\"0.3 nm\"".
+/// Returns an example value for a key of this base unit: "\"0.3 nm\"".
 std::string example_of(std::string_view base);
 
 } // namespace asperity::io

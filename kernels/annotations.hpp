@@ -12,7 +12,7 @@
 #endif
 
 #define ASPERITY_PRAGMA(text) _Pragma(#text)
-/// The loop behind it is unrolled n times.
+/// Unrolls the loop behind the macro n times.
 #if defined(__CUDACC__)
 #define ASPERITY_UNROLL(n) ASPERITY_PRAGMA(unroll n)
 #else

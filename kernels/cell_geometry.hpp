@@ -8,23 +8,25 @@
 
 namespace asperity {
 
-/// Corner p of a cell: bit 0 is x, bit 1 is y, bit 2 is z.
+/// Returns the sign of corner p of a cell along an axis: bit 0 of p is x, bit 1 is y, bit 2 is z.
 ASPERITY_HOST_DEVICE constexpr int corner_sign(int corner, int axis) {
     return (corner >> axis & 1) ? 1 : -1;
 }
-/// Along how many axes two corners differ: 1 edge, 2 face diagonal, 3 body diagonal.
+/// Returns the number of axes along which two corners differ: 1 edge, 2 face diagonal, 3 body
+/// diagonal.
 ASPERITY_HOST_DEVICE constexpr int axes_between(int a, int b) {
     const int bits = a ^ b;
     return (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1);
 }
 
+/// A spring between two corners of a cell.
 struct Spring {
     int from, to;   ///< corners
     int dx, dy, dz; ///< direction from -> to in cell edges
     bool diagonal;
 };
 
-/// The 12 edges and 12 face diagonals.
+/// The 12 edges and 12 face diagonals of a cell.
 struct CellSprings {
     Spring spring[24] = {};
     ASPERITY_HOST_DEVICE constexpr CellSprings() {

@@ -50,7 +50,7 @@ ASPERITY_TABLES(portable)
 
 namespace {
 
-/// Null: not compiled, and so never processor_level().
+/// Returns the table of a level; nullptr if it was not compiled and so never is processor_level().
 template <class Table>
 [[maybe_unused]] Table& of_processor(Table* v2, Table* v3, Table* v4) {
     switch (processor_level()) {

@@ -13,7 +13,7 @@ using PackVector = Triple<V>;
 
 constexpr int cache_line = 64 / sizeof(double);
 
-/// Where a register holds a whole line of the cache, each load that does not begin at one would
+/// True if a register holds a whole line of the cache: each load that does not begin at one would
 /// take two, and there are registers enough to shift the lanes of packs instead.
 constexpr bool by_shifts = V::width == cache_line;
 
@@ -93,8 +93,9 @@ public:
     /// The fewer loads and stores a pack takes, the more of them wait for the memory at a time.
     static constexpr bool parts_in_registers = by_shifts;
 
-    /// row: where the row begins whose nodes will be kicked. lowest: it is in a band's lowest
-    /// plane; of the others all but the displacements above has been read by the plane below.
+    /// Prepares the prefetch. row: begin of the row whose nodes will be kicked; lowest: the row is
+    /// in a band's lowest plane (for the other planes the plane below has read all but the
+    /// displacements above).
     ASPERITY_INLINE Prefetch(const VectorVolume<const double>& u, const VectorVolume<double>& v,
                              std::ptrdiff_t row, bool lowest)
         : ux_(u.x.origin), uy_(u.y.origin), uz_(u.z.origin), vx_(v.x.origin), vy_(v.y.origin),
@@ -112,7 +113,7 @@ private:
     ASPERITY_INLINE static void lines(const double* a, const double* b, const double* c,
                                       std::ptrdiff_t at) {
 #if defined(__x86_64__)
-        asm("" : "+r"(at)); // not a pointer for each
+        asm("" : "+r"(at)); // one pointer instead of one for each
 #endif
         __builtin_prefetch(a + at, 0, 2);
         __builtin_prefetch(b + at, 0, 2);
@@ -134,8 +135,8 @@ struct NoPrefetch {
 /// to 8 % of its time.
 constexpr std::ptrdiff_t nodes_in_cache = 170000;
 
-/// As sweep_row(), for an x0 at which a pack begins: the parts of the packs of columns before, at
-/// and behind a node's stay in registers, as far as these reach.
+/// Sweeps a row like sweep_row(), for an x0 at which a pack begins: the parts of the packs of
+/// columns before, at and behind a node's stay in registers, as far as these reach.
 template <Face face, class Fetch, class Use>
 ASPERITY_INLINE void sweep_in_registers(const VectorVolume<const double>& u, std::ptrdiff_t line,
                                         int x0, int x1, const Weights<V, face>& weights,
@@ -223,7 +224,7 @@ void force_patch(VectorVolume<const double> u, int z, const Stencil& s, Patch pa
     }
 }
 
-/// What is worked on next: plane z, from row y. Its first rows are prefetched meanwhile.
+/// Next part of the work: plane z, from row y. Its first rows are prefetched meanwhile.
 struct Following {
     int z, y;
 };

@@ -28,16 +28,16 @@
 //   Fz = [normal_..](uz) + [out_normal_..](Pz)
 //      + [out_r rx + out_rd rxd](Mx) + [tau_r rx + tau_rd rxd](ux) + the same with ry, ryd of y
 //
-// On a level's lowest plane there are cells above only: w = 1, tau = +1, P = M = u(z+1); on its
-// upper plane cells below only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else
-// distinguishes a surface: springs in it carry what their own cells give them.
+// A level's lowest plane has cells above it only: w = 1, tau = +1, P = M = u(z+1); its upper plane
+// has cells below it only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else distinguishes a
+// surface: its springs have the strength that their own cells give them.
 //
-// Everything that happens across x comes last: of the column of 3 x 3 nodes at x (over y and z)
-// each force component needs a part for x itself, one for x - 1 and one for x + 1. So a pack of
-// columns is read with 27 aligned loads and turned into nine such parts (72 operations). A buffer
-// in the first-level cache keeps those of a stretch of a row, and the outer ones are read from it a
-// number further on or back: no value is loaded twice for its x neighbours. With AVX-512, registers
-// keep them instead where the level comes from memory.
+// The sums over x come last: of the column of 3 x 3 nodes at x (over y and z) each force component
+// needs a part for x itself, one for x - 1 and one for x + 1. So a pack of columns is read with 27
+// aligned loads and turned into nine such parts (72 operations). A buffer in the first-level cache
+// keeps the parts of a stretch of a row, and the outer parts are read from it shifted by one
+// element: no value is loaded twice for its x neighbours. With AVX-512, registers keep them instead
+// if the level comes from memory.
 #pragma once
 
 #include "kernels/exact_sum.hpp"
@@ -51,7 +51,7 @@ struct CellElasticity {
     double kappa = 0.0; ///< (lambda - mu) s / 16, eV/Å^2
 };
 
-/// Which cells a plane of nodes belongs to.
+/// Cells that a plane of nodes belongs to: above it (lower face), on both sides, or below it.
 enum class Face { lower, inner, upper };
 
 /// Coefficients of the formulae above for one kind of plane, eV/Å^2.
@@ -62,17 +62,17 @@ struct Stencil {
     double out_normal_c, out_normal_e, out_normal_d; // uz -> Fz, planes above and below
     double out_r, out_rd;                            // shear coupling with M
     double tau_r, tau_rd;                            // shear coupling with the own plane (surfaces)
-    double above, below;                             // 1 where there are cells on that side, else 0
+    double above, below;                             // 1 if there are cells on that side, else 0
 };
 
 Stencil make_stencil(CellElasticity elasticity, Face face);
 
-/// What the integrator does with a force: v <- keep v + kick F; then, when no force needs the old
-/// place any more, u <- u + dt v (leapfrog, i.e. velocity Verlet with its two half kicks merged).
-/// Damping against a medium that moves with the top plane enters through keep < 1 and drag_z
-/// (drive.hpp).
+/// Kick of a node, v <- velocity_factor v + kick F, before the drift u <- u + dt v, which follows
+/// when no other force needs the old displacement (leapfrog, i.e. velocity Verlet with its two half
+/// kicks merged). velocity_factor < 1 and drag_z describe damping against a medium that moves with
+/// the top plane (drive.hpp).
 struct Kick {
-    double keep = 1.0;
+    double velocity_factor = 1.0;
     double kick = 0.0;      ///< dt/m (over 1 + Gamma dt/2), Å/fs per eV/Å
     double drag_z = 0.0;    ///< added to v_z: Gamma dt V / (1 + Gamma dt/2), Å/fs
     double half_mass = 0.0; ///< m/2, for the kinetic energy, eV fs^2/Å^2
@@ -80,23 +80,26 @@ struct Kick {
     bool damped = false;    ///< sum the dissipated energy
     bool observed = false;  ///< sum the kinetic energy at the whole step
     double drag = 0.0;      ///< Gamma m dt, for the dissipated energy, eV fs^2/Å^2
+    double per_force = 0.0; ///< -dt^2 / 8m, for the energy of the time step, Å^2/eV
 };
 
-/// What a kick adds up, at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
+/// Sums of a kick at the whole step n, v_n = (v_{n-1/2} + v_{n+1/2}) / 2.
 struct KickSums {
     ExactSum kinetic;    ///< sum of m v_n^2 / 2, eV (observed planes)
+    ExactSum of_step;    ///< sum of -dt^2 F_n^2 / 8m, eV (observed planes)
     ExactSum dissipated; ///< sum of m Gamma dt |v_n - V|^2, eV (damped planes)
-    ExactSum dragged; ///< sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to
-                      ///< the medium
+    /// Sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to the medium.
+    ExactSum dragged;
 
     void merge(const KickSums& other) {
         kinetic.merge(other.kinetic);
+        of_step.merge(other.of_step);
         dissipated.merge(other.dissipated);
         dragged.merge(other.dragged);
     }
 };
 
-/// A rectangle of nodes [x0, x1) x [y0, y1) of a tile.
+/// Rectangle of nodes [x0, x1) x [y0, y1) of a tile.
 struct Patch {
     int x0, x1, y0, y1;
 };

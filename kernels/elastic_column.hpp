@@ -11,12 +11,12 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// The stencil's coefficients, a copy in every lane. Many are equal (make_stencil): inside a level
-/// six numbers are left, which stay in registers.
+/// The stencil's coefficients, a copy in every lane. Many of them are equal (make_stencil): inside
+/// a level there are six different numbers, which stay in registers.
 template <class V, Face face>
 struct Weights {
-    V own_c, own_e, own_t, own_d, own_n; ///< _n: of the diagonal neighbours in uz -> Fz
-    V out_c, out_e, out_t, out_d, out_n; ///< _n: of the node itself in uz -> Fz
+    V own_c, own_e, own_t, own_d, own_n; ///< _n: coefficient of the diagonal neighbours in uz -> Fz
+    V out_c, out_e, out_t, out_d, out_n; ///< _n: coefficient of the node itself in uz -> Fz
     V tau_r, tau_rd;
 
     ASPERITY_INLINE explicit Weights(const Stencil& s)
@@ -32,7 +32,7 @@ struct Weights {
     }
 };
 
-/// Distances from a node to those around it, in elements: in its own plane, in the plane above and
+/// Distances from a node to its neighbours, in elements: in its own plane, in the plane above and
 /// in the plane below, at y - 1, y and y + 1.
 struct Around {
     std::ptrdiff_t own[3], above[3], below[3];
@@ -49,12 +49,12 @@ struct Around {
     }
 };
 
-/// One displacement component in a pack of columns. P and M (elastic_cell.hpp) are formed of what
-/// was summed over y before.
+/// One displacement component in a pack of columns. P and M (elastic_cell.hpp) are formed after the
+/// sums over y.
 template <Face face, class V>
 class Component {
 public:
-    /// The rows at y + 1 and y - 1 of a plane.
+    /// Sum and difference of the rows at y + 1 and y - 1 of a plane.
     struct Sides {
         V sum, difference;
     };
@@ -97,7 +97,7 @@ private:
     const Around& around_;
 };
 
-/// What columns at x give to the three force components (k = 0, 1, 2) at x, at x - 1 and at x + 1.
+/// Parts of columns at x in the three force components (k = 0, 1, 2) at x, at x - 1 and at x + 1.
 template <class V>
 struct ColumnParts {
     V here[3], west[3], east[3];
@@ -109,17 +109,17 @@ struct ColumnParts {
     }
 };
 
-/// Hands the parts of the columns at ux, uy, uz to `parts`, which takes them as ColumnParts does.
+/// Passes the parts of the columns at ux, uy, uz to `parts`, which takes them as ColumnParts does.
 ///
-/// The components come in the order y, z, x, each displacement is read where it is first needed,
-/// and each part is handed on as soon as it is complete: so what lives in between fits into the
+/// The components come in the order y, z, x, each displacement is read just before its first use,
+/// and each part is passed on as soon as it is complete: so the values in between fit into the
 /// sixteen registers of AVX2 beside the six coefficients.
 template <Face face, class V, class Taker>
 ASPERITY_INLINE void column_parts(const double* ux, const double* uy, const double* uz,
                                   const Around& around, const Weights<V, face>& s, Taker& parts) {
     using C = Component<face, V>;
-    // even: the part that x - 1 and x + 1 get alike; odd: the part that x - 1 gets with a plus (it
-    // sees the column at its +x side) and x + 1 with a minus.
+    // even: the equal part of x - 1 and x + 1; odd: the part of x - 1 with a plus (it sees the
+    // column at its +x side) and of x + 1 with a minus.
     const auto beside = [&](int k, V even, V odd) { parts.take_beside(k, even + odd, even - odd); };
     V odd_x, here_y, even_y, here_z, even_z;
     {
@@ -181,7 +181,8 @@ ASPERITY_INLINE void column_parts(const double* ux, const double* uy, const doub
     }
 }
 
-/// Energy of the cells whose lower corners are a pack of nodes, straight from the definition.
+/// Returns the energy of the cells whose lower corners are a pack of nodes, straight from the
+/// definition.
 template <class V>
 ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
                               CellElasticity e) {

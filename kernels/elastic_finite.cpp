@@ -13,13 +13,13 @@ namespace {
 
 using V = Pack<double>;
 
-/// Where the forces on one row of nodes are summed; nothing if the row is another band's.
+/// Sums of the forces on one row of nodes; null if the row is another band's.
 struct Row {
     double *x = nullptr, *y = nullptr, *z = nullptr;
     int x0 = 0, x1 = 0; ///< nodes wanted
 };
 
-/// A pack of forces from node `at` of a row; first: nothing has been summed there yet.
+/// Adds a pack of forces from node `at` of a row; first: nothing has been summed there yet.
 template <bool first>
 ASPERITY_INLINE void add(const Row& row, int at, const Triple<V>& f) {
     if (!row.x) return;
@@ -27,7 +27,7 @@ ASPERITY_INLINE void add(const Row& row, int at, const Triple<V>& f) {
     (first ? f.y : V::load(row.y + at) + f.y).store(row.y + at);
     (first ? f.z : V::load(row.z + at) + f.z).store(row.z + at);
 }
-/// The same at the ends of a row, where some lanes are not wanted.
+/// Adds a pack of forces at the ends of a row, where some lanes are not wanted.
 template <bool first>
 [[gnu::noinline]] void add_end(const Row& row, int at, const Triple<V>& f) {
     if (!row.x) return;
@@ -54,7 +54,7 @@ void cell_row(const VectorVolume<const double>& u, std::ptrdiff_t line, const fi
               const finite::Stiffness<V>& in_plane, const RowsAround& to) {
     constexpr int rows = with_cells ? 4 : 2;
     const V zero(0.0);
-    Triple<V> before[4]; // what the cells one pack back give to their east
+    Triple<V> before[4]; // forces of the cells one pack back on their east side
     for (Triple<V>& b : before)
         b = {zero, zero, zero};
     for (int x = -V::width; x < to.x1; x += V::width) {
@@ -82,13 +82,14 @@ void cell_row(const VectorVolume<const double>& u, std::ptrdiff_t line, const fi
     }
 }
 
-/// Row y of a plane, as far as the patch wants it.
+/// Returns row y of a plane within the patch.
 Row row_of(const VectorPlane<double>& force, Patch nodes, int y) {
     if (y < nodes.y0 || y >= nodes.y1) return {};
     return {force.x.line(y), force.y.line(y), force.z.line(y), nodes.x0, nodes.x1};
 }
 
-/// pressed: with a dilatation term; at nu = 1/4 there is none, and no volume to compute.
+/// Computes the forces of a row of cells. pressed: with a dilatation term; at nu = 1/4 there is
+/// none, and no volume to compute.
 template <bool pressed>
 void cell_layer(const VectorVolume<const double>& u, int z, const LevelCell& constants,
                 Patch lower_nodes, const VectorPlane<double>& lower, Patch upper_nodes,
@@ -136,9 +137,9 @@ void kick(VectorPlane<const double> force, int z, int y0, int y1, const Kick& pl
     rows(force, z, y0, y1, plan, v, sums);
 }
 
-/// Plane by plane through a band: the forces begun on the plane above are handed from one to the
-/// next. place(z): where those on plane z are summed; complete(z, force): they are, and no other
-/// force of the band needs the places of plane z.
+/// Goes plane by plane through a band: the forces begun on the plane above are passed from one to
+/// the next. place(z): place of the sums on plane z; complete(z, force): called when they are
+/// complete and no other force of the band needs the displacements of plane z.
 template <class Place, class Complete>
 void sweep_planes(const ElasticLevel& level, int y0, int y1, const Place& place,
                   const Complete& complete) {

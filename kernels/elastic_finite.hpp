@@ -11,20 +11,20 @@
 // r the vector between a spring's ends. To second order in u this is the energy of
 // elastic_cell.hpp.
 //
-// A node pulled along r feels t r with t = k (1 - r0/|r|); a corner p feels
+// A spring pulls a node with t r, t = k (1 - r0/|r|); the force on a corner p is
 //
 //   F_p = -4 s kappa theta cof(F) sigma_p,   kappa = (lambda - mu) s / 16.
 //
 // Each spring inside is shared by four cells (edges) or two (diagonals) and is computed once, at
-// full strength; those in a surface belong to half as many cells and have half the strength. A
-// cell owns the nine springs that leave its lower corner and cross the three faces there, so the
-// work goes cell row by cell row: of one row of cells, the forces on the four rows of nodes
-// around it, added to what the rows before gave. A node's force is therefore a sum in one order:
-// transferred force; cells below, then above; in each of these, cells at smaller y, then larger y.
+// full strength; those in a surface belong to half as many cells and have half the strength. A cell
+// owns the nine springs that leave its lower corner and cross the three faces there, so the work
+// goes cell row by cell row: a row of cells adds its forces on the four rows of nodes around it to
+// those of the earlier rows. A node's force is therefore a sum in one order: transferred force;
+// cells below, then above; in each of these, cells at smaller y, then larger y.
 //
 // Forces on a plane are complete when the cells above it are done: the work goes plane by plane up
-// through a band of rows, and hands the forces begun on the plane above from one to the next. Rows
-// of cells on the border of two bands are done twice.
+// through a band of rows, and passes the forces begun on the plane above from one to the next. Rows
+// of cells on the border of two bands are computed twice.
 #pragma once
 
 #include "kernels/elastic_level.hpp"

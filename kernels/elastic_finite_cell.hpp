@@ -17,7 +17,7 @@ ASPERITY_INLINE V squared(const Triple<V>& a) {
     return fma(a.x, a.x, fma(a.y, a.y, a.z * a.z));
 }
 
-/// A spring's constant k and k r0.
+/// Constants of a spring: k, and k r0 of edges and of diagonals.
 template <class V>
 struct Stiffness {
     V k, k_edge, k_diagonal;
@@ -25,20 +25,20 @@ struct Stiffness {
         : k(constant), k_edge(constant * edge), k_diagonal(constant * edge * std::numbers::sqrt2) {}
 };
 
-/// t r, the pull on the spring's first end: t = k - k r0 / |r|.
+/// Returns t r, the pull on the spring's first end: t = k - k r0 / |r|.
 template <class V>
 ASPERITY_INLINE Triple<V> pull(const Triple<V>& r, V k, V k_rest) {
     const V t = fma(-k_rest, inverse_sqrt(squared(r)), k);
     return {t * r.x, t * r.y, t * r.z};
 }
 
-/// The eight corners of V's cells: x and x + 1 (west, east) of four rows, numbered
-/// y + 2 z.
+/// The eight corners of V's cells: x and x + 1 (west, east) of four rows, numbered y + 2 z.
 template <class V>
 struct Corners {
     Triple<V> west[4], east[4];
 };
-/// Displacements of the lower ones, or of all, of the cells whose lower corners begin at `at`.
+/// Loads the displacements of the lower corners, or of all corners, of the cells whose lower
+/// corners begin at `at`.
 template <int rows, class V>
 ASPERITY_INLINE void load(const VectorVolume<const double>& u, std::ptrdiff_t at,
                           Corners<V>& corner) {
@@ -53,17 +53,19 @@ ASPERITY_INLINE void load(const VectorVolume<const double>& u, std::ptrdiff_t at
     }
 }
 
+/// Constants of the cells of a level.
 template <class V>
 struct Cell {
     V edge, inverse_4_edge, pressure; ///< s; 1/(4s); 4 s kappa
-    Stiffness<V> inside, surface;     ///< springs shared by all their cells, and by half of them
+    /// Springs shared by all their cells, and springs shared by half of them
+    Stiffness<V> inside, surface;
 
     explicit ASPERITY_INLINE Cell(const LevelCell& c)
         : edge(c.edge), inverse_4_edge(0.25 / c.edge), pressure(4.0 * c.edge * c.elasticity.kappa),
           inside(c.elasticity.k, c.edge), surface(0.5 * c.elasticity.k, c.edge) {}
 };
 
-/// The four springs that a cell owns in the plane through its lower corners.
+/// Computes the forces of the four springs that a cell owns in the plane through its lower corners.
 template <class V>
 ASPERITY_INLINE void pull_in_plane(const Corners<V>& u, const Cell<V>& c, const Stiffness<V>& k,
                                    Corners<V>& f) {
@@ -86,7 +88,7 @@ ASPERITY_INLINE void pull_in_plane(const Corners<V>& u, const Cell<V>& c, const 
     f.east[1] = {-diagonal.x, -diagonal.y, -diagonal.z};
 }
 
-/// The five springs that a cell owns and that lead to the plane above.
+/// Adds the forces of the five springs that a cell owns and that lead to the plane above.
 template <class V>
 ASPERITY_INLINE void pull_upwards(const Corners<V>& u, const Cell<V>& c, Corners<V>& f) {
     const V s = c.edge;
@@ -116,7 +118,8 @@ ASPERITY_INLINE void pull_upwards(const Corners<V>& u, const Cell<V>& c, Corners
     f.east[3] = {V(0.0), V(0.0), V(0.0)};
 }
 
-/// A row of F: component i of the displacement along x, y and z, on the mean of the cell.
+/// Returns a row of F: the derivatives of component i of the displacement along x, y and z,
+/// averaged over the cell.
 template <class V, class Component>
 ASPERITY_INLINE Triple<V> mean_gradient(const Corners<V>& u, const Cell<V>& c,
                                         const Component& component) {
@@ -137,7 +140,7 @@ ASPERITY_INLINE V minor(V a, V b, V c, V d) {
     return fma(a, d, -(b * c));
 }
 
-/// det F - 1 and the cofactors of F, row by row.
+/// Volume change det F - 1 and the cofactors of F, row by row.
 template <class V>
 struct Volume {
     V theta;
@@ -159,7 +162,7 @@ ASPERITY_INLINE Volume<V> volume_of(const Corners<V>& u, const Cell<V>& c) {
     return {det - one, {bd, cross(d, a), cross(a, b)}};
 }
 
-/// What the mean dilatation gives to component i of the eight corners' forces.
+/// Adds the force of the mean dilatation to component i of the eight corners.
 template <class V, class Component>
 ASPERITY_INLINE void press(V p, const Triple<V>& cofactor, Corners<V>& f,
                            const Component& component) {
@@ -182,8 +185,8 @@ ASPERITY_INLINE void press(const Corners<V>& u, const Cell<V>& c, Corners<V>& f)
     press(p, volume.cofactor[2], f, [](Triple<V>& v) -> V& { return v.z; });
 }
 
-/// Forces on the corners. cells: of everything that the cells own (pressed: the dilatation too);
-/// else of the springs in the plane alone, whose upper corners are not looked at.
+/// Computes the forces on the corners. cells: of all springs that the cells own (pressed: and of
+/// the dilatation); otherwise of the springs in the plane alone, without reading the upper corners.
 template <bool cells, bool pressed, class V>
 ASPERITY_INLINE void forces(const Corners<V>& u, const Cell<V>& c, const Stiffness<V>& in_plane,
                             Corners<V>& f) {
@@ -192,7 +195,7 @@ ASPERITY_INLINE void forces(const Corners<V>& u, const Cell<V>& c, const Stiffne
     if constexpr (cells && pressed) press(u, c, f);
 }
 
-/// Energy of the cells whose lower corners are V's nodes, straight from the definition.
+/// Returns the energy of the cells whose lower corners are V's nodes, straight from the definition.
 template <class V>
 ASPERITY_INLINE V energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
                          const Cell<V>& cell, const LevelCell& c) {

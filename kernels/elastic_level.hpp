@@ -5,15 +5,15 @@
 // strain (elastic_cell.hpp), one for finite strain (elastic_finite.hpp), with the same functions.
 //
 // A pass works on a band of rows through all planes of the level, from below, so that a plane is in
-// the cache when the one above it needs it. What a band needs of its neighbours it reads; it writes
-// its own rows alone.
+// the cache when the one above it needs it. A band reads rows of its neighbours and writes its own
+// rows only.
 #pragma once
 
 #include "kernels/elastic_cell.hpp"
 
 namespace asperity {
 
-/// A level's cell.
+/// Cell of a level.
 struct LevelCell {
     double edge = 0.0; ///< s, Å
     CellElasticity elasticity;
@@ -25,7 +25,7 @@ struct ElasticLevel {
     VectorVolume<double> u;            ///< displacement of planes 0 .. cells, Å
     VectorVolume<double> v;            ///< velocity of planes 0 .. cells - 1, Å/fs
     VectorPlane<double> transferred;   ///< forces handed to plane 0 from below, eV/Å
-    VectorPlane<double> upper_force;   ///< on plane `cells`, one node beyond the tile, eV/Å
+    VectorPlane<double> upper_force;   ///< forces on plane `cells`, one node beyond the tile, eV/Å
     Stencil lower{}, inner{}, upper{}; ///< small strain
     LevelCell cell;
 };
@@ -46,29 +46,29 @@ struct Band {
     int first, last;
 };
 
-/// The nodes of the upper plane whose forces belong to a band: at the tile's edges one node beyond,
-/// for the coarse nodes inside reach that far.
+/// Returns the nodes of the upper plane whose forces belong to a band: at the tile's edges one node
+/// more, because coarse nodes inside the tile need it.
 inline Patch upper_patch(const ElasticLevel& level, int y0, int y1) {
     const int nx = level.u.x.nx, ny = level.u.x.ny;
     return {-1, nx + 1, y0 == 0 ? -1 : y0, y1 == ny ? ny + 1 : y1};
 }
 
-/// The functions compiled for one processor level.
+/// Elastic kernels compiled for one processor level.
 struct ElasticKernels {
-    /// Forces on rows [y0, y1): on moving planes, transferred ones included, into out
+    /// Computes the forces on rows [y0, y1): on moving planes, transferred ones included, into out
     /// (overwritten); on the upper plane into level.upper_force.
     void (*forces)(const ElasticLevel& level, int y0, int y1, VectorVolume<double> out);
-    /// Forces and kick of a band; force on its upper plane; drift of those of its rows that no
-    /// other band needs: all but the first and the last of the thread's share. scratch: two planes
-    /// of a band (finite strain only).
+    /// Computes the forces of a band and kicks it; computes the force on its upper plane; drifts
+    /// those of its rows that no other band needs: all but the first and the last of the thread's
+    /// share. scratch: two planes of a band (finite strain only).
     void (*advance)(const ElasticLevel& level, const LevelKicks& kicks, double dt, Band band,
                     VectorVolume<double> scratch, KickSums& sums);
-    /// Drift u <- u + dt v of rows [y0, y1) of all moving planes.
+    /// Drifts rows [y0, y1) of all moving planes: u <- u + dt v.
     void (*drift)(const ElasticLevel& level, double dt, int y0, int y1);
-    /// Elastic energy of the cells with lower corners in rows [y0, y1), all layers, eV.
+    /// Adds the elastic energy of the cells with lower corners in rows [y0, y1), all layers, eV.
     void (*energy)(VectorVolume<const double> u, const LevelCell& cell, int y0, int y1,
                    ExactSum& sum);
-    /// Sum over the owned nodes of rows [y0, y1) of a plane.
+    /// Adds the owned nodes of rows [y0, y1) of a plane.
     void (*sum)(PlaneView<const double> plane, int y0, int y1, ExactSum& sum);
 };
 

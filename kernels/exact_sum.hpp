@@ -9,16 +9,16 @@
 // of one quantum are exact in double as long as they stay below 2^53 quanta, so they may be formed
 // in any order, by any number of ranks and threads, and merged.
 //
-// Range: |term| <= 2^29, and every partial sum is below 2^31 (2e9); any number of terms. What is
-// left out is below 2^-51 absolute (4e-16, in the unit of the term) for each term. Six flops a
-// term, no branch; needs round-to-nearest and no re-association by the compiler (this project
-// never sets -ffast-math).
+// Range: |term| <= 2^29, and every partial sum is below 2^31 (2e9); any number of terms. The error
+// is below 2^-51 absolute (4e-16, in the unit of the term) for each term. Six flops a term, no
+// branch; needs round-to-nearest and no re-association by the compiler (this project never sets
+// -ffast-math).
 //
 // Why nothing rounds, for any number of terms:
 // - The coarse bin holds multiples of 2^-22, and below 2^31 these are fewer than 2^53.
-// - The fine part of a term is what is left of it after rounding to the coarse quantum: 2^-23 at
-//   most, 2^27 fine quanta. carry() leaves as much at most in the fine bin. After it, longest_run
-//   = 2^24 terms bring it to 2^24 2^27 + 2^27 fine quanta, less than 2^52.
+// - The fine part of a term is the rest after rounding to the coarse quantum: at most 2^-23, 2^27
+// fine quanta. carry() leaves at most as much in the fine bin. After it, longest_run = 2^24 terms
+// bring it to 2^24 2^27 + 2^27 fine quanta, less than 2^52.
 // - merge() adds two such bins, below 2^53 fine quanta, and carries. So a sum is exact that is made
 //   of runs of at most longest_run add()s between carries or merges, merged in any tree.
 // - Bins of 2^26 sums behind a carry may be added without one (ranks of MPI, blocks of a device).
@@ -34,9 +34,10 @@ namespace asperity {
 template <class V>
 struct BasicExactSum {
     static constexpr int bins = 2;
-    /// 1.5 * 2^(52 + exponent of the quantum). A function, for device code has no constant arrays.
+    /// Returns 1.5 * 2^(52 + exponent of the quantum). A function, because device code has no
+    /// constant arrays.
     ASPERITY_HOST_DEVICE static constexpr double shifter(int k) { return k ? 0x1.8p2 : 0x1.8p30; }
-    /// Terms that may be added one by one between two carries or merges.
+    /// Number of terms that may be added one by one between two carries or merges.
     static constexpr long long longest_run = 1LL << 24;
 
     V bin[bins] = {V(0.0), V(0.0)};
@@ -48,7 +49,7 @@ struct BasicExactSum {
             term = term - part;
         }
     }
-    /// Whole coarse quanta of the fine bin go to the coarse one: value() stays what it is.
+    /// Moves whole coarse quanta from the fine bin to the coarse bin; value() does not change.
     ASPERITY_INLINE void carry() {
         const V whole = (bin[1] + V(shifter(0))) - V(shifter(0));
         bin[0] = bin[0] + whole;
@@ -59,7 +60,7 @@ struct BasicExactSum {
             bin[k] = bin[k] + other.bin[k];
         carry();
     }
-    /// The sum, rounded once where the bins meet.
+    /// Returns the sum, rounded once when the bins are added.
     ASPERITY_INLINE V value() const { return bin[1] + bin[0]; }
 };
 

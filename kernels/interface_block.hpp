@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Blocks of sites on packs, as the sweeps over atoms take them: sums handed over, and the
-// loop over a tile's rows.
+// Blocks of sites on packs for the sweeps over atoms: transfer of their sums, and the loop over a
+// tile's rows.
 #pragma once
 
 #include "kernels/interface_kernels.hpp"
@@ -14,11 +14,11 @@ namespace asperity::ASPERITY_VARIANT {
 using Real = Pack<double>;
 using BlockOfSites = SiteBlock<Real, interface_block>;
 
-/// The finished sums of a block of sites: forces, eV/Å, energies, eV, nearest r^2, Å^2.
+/// Finished sums of a block of sites: forces, eV/Å, energies, eV, nearest r^2, Å^2.
 struct SiteTerms {
     alignas(64) double x[interface_block], y[interface_block], z[interface_block];
     alignas(64) double energy[interface_block], nearest[interface_block];
-    std::uint32_t in_contact = 0; ///< a bit for each site
+    std::uint32_t in_contact = 0; ///< one bit for each site
 
     void clear() {
         in_contact = 0;
@@ -29,7 +29,7 @@ struct SiteTerms {
     }
 };
 
-/// Hands a finished block of sites over: forces to memory, sums to the totals.
+/// Totals over sites, and the transfer of finished blocks: forces to memory, sums to the totals.
 struct Totals {
     BasicExactSum<Real> force_z, energy;
     std::int64_t in_contact = 0, repulsive = 0, in_reach = 0;
@@ -68,7 +68,7 @@ struct Totals {
                     sites.in_contact(x + i, y) = s.in_contact >> i & 1u;
         }
     }
-    /// The same for sites with nothing in reach: zeros, which change no sum.
+    /// Writes zeros for sites without an atom within the interaction range; the sums do not change.
     template <bool observe>
     ASPERITY_INLINE void pass(const InterfaceSites& sites, int x, int y, int count) const {
         for (int i = x; i < x + count; ++i) {
@@ -91,7 +91,7 @@ struct Totals {
     }
 };
 
-/// Replaces the sites that the tables do not cover by the reference loop.
+/// Replaces the sums of sites that the tables do not cover by those of the reference loop.
 template <class Exact, class Potential>
 void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential& potential,
                 unsigned beyond, int x, int y, int count, SiteTerms& s) {
@@ -111,10 +111,10 @@ void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential
     }
 }
 
-/// What sweep_blocks() asks of a substrate: the height that heights are counted from, the largest
-/// sideways displacement its tables allow for, what the reference loop takes, its reach, and
-/// whether its atoms may be of several types. Then sum() says which sites are in contact; else the
-/// nearest atom does.
+/// Properties of a substrate for sweep_blocks(): the datum of heights, the largest sideways
+/// displacement that its tables allow for, the argument of the reference loop, its reach, and
+/// whether its atoms may be of several types. With several types sum() decides which sites are in
+/// contact; otherwise the nearest atom does.
 template <class Substrate>
 struct SubstrateAccess {
     static constexpr bool of_types = false;
@@ -128,8 +128,8 @@ struct SubstrateAccess {
     }
 };
 
-/// The sweep over rows [row_begin, row_end), a block of sites at a time; sum(site, reach, x, y,
-/// count, terms) is what differs between substrates.
+/// Sweeps rows [row_begin, row_end), a block of sites at a time. sum(site, reach, x, y, count,
+/// terms) sums the pairs of a block; it is the part that differs between substrates.
 template <bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
                                   const Potential& potential, const Pair& pair, int row_begin,

@@ -56,8 +56,8 @@ ASPERITY_INLINE Place place_at(const double* from) {
 struct NearCells {
     static constexpr int most = 64;
     Place base; ///< bounds are counted from here: the lowest corner, its middle sideways, Å
-    Place low_corner, high_corner; ///< of a box around the sites, from the base, Å
-    double slack;                  ///< of comparisons with the bounds, Å
+    Place low_corner, high_corner; ///< corners of a box around the sites, from the base, Å
+    double slack;                  ///< slack of comparisons with the bounds, Å
     int count = 0;
     std::int64_t cell[most];
     /// Bounds of the image from the base, in single precision: they only say which cells are
@@ -74,7 +74,8 @@ struct NearCells {
         slack = cell_slack + 4e-7 * high_corner[2];
     }
 
-    /// Images [next, end) within `reach` of the box, as many as there is room for; where to go on.
+    /// Gathers images [next, end) within `reach` of the box, up to the available room. Returns the
+    /// next image.
     ASPERITY_INLINE std::int64_t gather(const CellSubstrate& atoms, std::int64_t next,
                                         std::int64_t end, double reach) {
         const double edge = atoms.atoms.edge;
@@ -103,7 +104,7 @@ struct NearCells {
         return next;
     }
 
-    /// Bits of those within `reach` of a site.
+    /// Returns the bits of the cells within `reach` of a site.
     ASPERITY_INLINE std::uint64_t within(const double (&site)[3], double reach) const {
         using V = Pack<float>;
         V at[3];
@@ -128,7 +129,7 @@ struct NearCells {
 /// before the first pair, so that no pair waits for them.
 struct CellsInReach {
     int count = 0;
-    std::int64_t first[NearCells::most]; ///< of the cell's numbers
+    std::int64_t first[NearCells::most]; ///< first numbers of the cells
     alignas(32) double site[NearCells::most][4];
 
     ASPERITY_INLINE CellsInReach(const NearCells& near, const double (&at)[3], double reach) {
@@ -234,7 +235,7 @@ struct CellSums {
     }
 };
 
-/// The cells of one type, images [next, end), over a block of sites.
+/// Sums the cells of one type, images [next, end), over a block of sites.
 template <bool observe, bool close, class P>
 ASPERITY_INLINE void sum_type(const InterfaceSites& sites, const CellSubstrate& atoms,
                               const PairTerms<Simd, double, P>& pair, std::int64_t next,

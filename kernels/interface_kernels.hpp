@@ -6,7 +6,8 @@
 //
 // Pairs are with a map of heights over a square lattice, or with atoms anywhere. Four sweeps:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,
-//              scalar: what the other three are tested against;
+//   reference  every site against every substrate atom in reach by an explicit loop over pairs,
+//              scalar: the other three are tested against it;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;
 //   rows       a substrate with a spacing of its own (incommensurate): site by site, SIMD over the
@@ -20,17 +21,16 @@
 // then becomes a float.
 //
 // Sites beyond the interaction range are skipped. For each block of sixteen sites along x the owner
-// tabulates how high the substrate gets in rings of lateral distance around it. From the lowest
-// site of the block follows a gap, from the gap the lateral distance beyond which no pair can
-// interact, and only offsets (atoms) nearer than that are visited. What is left out would have
-// added exact zeros. In the same way, from how low the substrate gets, follow the offsets that need
-// no comparison with the cutoff. The sweep over cells compares each site with the bounds of the
-// cells near its block.
+// tabulates the greatest height of the substrate in rings of lateral distance around it. From the
+// lowest site of the block follows a gap, from the gap the lateral distance beyond which no pair
+// can interact, and only offsets (atoms) nearer than that are visited. The others would have added
+// exact zeros. In the same way, the least heights of the substrate tell which offsets need no
+// comparison with the cutoff. The sweep over cells compares each site with the bounds of the cells
+// near its block.
 //
 // Reproducibility: a site's force is summed in an order that the site alone decides (offset number,
-// atoms counted from the one below it, number of the cell), never the tile, block or lane it is in;
-// so its bits are the same for any decomposition and number of threads. Sums over sites are exact
-// sums.
+// atoms counted from the one below it, number of the cell), never its tile, block or lane; so it is
+// bitwise identical for any decomposition and number of threads. Sums over sites are exact sums.
 //
 // Sites displaced sideways by more than offset_margin (a run about to be stopped by its guard) are
 // summed one by one with the reference loop, so no pair is ever missed.
@@ -41,22 +41,22 @@
 
 namespace asperity {
 
-/// The reference sweep: pair_sum for each site of rows [row_begin, row_end).
+/// Sweeps rows [row_begin, row_end) with pair_sum for each site: the reference.
 void reference_sweep(const InterfaceSites& sites, const SubstrateMap& map,
                      const PairPotential& potential, int row_begin, int row_end,
                      InterfaceSums& sums);
 void reference_sweep(const InterfaceSites& sites, const SubstrateAtoms& atoms,
                      const PairTable& pairs, int row_begin, int row_end, InterfaceSums& sums);
 
-/// Adds the tail (pair_potential.hpp) of a substrate of `density` atoms per Å^2 to forces and sums
-/// that a sweep has left; mean_height is the local mean plane below each site. If observed,
-/// energies are added and the repulsive sites are counted anew. Not for potentials without a tail.
+/// Adds the tail (pair_potential.hpp) of a substrate of `density` atoms per Å^2 to the forces and
+/// sums of a sweep; mean_height is the local mean plane below each site. If observed, adds energies
+/// and counts the repulsive sites anew. Only for potentials with a tail.
 void tail_sweep(const InterfaceSites& sites, const PairPotential& potential, double density,
                 PlaneView<const double> mean_height, int row_begin, int row_end, bool observe,
                 InterfaceSums& sums);
 
-/// The sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile
-/// and overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
+/// Sweeps compiled for one processor level. Each handles rows [row_begin, row_end) of the tile and
+/// overwrites their forces; `observed` ones also find energy, contacts and nearest distances.
 struct InterfaceKernels {
     template <class Substrate, class Potential = PairPotential>
     using Sweep = void (*)(const InterfaceSites&, const Substrate&, const Potential&, int row_begin,
@@ -74,7 +74,7 @@ struct InterfaceKernels {
     WallKernels wall;
 };
 
-/// The kernels for the running processor (processor_level()).
+/// Returns the kernels for the running processor (processor_level()).
 const InterfaceKernels& interface_kernels();
 
 } // namespace asperity

@@ -52,7 +52,7 @@ ASPERITY_INLINE void store_wide(Pack<float> a, double* to) {
     widen_high(a).store(to + Real::width);
 }
 
-/// One register of sites, `lane` sites into the block.
+/// Sums one register of sites, `lane` sites into the block.
 template <class T, bool observe, bool close, class P>
 ASPERITY_INLINE void sum_register(const BlockOfSites& site, int lane, Columns all, Columns within,
                                   const typename SiteHeight<Simd, T>::Atom* here,
@@ -99,7 +99,7 @@ void sweep_with(const PairTerms<Simd, T, P>& pair, const InterfaceSites& sites,
         sites, atoms, potential, pair, row_begin, row_end, range, sums,
         [&](const BlockOfSites& site, const Reach& reach, int x, int y, int count,
             SiteTerms& terms) __attribute__((always_inline)) {
-            // What is in reach is rounded up to the table's steps, what is inside down.
+            // The reach is rounded up to the table's steps, the inside down.
             const Columns all(atoms, static_cast<int>(reach.from_rest * atoms.cuts_per_length) + 1);
             const Columns within(atoms, static_cast<int>(reach.inside * atoms.cuts_per_length));
             const bool close = reach.close && hollow - site.sideways < pair.closest;
@@ -115,7 +115,8 @@ void sweep_with(const PairTerms<Simd, T, P>& pair, const InterfaceSites& sites,
         });
 }
 
-/// mixed: pairs in single precision; those of a table are in double all the same.
+/// Sweeps rows of sites. mixed: pairs in single precision; those of a table are in double all the
+/// same.
 template <bool mixed, bool observe>
 void lattice_sweep(const InterfaceSites& sites, const LatticeSubstrate& atoms,
                    const PairPotential& potential, int row_begin, int row_end,

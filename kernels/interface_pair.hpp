@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Pairs, as the three sweeps over atoms take them (interface_lattice.cpp, interface_rows.cpp,
+// Pairs in the three sweeps over atoms (interface_lattice.cpp, interface_rows.cpp,
 // interface_cells.cpp), for packs and for the threads of a device. F is the family of values (Simd,
 // Scalar), T the precision of the pairs: double, or float in the lattice sweep on packs.
 //
 // Without the energy a Lennard-Jones pair takes one fused multiplication for r^2, one and a half
-// for t, four for the force, one for its z component: seven and a half, and what the lateral
-// components take. Pairs in float count lengths in fixed_quantum, in double in Å.
+// for t, four for the force, one for its z component: seven and a half, and those of the lateral
+// components. Pairs in float count lengths in fixed_quantum, in double in Å.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -19,11 +19,11 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// Å in the unit of length of pairs.
+/// Unit of length of pairs, Å.
 template <class T>
 inline constexpr double length_unit = std::is_same_v<T, float> ? fixed_quantum : 1.0;
 
-/// Constants of the potential P, one copy in every lane where it meets the pairs.
+/// Constants of the potential P, one copy in every lane.
 template <class F, class T, class P>
 struct PairTerms {
     using V = typename F::template Of<T>;
@@ -37,8 +37,8 @@ struct PairTerms {
           force_scale(potential.force_scale), energy_scale(potential.energy_scale),
           cutoff(p.cutoff), closest(p.closest()), contact_r2(p.inflection() * p.inflection()) {}
 
-    /// -V'/r in units of force_scale, from what begin() returned; zero beyond the cutoff, which may
-    /// be left out (false_type) where all of r2 are known to be within it.
+    /// Returns -V'/r in units of force_scale; begun: the result of begin(). Zero beyond the cutoff;
+    /// masked = false leaves the comparison out if all of r2 are known to be within the cutoff.
     template <bool masked>
     ASPERITY_INLINE V force(V begun, V r2, std::bool_constant<masked>) const {
         // Some potentials use r^2 here; Lennard-Jones does not, and the compiler drops the maximum.
@@ -50,21 +50,24 @@ struct PairTerms {
                     return fms(a, b, c);
             });
     }
-    /// V in units of energy_scale.
+    /// Returns V in units of energy_scale.
     ASPERITY_INLINE V energy(V begun, V r2) const {
         return select(r2 < r2_cut, potential.energy(begun, max(r2, r2_floor)) - shift, V(T(0)));
     }
-    /// Of two squared distances, and of one. close: they may be nearer than any pair can be.
+    /// Begins two pairs at the squared distances a and b. close: they may be nearer than any pair
+    /// can be.
     template <bool close>
     ASPERITY_INLINE void begin(V a, V b, V& of_a, V& of_b) const {
         potential.begin(held<close>(a), held<close>(b), of_a, of_b);
     }
+    /// Begins one pair.
     template <bool close>
     ASPERITY_INLINE V begin(V a) const {
         return potential.begin(held<close>(a));
     }
 
-    /// In Å^2. Visited atoms beyond the cutoff are no neighbours.
+    /// Returns the squared distance in Å^2, no_pair beyond the cutoff: visited atoms there are no
+    /// neighbours.
     ASPERITY_INLINE double nearest(T r2) const {
         return r2 < r2_cut[0] ? r2 * (length_unit<T> * length_unit<T>) : no_pair;
     }
@@ -79,7 +82,7 @@ private:
     }
 };
 
-/// Lengths in Å, in the unit of length of pairs.
+/// Converts lengths from Å to the unit of length of pairs.
 template <class F, class T>
 ASPERITY_INLINE typename F::template Of<T> lengths(const double* from) {
     using V = typename F::template Of<T>;
@@ -89,7 +92,7 @@ ASPERITY_INLINE typename F::template Of<T> lengths(const double* from) {
     return V::load(lane);
 }
 
-/// The heights of sites, to be compared with those of as many atoms.
+/// Heights of sites, to be compared with those of as many atoms.
 template <class F, class T>
 struct SiteHeight {
     using Atom = double;

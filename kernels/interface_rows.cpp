@@ -27,11 +27,11 @@ constexpr int row_lanes = 8;
 
 /// Adds sums by halving. They come in the order of number(): 0, 2, 1, 3 of four.
 template <class Sum, int count>
-struct HalvedSum {
+struct PairwiseSum {
     static constexpr int levels = count >= 4 ? 2 : count / 2;
     static_assert(count == 1 << levels);
 
-    /// Which sum is the n-th: n with its bits reversed.
+    /// Returns the number of the n-th sum: n with its bits reversed.
     ASPERITY_INLINE static int number(int n) {
         int reversed = 0;
         ASPERITY_UNROLL(4)
@@ -80,7 +80,7 @@ struct AtomRows {
             lane_at[i] = i * b;
     }
 
-    /// The registers [first, end), counted from the beginning of group 0, that may be in reach of a
+    /// Returns the first register, counted from the beginning of group 0, that may be in reach of a
     /// site anywhere above its atom: the site is from 0 to b past it.
     ASPERITY_INLINE int first_register(double reach) const {
         return static_cast<int>(std::ceil((-reach * inverse_b - (start + width - 1)) / width));
@@ -88,7 +88,7 @@ struct AtomRows {
     ASPERITY_INLINE int end_of_registers(double reach) const {
         return static_cast<int>(std::floor((reach * inverse_b + 1.0 - start) / width)) + 1;
     }
-    /// Half the length of the chord of reach along the columns of register k.
+    /// Returns half the length of the chord of reach along the columns of register k.
     ASPERITY_INLINE double half_chord(int k, double reach) const {
         const int begin = start + k * width, end = begin + width - 1;
         const double aside = begin > 1 ? (begin - 1) * b : end < 0 ? -end * b : 0.0;
@@ -96,7 +96,8 @@ struct AtomRows {
         return chord2 > 0.0 ? std::sqrt(chord2) : 0.0;
     }
 
-    /// Couples of rows within half a chord: p holds rows 2p and 2p + 1 from the one below the site.
+    /// Returns the first couple of rows within half a chord: p holds rows 2p and 2p + 1 from the
+    /// one below the site.
     ASPERITY_INLINE int first_couple(double y_there, double half) const {
         return static_cast<int>(std::floor(0.5 * std::ceil((y_there - half) * inverse_b)));
     }
@@ -118,16 +119,16 @@ struct AtomRows {
         }
     };
 
-    /// The sums of one site, displaced to (x, y). Chords: half the chord of each register in reach
-    /// (first, end, half(k)). Aside: dy(j) and dy2(j) to row j, made from the site's y and chords.
+    /// Sums one site, displaced to (x, y). Chords: half the chord of each register in reach (first,
+    /// end, half(k)). Aside: dy(j) and dy2(j) to row j, made from the site's y and chords.
     template <bool observe, bool close, class Aside, class Chords>
     ASPERITY_INLINE SiteTotal sum(double x, double y, double height, const Chords& chords) const {
         const SiteHeight<Simd, double> z(height);
         const int i_below = static_cast<int>(std::floor(x * inverse_b));
         const int j_below = static_cast<int>(std::floor(y * inverse_b));
-        const double x_there = x - i_below * b, y_there = y - j_below * b; // from 0 to b
+        const double x_there = x - i_below * b, y_there = y - j_below * b; // between 0 and b
         const Aside aside(*this, y_there, chords);
-        HalvedSum<Sums, parts> over_parts;
+        PairwiseSum<Sums, parts> over_parts;
         Real nearest = pair.r2_cut;
         ASPERITY_UNROLL(1)
         for (int n = 0; n < parts; ++n) {
@@ -162,7 +163,7 @@ struct AtomRows {
     }
 
 private:
-    /// One register through couples p_first to p_last of rows; row: its first atom there.
+    /// Sums one register through couples p_first to p_last of rows; row: its first atom there.
     template <bool observe, bool close, class Aside>
     ASPERITY_INLINE void add_register(const double* row, const SiteHeight<Simd, double>& z, Real dx,
                                       int p_first, int p_last, const Aside& aside, Sums& sums,

@@ -2,16 +2,17 @@
 // SPDX-License-Identifier: MIT
 //
 // A site of the interface over a substrate of the block's own lattice, for packs of sites and for
-// the threads of a device, a site each. Displacements made safe, the reach that follows
-// from the gap, and the sums over the pairs within it.
+// the threads of a device, one site each: displacements made safe for the tables, the reach that
+// follows from the gap, and the sums over the pairs within it.
 //
 // Offsets come in fours, (±cx, ±cy): two rows of atoms, one south and one north of the site, two
 // columns, west and east. Lateral squares are formed once per column and row; forces of a row are
-// only added up, and meet the row's cy at its end. A quad takes 31 multiplications, fused or not,
-// two divisions and 16 additions; the additions, like the divisions, run beside the multiplications
-// on most processors.
+// only added up, and multiplied by the row's cy at its end. A quad takes 31 multiplications, fused
+// or not, two divisions and 16 additions; the additions, like the divisions, run beside the
+// multiplications on most processors.
 //
-// Rows follow one another outwards, and so do the columns of a row: an order that no cut changes.
+// Rows follow one another outwards, and so do the columns of a row: this order does not depend on
+// the cut.
 #pragma once
 
 #include "kernels/interface_pair.hpp"
@@ -22,7 +23,7 @@ namespace asperity::ASPERITY_VARIANT {
 /// Heights over the datum of the sites that the tables cover, Å.
 struct HeightRange {
     double deepest = -1e300; ///< lower sites are left to the reference loop
-    double ceiling = 1e6;    ///< nothing is in reach of sites as high as this
+    double ceiling = 1e6;    ///< sites higher than this have no atom in reach
 };
 
 /// Displacements of one block of sites, or of one site, made safe for the tables.
@@ -31,11 +32,12 @@ struct SiteBlock {
     alignas(8 * Real::width) double ux[size], uy[size];
     alignas(8 * Real::width) double z[size]; ///< over the datum, Å
     double lowest_z, highest_z;              ///< over the sites, Å
-    double sideways;                         ///< greatest |(ux, uy)|, Å
-    unsigned beyond; ///< bits of sites that the tables do not cover: left to the reference loop
+    double sideways;                         ///< largest |(ux, uy)|, Å
+    /// Bits of sites that the tables do not cover; the reference loop sums them.
+    unsigned beyond;
 
-    /// Sites x to x + count of row y; behind a row's end its last site is repeated. Heights are
-    /// counted from the datum.
+    /// Loads sites x to x + count of row y; behind a row's end the last site is repeated. Heights
+    /// are counted from the datum.
     ASPERITY_INLINE SiteBlock(const InterfaceSites& sites, int x, int y, int count, double datum,
                               HeightRange range, double margin) {
         const auto load = [&](const double* row, int lane) {
@@ -51,7 +53,7 @@ struct SiteBlock {
             Real y_lanes = load(sites.displacement.y.line(y), lane);
             const Real uz = load(sites.displacement.z.line(y), lane);
             Real z_lanes = uz + Real(rise);
-            // Not-a-number or infinity in any component makes this not-a-number: a lane beyond.
+            // A not-a-number or infinity in any component makes this not-a-number: a lane beyond.
             const Real u2 = fma(x_lanes, x_lanes, y_lanes * y_lanes) + uz * Real(0.0);
             const Real kept =
                 select(z_lanes > Real(range.deepest),
@@ -78,10 +80,10 @@ struct SiteBlock {
     }
 };
 
-/// Rounding in a bound must never drop a pair that the mask would keep.
+/// Slack of bounds on distances: their rounding must never drop a pair that the mask would keep.
 constexpr double bound_slack = 1e-6;
 
-/// Of a number that has some bits.
+/// Returns the index of the highest set bit; bits must not be 0.
 ASPERITY_INLINE int highest_bit(unsigned bits) {
 #if defined(__CUDA_ARCH__)
     return 31 - __clz(static_cast<int>(bits));
@@ -97,12 +99,12 @@ ASPERITY_INLINE int lowest_bit(unsigned bits) {
 #endif
 }
 
-/// Which atoms matter to a block of sites, by lateral distance, Å.
+/// Lateral distances of the atoms that matter to a block of sites, Å.
 struct Reach {
-    double from_rest =
-        -1.0;               ///< beyond this, from the undisplaced site, none; negative: none at all
-    double from_site = 0.0; ///< likewise from the displaced site
-    double inside = 1e6;    ///< within this, from the undisplaced site, all are within the cutoff
+    /// Distance from the undisplaced site beyond which no atom matters; negative: none matters.
+    double from_rest = -1.0;
+    double from_site = 0.0; ///< the same distance from the displaced site
+    double inside = 1e6;    ///< nearer atoms, from the undisplaced site, are within the cutoff
     bool close = false;     ///< some may be closer than any pair can be
 
     template <class Real, int size>
@@ -155,7 +157,7 @@ struct Reach {
     }
 };
 
-/// How many columns each row has within some lateral distance: entry k of the table, or the last.
+/// Number of columns in each row within some lateral distance: entry k of the table, or the last.
 struct Columns {
     const std::int32_t* of_row; ///< [n - 1]
     ASPERITY_INLINE Columns(const LatticeSubstrate& s, int k)
@@ -170,7 +172,7 @@ struct Columns {
     }
 };
 
-/// (m - 1/2) a in units of length.
+/// Table of (m - 1/2) a in units of length.
 template <class T>
 struct Offsets {
     T at[max_half_offsets + 1];
@@ -181,7 +183,7 @@ struct Offsets {
 };
 
 /// Squared lateral distances to the columns west and east of a site. Registers of sites share the
-/// table; a single site computes them where it needs them.
+/// table; a single site computes the distances when it needs them.
 template <class F, class T>
 struct Laterals {
     using V = typename F::template Of<T>;
@@ -213,7 +215,7 @@ struct Laterals<Scalar, double> {
     }
 };
 
-/// Four pairs on their way from distance to force; t: what begin() returned.
+/// Four pairs on their way from distance to force; t: the results of begin().
 template <class V>
 struct Quad {
     V z_sw, z_se, z_nw, z_ne, r2_sw, r2_se, r2_nw, r2_ne, t_sw, t_se, t_nw, t_ne;
@@ -222,17 +224,17 @@ struct Quad {
 /// Sums over the pairs of sites, in units of force_scale and length_unit.
 template <class V>
 struct PairSums {
-    V f, f_cx, f_cy, f_z, energy; ///< of f, f cx, f cy, f z, V
+    V f, f_cx, f_cy, f_z, energy; ///< sums of f, f cx, f cy, f z, V
     V nearest;                    ///< least r^2
 };
 
-/// Whether a quad's forces are formed before the next one is begun. Else the next one's divisions
-/// are under way meanwhile, but that takes the registers of two quads.
+/// Policy of the order of work: true forms a quad's forces before the next quad is begun; otherwise
+/// the next quad's divisions run meanwhile, which takes the registers of two quads.
 template <class F, class P, bool observe>
 inline constexpr bool one_by_one = false;
 
-/// Sums over the quads in reach of sites displaced by ux, uy that stand at z; `here`: the atom of
-/// the first of them.
+/// Returns the sums over the quads in reach of sites displaced by ux, uy that stand at z. `here`:
+/// the atom of the first site.
 template <class F, class T, bool observe, bool close, class P>
 ASPERITY_INLINE PairSums<typename F::template Of<T>>
 sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F::template Of<T> uy,
@@ -358,7 +360,7 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
 struct SiteForce {
     double x, y, z;
 };
-/// The force on one site, with its energy, eV, and the nearest r^2, Å^2.
+/// Force on one site, with its energy, eV, and the nearest r^2, Å^2.
 struct SiteTotal {
     SiteForce force;
     double energy, nearest;

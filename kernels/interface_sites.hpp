@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The block's side of the interface, and what a pass over it adds up.
+// The block's side of the interface, and the sums of a pass over it.
 //
 // Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
@@ -22,17 +22,18 @@ struct InterfaceSites {
     double reference_height = 0.0;          ///< z of an undisplaced site, Å
     int x0 = 0;                             ///< the tile's first site, counted over the box
     int y0 = 0;
-    PlaneView<double> nearest_r2{}; ///< out where given and observed: squared distance to the
-                                    ///< nearest atom in reach (no_pair if there is none), Å^2
-    /// out where given and observed: 1 where a site is closer than contact_distance to some atom,
-    /// or than contact_gap to the wall.
+    /// out, if given and observed: squared distance to the nearest atom in reach (no_pair if there
+    /// is none), Å^2
+    PlaneView<double> nearest_r2{};
+    /// out, if given and observed: 1 if a site is closer than contact_distance to some atom, or
+    /// than contact_gap to the wall
     PlaneView<std::uint8_t> in_contact{};
 };
 
-/// Squared distance reported where no atom is in reach.
+/// Squared distance reported if no atom is in reach.
 inline constexpr double no_pair = 1e300;
 
-/// What one pass over the sites adds up. Sums are order-independent.
+/// Sums of one pass over the sites. Sums are order-independent.
 struct InterfaceSums {
     ExactSum force_z;            ///< total normal force of the substrate on the sites, eV/Å
     ExactSum energy;             ///< U_LJ, eV (only if asked for)

@@ -14,7 +14,7 @@ template <class Law, bool observe>
 void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const double> height,
                 int row_begin, int row_end, InterfaceSums& sums) {
     const int nx = sites.displacement.x.nx;
-    const typename Law::template In<Real> law(wall);
+    const typename Law::template Terms<Real> law(wall);
     const double contact_gap = wall.contact_gap();
     const Real reference(sites.reference_height);
     Totals totals;
@@ -61,7 +61,7 @@ void wall_sweep(const InterfaceSites& sites, const PlaneView<const double>& heig
 
 template <class Law, class T>
 WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
-    const typename Law::template In<Real> law(wall);
+    const typename Law::template Terms<Real> law(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
     Real furthest(0.0), reversal(0.0), height(0.0);

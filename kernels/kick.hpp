@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What becomes of a force in a time step: the kick and its sums. One text for packs and for the
-// threads of a device.
+// The use of a force in a time step: the kick and its sums. One text for packs and for the threads
+// of a device.
 #pragma once
 
 #include "kernels/elastic_level.hpp"
@@ -27,9 +27,9 @@ ASPERITY_INLINE Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
 /// An exact sum (exact_sum.hpp) of products, whose bins begin at their shifters: an addition to a
 /// bin then splits the term too, and takes five operations in all instead of seven.
 ///
-/// What a term gives to both bins together does not depend on what they hold, though the coarse
-/// part does where a b lies halfway between two coarse quanta: the fine part makes up for it
-/// exactly. Nothing lies halfway between two fine quanta, for the last bit of what is left is set.
+/// The sum of a term's parts in the two bins does not depend on the contents of the bins. The
+/// coarse part does if a b lies halfway between two coarse quanta: the fine part makes up for it
+/// exactly. Nothing lies halfway between two fine quanta, because the last bit of the rest is set.
 /// The sum of the terms between two calls of close() must stay below 2^29.
 template <class V>
 class ProductSum {
@@ -40,7 +40,7 @@ public:
         coarse_ = coarse;
         fine_ = fine_ + with_last_bit(fms(a, b, part));
     }
-    /// Takes the bins off their shifters into the sum.
+    /// Moves the bins, without their shifters, into the sum.
     ASPERITY_INLINE void close() {
         const V coarse(Sum::shifter(0)), fine(Sum::shifter(1));
         sum_.bin[0] = sum_.bin[0] + (coarse_ - coarse);
@@ -48,7 +48,7 @@ public:
         coarse_ = coarse;
         fine_ = fine;
     }
-    /// Of what was added before the last close().
+    /// Returns the sum of the terms before the last close().
     ASPERITY_INLINE const BasicExactSum<V>& sum() const { return sum_; }
 
 private:
@@ -62,19 +62,20 @@ template <class V, bool damped, bool observed>
 class Kicker {
 public:
     ASPERITY_INLINE Kicker(const Kick& plan, const VectorVolume<double>& v)
-        : keep_(plan.keep), kick_(plan.kick), drag_(plan.drag_z), medium_(2.0 * plan.medium_z),
-          kinetic_weight_(0.25 * plan.half_mass), loss_weight_(0.25 * plan.drag),
-          given_weight_(0.5 * plan.drag), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
+        : velocity_factor_(plan.velocity_factor), kick_(plan.kick), drag_(plan.drag_z),
+          medium_(2.0 * plan.medium_z), kinetic_weight_(0.25 * plan.half_mass),
+          loss_weight_(0.25 * plan.drag), given_weight_(0.5 * plan.drag),
+          per_force_(plan.per_force), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
 
-    /// The first count nodes from element `at` of the volume, under the force f. Their new
-    /// velocities.
+    /// Kicks the first count nodes from element `at` of the volume under the force f. Returns their
+    /// new velocities.
     ASPERITY_INLINE Triple<V> operator()(std::ptrdiff_t at, int count, const Triple<V>& f) {
         const V old_x = V::load(x_ + at), old_y = V::load(y_ + at), old_z = V::load(z_ + at);
         V new_x, new_y, new_z;
         if constexpr (damped) {
-            new_x = fma(kick_, f.x, keep_ * old_x);
-            new_y = fma(kick_, f.y, keep_ * old_y);
-            new_z = fma(kick_, f.z, fma(keep_, old_z, drag_));
+            new_x = fma(kick_, f.x, velocity_factor_ * old_x);
+            new_y = fma(kick_, f.y, velocity_factor_ * old_y);
+            new_z = fma(kick_, f.z, fma(velocity_factor_, old_z, drag_));
         } else {
             new_x = fma(kick_, f.x, old_x);
             new_y = fma(kick_, f.y, old_y);
@@ -96,7 +97,12 @@ public:
             wz = first_lanes(wz, count);
             rz = first_lanes(rz, count);
         }
-        if constexpr (observed) kinetic_.add(kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
+        if constexpr (observed) {
+            kinetic_.add(kinetic_weight_, fma(wx, wx, fma(wy, wy, wz * wz)));
+            V squares = fma(f.x, f.x, fma(f.y, f.y, f.z * f.z));
+            if (count < V::width) squares = first_lanes(squares, count);
+            of_step_.add(per_force_, squares);
+        }
         if constexpr (damped) {
             dissipated_.add(loss_weight_, fma(wx, wx, fma(wy, wy, rz * rz)));
             dragged_.add(given_weight_, rz);
@@ -104,14 +110,16 @@ public:
         return {new_x, new_y, new_z};
     }
 
-    /// Behind the last node of a row: keeps the sums in their range.
+    /// Ends a row: moves the sums out of the bins, which keeps them in their range.
     ASPERITY_INLINE void end_row() {
         if constexpr (observed) kinetic_.close();
+        if constexpr (observed) of_step_.close();
         if constexpr (damped) dissipated_.close();
         if constexpr (damped) dragged_.close();
     }
     ASPERITY_INLINE void add_to(KickSums& sums) const {
         if constexpr (observed) collect(kinetic_.sum(), sums.kinetic);
+        if constexpr (observed) collect(of_step_.sum(), sums.of_step);
         if constexpr (damped) {
             collect(dissipated_.sum(), sums.dissipated);
             collect(dragged_.sum(), sums.dragged);
@@ -119,9 +127,10 @@ public:
     }
 
 private:
-    V keep_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_;
+    V velocity_factor_, kick_, drag_, medium_, kinetic_weight_, loss_weight_, given_weight_,
+        per_force_;
     double *x_, *y_, *z_;
-    ProductSum<V> kinetic_, dissipated_, dragged_;
+    ProductSum<V> kinetic_, of_step_, dissipated_, dragged_;
 };
 
 } // namespace asperity::ASPERITY_VARIANT

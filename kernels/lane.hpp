@@ -4,10 +4,9 @@
 // One number with the interface of a SIMD register of one lane (simd.hpp).
 //
 // A kernel text written as a template over its value type runs on packs of a processor's registers
-// and, one node a thread, on a device. Every operation of a lane is the one that the pack of the
-// same name does in each of its lanes: a lane and a pack of a processor level with fused
-// multiply-add (fuses(), variant.hpp) give bitwise identical results. The compiler is told not to
-// contract
+// and, one node a thread, on a device. Every operation of a lane is that of the pack of the same
+// name in each of its lanes: a lane and a pack of a processor level with fused multiply-add
+// (fuses(), variant.hpp) give bitwise identical results. The compiler is told not to contract
 // (-ffp-contract=off; nvcc: -fmad=false).
 #pragma once
 
@@ -124,12 +123,12 @@ ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& 
     into.merge({{lane.bin[0].r, lane.bin[1].r}});
 }
 
-/// The least of all lanes.
+/// Returns the least of all lanes.
 ASPERITY_INLINE double lowest(Lane<double> a) { return a.r; }
-/// Their sum.
+/// Returns the sum of all lanes.
 ASPERITY_INLINE double total(Lane<double> a) { return a.r; }
 
-/// Values of a device's thread, as kernel texts ask for them.
+/// Family of values of a device's thread, for kernel texts.
 struct Scalar {
     template <class T>
     using Of = Lane<T>;

@@ -7,9 +7,9 @@
 //     -V0'/r = (12 epsilon / r_m^2) (t^7 - t^4)
 //     (V0'/r)'/r = (24 epsilon / r_m^4) (7 t^8 - 4 t^5)
 //
-// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications
-// if these are independent; so the sweeps begin the next pairs before they finish these. Without
-// the energy a pair takes one and a half multiplications for t and four for the force.
+// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications if
+// these are independent; so the sweeps begin the next pairs before they finish these. Without the
+// energy a pair takes one and a half multiplications for t and four for the force.
 #pragma once
 
 #include "kernels/number.hpp"
@@ -36,15 +36,16 @@ struct LennardJones {
     double minimum() const { return std::pow(2.0, 1.0 / 6.0) * r0; }
     double inflection() const { return std::pow(26.0 / 7.0, 1.0 / 6.0) * r0; }
     ASPERITY_INLINE double depth() const { return epsilon; }
-    /// Repulsion there is 10^7 epsilon.
+    /// Returns the distance below which a pair is held; the repulsion there is 10^7 epsilon.
     ASPERITY_INLINE double closest() const { return 0.3 * r0; }
-    /// From the ratio of the lengths, which is usually a power of two.
+    /// Returns V0(cutoff) over epsilon, from the ratio of the lengths, which is usually a power of
+    /// two.
     double shift() const {
         const double s2 = r0 * r0 / (cutoff * cutoff), s6 = s2 * s2 * s2;
         return 4.0 * s6 * (s6 - 1.0);
     }
 
-    /// For values of type V, lengths counted in `unit`, Å.
+    /// Formulas for values of type V, with lengths counted in `unit`, Å.
     template <class V>
     struct Terms {
         V rm2;

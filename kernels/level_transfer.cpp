@@ -15,7 +15,7 @@ void interpolate(LevelSeam seam, PlaneView<const double> coarse, PlaneView<doubl
     const int gy = seam.fine_y0 + y;
     const double* low = coarse.line((gy >> 1) - seam.coarse_y0) - seam.coarse_x0;
     const double* high = coarse.line(((gy + 1) >> 1) - seam.coarse_y0) - seam.coarse_x0;
-    double* out = fine.line(y) - seam.fine_x0; // from here on, x over the whole box
+    double* out = fine.line(y) - seam.fine_x0; // here and below, x is over the whole box
     const int first = seam.fine_x0 - halo, last = seam.fine_x0 + fine.nx + halo;
     const auto node = [&](int x) { return interpolated_node(low, high, x); };
     int x = first;

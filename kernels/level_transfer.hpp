@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Between two levels of the block: bilinear interpolation and its transpose.
+// Transfer between two levels of the block: bilinear interpolation and its transpose.
 //
 // Node X of the coarse level lies on node 2X of the fine one (both counted over the whole box). The
 // fine level's upper plane follows the coarse level's lowest plane,
@@ -17,20 +17,21 @@
 
 namespace asperity {
 
-/// Where two tiles of neighbouring levels lie, in nodes of their levels over the whole box.
+/// Positions of two tiles of neighbouring levels, in nodes of their levels over the whole box.
 struct LevelSeam {
     int fine_x0 = 0, fine_y0 = 0; ///< first node owned of the fine tile
-    int coarse_x0 = 0,
-        coarse_y0 = 0; ///< first node owned of the coarse tile (0 where it is held whole)
+    /// First node owned of the coarse tile (0 if it is held whole).
+    int coarse_x0 = 0, coarse_y0 = 0;
 };
 
-/// The functions compiled for one processor level; all levels give bitwise identical results.
+/// Transfer kernels compiled for one processor level; all levels give bitwise identical results.
 struct TransferKernels {
-    /// Fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo included).
+    /// Interpolates the fine nodes of row y, columns [-halo, nx + halo), from coarse nodes (halo
+    /// included).
     void (*interpolate)(LevelSeam seam, PlaneView<const double> coarse, PlaneView<double> fine,
                         int y, int halo);
-    /// Coarse nodes of row y, columns [x0, x0 + nx), in coarse tile coordinates, from the fine
-    /// forces around them; overwrites.
+    /// Sums the fine forces around the coarse nodes of row y, columns [x0, x0 + nx), in coarse tile
+    /// coordinates, into these nodes; overwrites.
     void (*restrict_forces)(LevelSeam seam, PlaneView<const double> fine, PlaneView<double> coarse,
                             int y, int x0, int nx);
 };

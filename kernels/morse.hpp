@@ -15,7 +15,7 @@
 namespace asperity {
 
 struct Morse {
-    /// By default depth, curvature and place of the minimum of the default Lennard-Jones potential.
+    /// Defaults: depth, curvature and place of the minimum of the default Lennard-Jones potential.
     double D = 0.1;        ///< depth, eV
     double a = 1.63;       ///< 1/Å
     double r0 = 3.6816;    ///< place of the minimum, Å
@@ -35,7 +35,7 @@ struct Morse {
     double minimum() const { return r0; }
     double inflection() const { return r0 + std::log(2.0) / a; }
     ASPERITY_INLINE double depth() const { return D; }
-    /// The potential is finite down to r = 0; only 1/r is held.
+    /// Returns the distance below which 1/r is held; the potential is finite down to r = 0.
     ASPERITY_INLINE double closest() const { return 0.1 * r0; }
     double shift() const {
         const double e = std::exp(-a * (cutoff - r0));
@@ -51,7 +51,7 @@ struct Morse {
             : rate(same<V>(p.a * unit)), at_rest(same<V>(p.r0 / unit)),
               force_scale(2.0 * p.D * p.a / unit), energy_scale(p.D) {}
 
-        /// 1/r
+        /// Returns 1/r.
         ASPERITY_INLINE V begin(V r2) const { return same<V>(1.0) / sqrt(r2); }
         ASPERITY_INLINE void begin(V r2, V s2, V& of_r, V& of_s) const {
             const V r = sqrt(r2), s = sqrt(s2), both = same<V>(1.0) / (r * s);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Langevin noise of one node and step: normal numbers from a counter-based generator (Philox,
-// Random123), and what they add to velocity and displacement. One text for processor and device.
+// Random123), and their effect on velocity and displacement. One text for processor and device.
 // Logarithm, sine and cosine are written out in additions, multiplications and divisions, none of
 // them fused, so every compiler and machine gives bitwise identical results.
 #pragma once
@@ -18,7 +18,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// ln(x) of 0 < x <= 1, not subnormal. Within two units of the last place.
+/// Returns ln(x) for 0 < x <= 1, not subnormal, within two units of the last place.
 ASPERITY_INLINE double logarithm(double x) {
     const auto bits = __builtin_bit_cast(std::uint64_t, x);
     int exponent = static_cast<int>(bits >> 52) - 1023;
@@ -36,7 +36,7 @@ ASPERITY_INLINE double logarithm(double x) {
 struct CosineSine {
     double cosine, sine;
 };
-/// Of the angle 2 pi (bits + 1/2) / 2^32. Within 2e-16.
+/// Returns cosine and sine of the angle 2 pi (bits + 1/2) / 2^32, within 2e-16.
 ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
     // The nearest quarter of a turn, and the rest x, |x| <= pi/4.
     const std::uint32_t quarter = (bits + 0x20000000u) >> 30;
@@ -55,8 +55,8 @@ ASPERITY_INLINE CosineSine cosine_and_sine(std::uint32_t bits) {
     return quarter & 2u ? CosineSine{-along, -across} : CosineSine{along, across};
 }
 
-/// Three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y, z: which
-/// node of the block.
+/// Returns three independent normal numbers (mean 0, variance 1) of a node in a step. level, x, y,
+/// z: place of the node in the block.
 ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int x, int y, int z) {
     const auto u = static_cast<std::uint64_t>(noise.step);
     // The C interface, whose functions are static: no variant's code is linked into another's.
@@ -75,25 +75,48 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
     return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
 }
 
-/// Adds `add` to the velocity v(n+1/2) of a node and what follows from it to its displacement
-/// u(n+1). old: v(n-1/2). Returns the energy given, per mass, to velocity and displacement: the
-/// second is minus the work of half the force F at n, m (v - old) = dt (F - Gamma m w) with the
-/// mean w of old and v; the other half is part of the work of the force at n+1.
-ASPERITY_INLINE double push(const ThermalNoise& noise, double old, double& v, double& u,
-                            double add) {
-    const double w = 0.5 * (old + v);
-    v = v + add;
-    u = u + noise.dt * add;
-    return add * ((2.0 - noise.drag) * w + 0.5 * add);
+/// Changes that the noise of a step makes in the sums of that step, eV, or eV per mass.
+struct NoiseEnergies {
+    double heat = 0.0;    ///< energy given to the nodes
+    double kinetic = 0.0; ///< of the kinetic energy at the whole step
+};
+ASPERITY_INLINE NoiseEnergies operator+(const NoiseEnergies& a, const NoiseEnergies& b) {
+    return {a.heat + b.heat, a.kinetic + b.kinetic};
 }
 
-/// The noise of one node of mass m (eV fs^2/Å^2), added to v and u. Returns the energy given, eV.
-ASPERITY_INLINE double add_noise(const ThermalNoise& noise, double m, const Triple<double>& xi,
-                                 const Triple<double>& old, Triple<double>& v, Triple<double>& u) {
-    const double sigma = std::sqrt(noise.strength / m) / noise.drag;
-    const double x = push(noise, old.x, v.x, u.x, sigma * xi.x);
-    const double y = push(noise, old.y, v.y, u.y, sigma * xi.y);
-    return m * (x + y + push(noise, old.z, v.z, u.z, sigma * xi.z));
+/// Adds `add` to the velocity v(n+1/2) of a node along one axis and dt add to its displacement
+/// u(n+1). old: v(n-1/2). medium: velocity of the damping medium V. Returns energies per mass.
+///
+/// Friction and noise act at the fixed place u(n): without them half a kick of the force F leads
+/// from v(n-1/2) to p = v(n-1/2) + dt F/2m, and from p' = v(n+1/2) - dt F/2m to v(n+1/2). They
+/// change the kinetic energy by m (p'^2 - p^2)/2, exactly, and the kinetic energy of the whole step
+/// is the mean m (p^2 + p'^2)/4. With w = (old + v)/2 before the noise, g = Gamma dt/2,
+/// p' - p = add - 2 g (w - V) and p' + p = 2 w + add. What remains without noise is summed by the
+/// kick (kick.hpp).
+ASPERITY_INLINE NoiseEnergies push(const ThermalNoise& noise, double old, double& v, double& u,
+                                   double add, double medium) {
+    const double w = 0.5 * (old + v), lost = (noise.drag - 1.0) * (w - medium);
+    const double jump = add - 2.0 * lost;
+    v = v + add;
+    u = u + noise.dt * add;
+    return {add * (w - lost + 0.5 * add), 0.5 * (add * w + 0.25 * add * add + 0.25 * jump * jump)};
+}
+
+/// Returns the change of velocity of a node of mass m (eV fs^2/Å^2) by noise, Å/fs, for each unit
+/// of xi.
+ASPERITY_INLINE double noise_speed(const ThermalNoise& noise, double m) {
+    return std::sqrt(noise.strength / m) / noise.drag;
+}
+
+/// Adds the noise of one node of mass m (eV fs^2/Å^2) to v and u. Returns energies, eV.
+ASPERITY_INLINE NoiseEnergies add_noise(const ThermalNoise& noise, double m,
+                                        const Triple<double>& xi, const Triple<double>& old,
+                                        Triple<double>& v, Triple<double>& u) {
+    const double sigma = noise_speed(noise, m);
+    const NoiseEnergies x = push(noise, old.x, v.x, u.x, sigma * xi.x, 0.0);
+    const NoiseEnergies y = push(noise, old.y, v.y, u.y, sigma * xi.y, 0.0);
+    const NoiseEnergies all = x + y + push(noise, old.z, v.z, u.z, sigma * xi.z, noise.medium_z);
+    return {m * all.heat, m * all.kinetic};
 }
 
 } // namespace asperity::ASPERITY_VARIANT

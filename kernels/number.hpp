@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a formula written once for all kinds of values asks of them: a plain number (here), a SIMD
-// register (simd.hpp), a device's lane (lane.hpp). The operations of the same name round alike.
+// Operations on a plain number for formulas written once for all kinds of values: numbers (here),
+// SIMD registers (simd.hpp), lanes of a device (lane.hpp). Operations of the same name round alike.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -14,7 +14,7 @@
 
 namespace asperity {
 
-/// The numbers that a value consists of.
+/// Type of the numbers in a value.
 template <class V>
 struct ValueOf {
     using type = typename V::Value;
@@ -26,7 +26,7 @@ struct ValueOf<double> {
 template <class V>
 using Value = typename ValueOf<V>::type;
 
-/// The same number in every lane.
+/// Returns a value with the same number in every lane.
 template <class V>
 ASPERITY_INLINE V same(double value) {
     return V(static_cast<Value<V>>(value));
@@ -45,7 +45,7 @@ ASPERITY_INLINE double fma(double a, double b, double c) {
 ASPERITY_INLINE double fms(double a, double b, double c) { return fma(a, b, -c); }
 ASPERITY_INLINE double sqrt(double a) { return ::sqrt(a); }
 
-/// 2^n, n a whole number between the least and the greatest exponent.
+/// Returns 2^n, n a whole number between the least and the greatest exponent.
 ASPERITY_INLINE double power_of_two(double n) {
     const double biased = n + (0x1.8p52 + 1023.0);
     std::uint64_t bits;
@@ -55,20 +55,21 @@ ASPERITY_INLINE double power_of_two(double n) {
     std::memcpy(&power, &bits, sizeof power);
     return power;
 }
-/// The four numbers of row n of a table, n a whole number.
+/// Loads the four numbers of row n of a table, n a whole number.
 ASPERITY_INLINE void gather_four(const double* table, double n, double (&row)[4]) {
     for (int k = 0; k < 4; ++k)
         row[k] = table[4 * static_cast<std::ptrdiff_t>(n) + k];
 }
 
-/// To the nearest whole number, for |x| < 2^22 (float) or 2^51 (double).
+/// Rounds to the nearest whole number, for |x| < 2^22 (float) or 2^51 (double).
 template <class V>
 ASPERITY_INLINE V nearest_whole(V x) {
     const V shift = same<V>(std::is_same_v<Value<V>, float> ? 0x1.8p23 : 0x1.8p52);
     return (x + shift) - shift;
 }
 
-/// exp(x) to two units of the last place; x is held between -80 and 80 (float) or -700 and 700.
+/// Returns exp(x) to two units of the last place; x is held between -80 and 80 (float) or -700 and
+/// 700.
 template <class V>
 ASPERITY_INLINE V exponential(V x) {
     constexpr bool single = std::is_same_v<Value<V>, float>;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the elastic kernels of small and finite strain share on packs: sums over lanes, drift.
+// Functions that the elastic kernels of small and finite strain share on packs: sums over lanes,
+// drift.
 #pragma once
 
 #include "kernels/simd.hpp"
@@ -10,7 +11,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
+/// Returns 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
 ASPERITY_INLINE Pack<double> lane_numbers() {
     double lane[Pack<double>::width];
     for (int i = 0; i < Pack<double>::width; ++i)
@@ -18,12 +19,13 @@ ASPERITY_INLINE Pack<double> lane_numbers() {
     return Pack<double>::load(lane);
 }
 
-/// The first count lanes; zero in the others.
+/// Returns the first count lanes, and zero in the others.
 ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
     return select(lane_numbers() < Pack<double>(static_cast<double>(count)), a, Pack<double>(0.0));
 }
 
-/// The lanes' runs together must not be longer than longest_run.
+/// Adds the sums of all lanes to one sum. The runs of the lanes together must not exceed
+/// longest_run.
 ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
     ExactSum mine;
     for (int k = 0; k < ExactSum::bins; ++k)
@@ -32,7 +34,7 @@ ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum&
     into.merge(mine);
 }
 
-/// Drift u <- u + dt v of rows [y0, y1) of plane z.
+/// Drifts rows [y0, y1) of plane z: u <- u + dt v.
 inline void drift_rows(const ElasticLevel& level, int z, double dt, int y0, int y1) {
     using V = Pack<double>;
     const V step(dt);
@@ -61,7 +63,7 @@ inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
         drift_rows(level, z, dt, y0, y1);
 }
 
-/// Adds up what energies(i), of a pack of cells from element i on, gives for rows [y0, y1).
+/// Sums energies(i), the energies of a pack of cells from element i on, over rows [y0, y1).
 template <class Energies>
 ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y1, ExactSum& into,
                               const Energies& energies) {

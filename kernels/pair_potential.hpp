@@ -6,24 +6,25 @@
 //     V(r) = V0(r) - V0(r_c)  for r < r_c,   0 beyond.
 //
 // The force is the plain derivative, so energy is continuous at the cutoff and the force has the
-// small step V0'(r_c). Distances below closest() are held there: a start with overlapping atoms
-// gives a huge finite force instead of infinity, and the guard of the time step catches it.
+// small step V0'(r_c). Shorter distances than closest() are held there: a start with overlapping
+// atoms gives a huge finite force instead of infinity, and the guard of the time step catches it.
 //
 // A potential is a struct P of numbers (lennard_jones.hpp, morse.hpp, tabulated.hpp), in the list
-// PairPotential below. It brings
-//   name, parameters()    for scenes; the cutoff comes beside them
-//   zero(), minimum(), inflection()   distances where V0 = 0, V0' = 0, V0'' = 0, Å. A site nearer
-//                         to an atom than the inflection is in contact with it
+// PairPotential below. It has
+//   name, parameters()    for scenes, which give the cutoff beside them
+//   zero(), minimum(), inflection()   distances of V0 = 0, V0' = 0, V0'' = 0, Å. A site nearer to
+//   an
+//                         atom than the inflection is in contact with it
 //   depth(), closest()    eV, Å
 //   shift()               V0(r_c), in units of Terms::energy_scale
-//   has_tail              whether Terms have a moment(): for the tail and for a smeared wall
-//   Terms<V>              the formulas, for values of type V (number.hpp): begin() does what is
-//                         slow, for one r^2 or two; force() is -V0'/r in units of force_scale, and
+//   has_tail              true if Terms have a moment(): for the tail and for a smeared wall
+//   Terms<V>              the formulas for values of type V (number.hpp): begin() computes the slow
+//                         part for one r^2 or two; force() is -V0'/r in units of force_scale, and
 //                         leaves its last operation, a b - c, to the caller, who may mask it;
 //                         energy() is V0 in units of energy_scale; bend() is (V0'/r)'/r in units of
 //                         force_scale; moment() the integral of V0 r dr from r to infinity, in
-//                         units of energy_scale and square lengths. All but begin() take what
-//                         begin() returned, and r^2.
+//                         units of energy_scale and square lengths. All but begin() take the result
+//                         of begin(), and r^2.
 //
 // Units: Å, eV.
 #pragma once
@@ -46,7 +47,7 @@ struct PairDerivatives {
     double bend;   ///< (V0'/r)'/r, eV/Å^4
 };
 
-/// One potential as plain numbers: what the sweeps compute, for a single pair.
+/// One potential as plain numbers, for single pairs: the formulas of the sweeps.
 template <class P>
 struct Pair {
     typename P::template Terms<double> terms;
@@ -60,15 +61,15 @@ struct Pair {
         const double at = held(r2);
         return terms.energy_scale * terms.energy(terms.begin(at), at);
     }
-    /// The integral of V0 r dr from r on, eV Å^2.
+    /// Returns the integral of V0 r dr from r to infinity, eV Å^2.
     ASPERITY_INLINE double moment(double r2) const {
         return terms.energy_scale * terms.moment(terms.begin(r2), r2);
     }
-    /// V, eV.
+    /// Returns V, eV.
     ASPERITY_INLINE double energy(double r2) const {
         return r2 < cutoff * cutoff ? unshifted(r2) - shift : 0.0;
     }
-    /// -V'/r: times the distance vector it is the force, eV/Å^2.
+    /// Returns -V'/r, eV/Å^2; the distance vector times this is the force.
     ASPERITY_INLINE double force_over_distance(double r2) const {
         return r2 < cutoff * cutoff ? -derivatives(r2).slope : 0.0;
     }
@@ -84,10 +85,11 @@ private:
     ASPERITY_INLINE double held(double r2) const { return max(r2, closest * closest); }
 };
 
-/// The pairs beyond the cutoff as a continuum (scene: interface.tail).
+/// Tail: the pairs beyond the cutoff as a continuum (scene: interface.tail).
 ///
-/// On a site at height g over the substrate's local mean plane acts, beyond the cutoff, a plane of
-/// n atoms per area; and the shift of the potential inside it is undone. With c = max(r_c, |g|):
+/// A site at height g over the substrate's local mean plane interacts, beyond the cutoff, with a
+/// plane of n atoms per area; inside it the shift of the potential is undone. With c = max(r_c,
+/// |g|):
 ///
 ///     U(g) = 2 pi n int_c^infinity V0(r) r dr  +  pi n (r_c^2 - g^2)_+ V0(r_c)
 ///
@@ -98,27 +100,27 @@ struct Tail {
     Pair<P> pair;
     double plane; ///< 2 pi n, 1/Å^2
 
-    /// density: n, atoms per Å^2
+    /// Sets the plane. density: n, atoms per Å^2.
     Tail(const P& p, double density) : pair(p), plane(2.0 * std::numbers::pi * density) {}
 
-    /// eV
+    /// Returns the energy U of a site, eV.
     ASPERITY_INLINE double energy(double gap) const {
         const double inside = max(pair.cutoff * pair.cutoff - gap * gap, 0.0);
         return plane * (pair.moment(beyond(gap)) + 0.5 * inside * pair.shift);
     }
-    /// eV/Å
+    /// Returns the force -dU/dg on a site, eV/Å.
     ASPERITY_INLINE double force(double gap) const {
         return plane * gap * pair.unshifted(beyond(gap));
     }
 
 private:
-    /// c^2
+    /// Returns c^2.
     ASPERITY_INLINE double beyond(double gap) const {
         return max(gap * gap, pair.cutoff * pair.cutoff);
     }
 };
 
-// Of whatever potential it is.
+// The same properties of any potential, Å.
 inline double cutoff_of(const PairPotential& potential) {
     return std::visit([](const auto& p) { return p.cutoff; }, potential);
 }
@@ -131,7 +133,7 @@ inline double zero_of(const PairPotential& potential) {
 inline double minimum_of(const PairPotential& potential) {
     return std::visit([](const auto& p) { return p.minimum(); }, potential);
 }
-/// Nearer than this counts as contact.
+/// Returns the distance below which a site is in contact with an atom.
 inline double contact_distance(const PairPotential& potential) {
     return std::visit([](const auto& p) { return p.inflection(); }, potential);
 }

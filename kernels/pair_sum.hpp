@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// One site's sum over the substrate in the reference order: the reference sweep, and the sites that
-// no table covers.
+// Sum of one site over the substrate in the reference order, for the reference sweep and for sites
+// that no table covers.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -14,11 +14,11 @@
 
 namespace asperity {
 
-/// The potentials of the block's atoms with those of the substrate, by the type of the latter.
+/// Potentials of the block's atoms with those of the substrate, by the type of the latter.
 struct PairTable {
     const PairPotential* of = nullptr; ///< [type]
     int types = 0;
-    double cutoff = 0.0;  ///< the largest, Å
+    double cutoff = 0.0;  ///< the largest cutoff, Å
     double closest = 0.0; ///< the largest distance at which a pair is held, Å
 
     PairTable(const PairPotential* table, int count) : of(table), types(count) {
@@ -38,11 +38,11 @@ struct PairSum {
     bool in_contact = false;           ///< closer than contact_distance to some atom
 };
 
-/// The reference: the sum over every substrate atom (periodic images included) within the cutoff of
-/// a site at (x, y, z), by rows of atoms. Not-a-number where the position is none.
+/// Returns the sum over every substrate atom (periodic images included) within the cutoff of a site
+/// at (x, y, z), by rows of atoms: the reference. Not a number if the position is not finite.
 PairSum pair_sum(const SubstrateMap& map, const PairPotential& potential, double x, double y,
                  double z);
-/// The same over atoms anywhere, one after the other, each by the potential of its type.
+/// Returns the sum over atoms anywhere, one after the other, each with the potential of its type.
 PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y, double z);
 
 } // namespace asperity
@@ -66,12 +66,12 @@ ASPERITY_INLINE void add_pair(const Pair<P>& pair, double dx, double dy, double 
     if (r2 < sum.nearest_r2) sum.nearest_r2 = r2;
 }
 
-/// pair_sum() over a map, for host and device.
+/// Computes pair_sum() over a map, for host and device.
 template <class P>
 ASPERITY_HOST_DEVICE inline PairSum sum_of_pairs(const SubstrateMap& map, const Pair<P>& pair,
                                                  double x, double y, double z) {
     PairSum sum;
-    // Farther out than this (in atoms) no index is formed; a site there has long left the model.
+    // Largest index of an atom that is formed; a site farther out has long left the model.
     constexpr double farthest_index = 1e9;
     const double b = map.spacing;
     const bool somewhere = std::fabs(x / b) < farthest_index && std::fabs(y / b) < farthest_index &&

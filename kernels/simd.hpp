@@ -5,12 +5,12 @@
 //
 // A kernel written on Pack<double> reads like scalar arithmetic and is compiled once for each
 // x86-64 level (variant.hpp). The width is the widest register of that level. fma() is a real fused
-// multiply-add where the level has one and a multiplication and an addition where not; since the
-// compiler itself is told not to contract (-ffp-contract=off), what a node gets depends on the
-// level alone, not on the loop that computed it.
+// multiply-add if the level has one, otherwise a multiplication and an addition; since the compiler
+// itself is told not to contract (-ffp-contract=off), the result for a node depends on the level
+// alone, not on the loop that computed it.
 //
-// The whole file lives in a namespace of its level, so that no function compiled for a newer
-// processor can be picked by the linker for an older one.
+// The whole file lives in a namespace of its level, so that the linker cannot pick a function
+// compiled for a newer processor for an older one.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -61,8 +61,8 @@ struct Pack {
     using Value = T;
     using Register = typename RegisterOf<T>::type;
     using Mask = typename RegisterOf<T>::mask;
-    /// As it lies in memory. g++ 12 takes a register of AVX2 that is filled by memcpy through the
-    /// stack, where a compiler barrier keeps it (load_once).
+    /// Register as it lies in memory. g++ 12 takes a register of AVX2 that is filled by memcpy
+    /// through the stack, if a compiler barrier keeps it (load_once).
     typedef T Unaligned __attribute__((vector_size(register_bytes), aligned(sizeof(T)), may_alias));
 
     Register r;
@@ -74,7 +74,7 @@ struct Pack {
     static ASPERITY_INLINE Pack load(const T* from) {
         return Pack(static_cast<Register>(*reinterpret_cast<const Unaligned*>(from)));
     }
-    /// Like load, for what is needed twice: the compiler shall not read it twice.
+    /// Loads a pack that is used twice: the compiler shall not read it twice.
     static ASPERITY_INLINE Pack load_once(const T* from) {
         Pack p = load(from);
 #if defined(__x86_64__)
@@ -82,7 +82,7 @@ struct Pack {
 #endif
         return p;
     }
-    /// The first count elements; in the lanes behind them the last of these again.
+    /// Loads the first count elements; the lanes behind them repeat the last element.
     static ASPERITY_INLINE Pack load_first(const T* from, int count) {
         if (count >= width) return load(from);
         Pack p;
@@ -112,7 +112,7 @@ struct Pack {
     friend ASPERITY_INLINE Mask operator>(Pack a, Pack b) { return a.r > b.r; }
 };
 
-/// a where the mask is set, b elsewhere.
+/// Returns a in the lanes in which the mask is set, b in the others.
 template <class T>
 ASPERITY_INLINE Pack<T> select(typename Pack<T>::Mask mask, Pack<T> a, Pack<T> b) {
     return mask ? a.r : b.r;
@@ -127,7 +127,7 @@ ASPERITY_INLINE Pack<T> max(Pack<T> a, Pack<T> b) {
     return a.r > b.r ? a.r : b.r;
 }
 
-/// Bit i is set where lane i of a is less than that of b.
+/// Sets bit i if lane i of a is less than that of b.
 template <class T>
 ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
 #if defined(__AVX512F__)
@@ -149,8 +149,8 @@ ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
 #endif
 }
 
-/// The elements lane_of(0), lane_of(1), ... of the pack a and the one behind it, b. lane_of holds
-/// nothing.
+/// Returns the elements lane_of(0), lane_of(1), ... of the packs a and b, one behind the other.
+/// lane_of must have no captures.
 template <class T, class LaneOf, int... i>
 ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of,
                                 std::integer_sequence<int, i...>) {
@@ -161,7 +161,8 @@ ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of) {
     return shuffle(a, b, lane_of, std::make_integer_sequence<int, Pack<T>::width>());
 }
 
-/// The pack one element further on, given the pack a and the one behind it, b: a1 a2 ... b0.
+/// Returns the pack one element further on, given the pack a and the one behind it, b: a1 a2 ...
+/// b0.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
 #if defined(__AVX512F__)
@@ -170,7 +171,7 @@ ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
 #endif
     return shuffle(a, b, [](int i) { return i + 1; });
 }
-/// The pack one element back, given the pack a before b: a_last b0 b1 ...
+/// Returns the pack one element back, given the pack a before b: a_last b0 b1 ...
 template <class T>
 ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
 #if defined(__AVX512F__)
@@ -180,7 +181,7 @@ ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return Pack<T>::width - 1 + i; });
 }
 
-/// As many integers as a register has floats: fixed-point numbers, whose differences are exact.
+/// Integers, as many as a register has floats: fixed-point numbers, whose differences are exact.
 struct PackInt32 {
     FloatMask r;
 
@@ -198,7 +199,7 @@ ASPERITY_INLINE Pack<float> to_float(PackInt32 a) {
     return Pack<float>(__builtin_convertvector(a.r, FloatRegister));
 }
 
-/// Half a register of floats, from lane `first` on, as doubles.
+/// Converts half a register of floats, from lane `first` on, to doubles.
 template <int first, int... lane>
 ASPERITY_INLINE Pack<double> widen(Pack<float> a, std::integer_sequence<int, lane...>) {
     return Pack<double>(__builtin_convertvector(
@@ -211,32 +212,34 @@ ASPERITY_INLINE Pack<double> widen_high(Pack<float> a) {
     return widen<Pack<double>::width>(a, std::make_integer_sequence<int, Pack<double>::width>());
 }
 
-/// Lane i is that of lane i ^ half.
+/// Returns the pack whose lane i is lane i ^ half of a.
 template <int half>
 ASPERITY_INLINE Pack<double> exchange(Pack<double> a) {
     return shuffle(a, a, [](int i) { return i ^ half; });
 }
 
-/// Of two packs one after the other: the elements at even places, those at odd ones.
+/// Returns the elements at even places of two packs one after the other.
 template <class T>
 ASPERITY_INLINE Pack<T> evens(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return 2 * i; });
 }
+/// Returns the elements at odd places of two packs one after the other.
 template <class T>
 ASPERITY_INLINE Pack<T> odds(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return 2 * i + 1; });
 }
-/// The inverse: a0 b0 a1 b1 ..., its first pack and its second.
+/// Returns the first pack of a0 b0 a1 b1 ..., the inverse of evens() and odds().
 template <class T>
 ASPERITY_INLINE Pack<T> interleave_low(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return i / 2 + (i & 1) * Pack<T>::width; });
 }
+/// Returns the second pack of a0 b0 a1 b1 ...
 template <class T>
 ASPERITY_INLINE Pack<T> interleave_high(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return (Pack<T>::width + i) / 2 + (i & 1) * Pack<T>::width; });
 }
 
-/// Square root, rounded once.
+/// Returns the square root, rounded once.
 template <class T>
 ASPERITY_INLINE Pack<T> sqrt(Pack<T> a) {
     using Register = typename Pack<T>::Register;
@@ -267,7 +270,7 @@ ASPERITY_INLINE Pack<T> sqrt(Pack<T> a) {
 #endif
 }
 
-/// a * b + c, rounded once where the processor level has it.
+/// Returns a * b + c, rounded once if the processor level has a fused operation.
 template <class T>
 ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
 #if defined(__AVX512F__)
@@ -295,7 +298,7 @@ ASPERITY_INLINE Pack<T> fma(Pack<T> a, Pack<T> b, Pack<T> c) {
     return a.r * b.r + c.r;
 #endif
 }
-/// a * b - c, likewise.
+/// Returns a * b - c, rounded once if the processor level has a fused operation.
 template <class T>
 ASPERITY_INLINE Pack<T> fms(Pack<T> a, Pack<T> b, Pack<T> c) {
 #if defined(__AVX512F__)
@@ -318,7 +321,8 @@ ASPERITY_INLINE Pack<T> fms(Pack<T> a, Pack<T> b, Pack<T> c) {
     return a.r * b.r - c.r;
 #endif
 }
-/// a * b - c in the lanes where x < y, zero elsewhere; the mask costs no more than the comparison.
+/// Returns a * b - c in the lanes with x < y, zero in the others; the mask costs no more than the
+/// comparison.
 template <class T>
 ASPERITY_INLINE Pack<T> fms_where_less(Pack<T> x, Pack<T> y, Pack<T> a, Pack<T> b, Pack<T> c) {
 #if defined(__AVX512F__)
@@ -334,9 +338,9 @@ ASPERITY_INLINE Pack<T> fms_where_less(Pack<T> x, Pack<T> y, Pack<T> a, Pack<T> 
     return select(x < y, fms(a, b, c), Pack<T>(T(0)));
 #endif
 }
-/// 1 / sqrt(a) to about one unit of the last place. AVX-512 has a first guess of 14 bits, which one
-/// step of fourth order takes to the end: a third of the time of a pass that asks for nine of them
-/// a node. Its bits are therefore not those of the other levels.
+/// Returns 1 / sqrt(a) to about one unit of the last place. AVX-512 has a first guess of 14 bits,
+/// which one step of fourth order completes: a third of the time of a pass that needs nine of them
+/// a node. Its bits therefore differ from those of the other levels.
 ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     using P = Pack<double>;
 #if defined(__AVX512F__)
@@ -347,11 +351,11 @@ ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     return P(1.0) / sqrt(a);
 #endif
 }
-/// The numbers, the last bit of their fractions set.
+/// Returns the numbers with the last bit of their fractions set.
 ASPERITY_INLINE Pack<double> with_last_bit(Pack<double> a) {
     return Pack<double>((DoubleRegister)((DoubleMask)a.r | 1));
 }
-/// 2^n in each lane, as power_of_two() of a number.
+/// Returns 2^n in each lane, bitwise as power_of_two() of a number.
 ASPERITY_INLINE Pack<double> power_of_two(Pack<double> n) {
     return Pack<double>(
         (DoubleRegister)((DoubleMask)(n + Pack<double>(0x1.8p52 + 1023.0)).r << 52));
@@ -359,7 +363,7 @@ ASPERITY_INLINE Pack<double> power_of_two(Pack<double> n) {
 ASPERITY_INLINE Pack<float> power_of_two(Pack<float> n) {
     return Pack<float>((FloatRegister)((FloatMask)(n + Pack<float>(0x1.8p23f + 127.0f)).r << 23));
 }
-/// Rows n of a table of four numbers each, one for each lane.
+/// Loads rows n of a table of four numbers each, one row for each lane.
 template <class T>
 ASPERITY_INLINE void gather_four(const T* table, Pack<T> n, Pack<T> (&row)[4]) {
     constexpr int width = Pack<T>::width;
@@ -370,7 +374,7 @@ ASPERITY_INLINE void gather_four(const T* table, Pack<T> n, Pack<T> (&row)[4]) {
     for (int k = 0; k < 4; ++k)
         row[k] = Pack<T>::load(lane[k]);
 }
-/// All lanes combined, by halving.
+/// Combines all lanes by halving.
 template <int half, class Combine>
 ASPERITY_INLINE double halve(Pack<double> v, Combine combine) {
     v = combine(v, exchange<half>(v));
@@ -388,14 +392,14 @@ ASPERITY_INLINE double total(Pack<double> v) {
     return halve<P::width / 2>(v, [](P a, P b) { return a + b; });
 }
 
-/// Values of a processor's registers, as kernel texts ask for them.
+/// Family of values of a processor's registers, for kernel texts.
 struct Simd {
     template <class T>
     using Of = Pack<T>;
 };
 
-/// Fused multiplication and addition of one lane, for scalar forms of a kernel: bitwise identical
-/// to the pack's lane.
+/// Multiplies and adds one lane in scalar forms of a kernel, fused if the level has it: bitwise
+/// identical to the pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
 #if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);

@@ -36,18 +36,19 @@ double dot(const A* a, const B* b, int rows, const double* weights) {
 }
 
 template <class From, class To>
-void combine(double a, const From* from, double keep, To* to, int n) {
+void combine(double a, const From* from, double b, To* to, int n) {
     using T = std::common_type_t<From, To>;
-    const T factor = static_cast<T>(a), kept = static_cast<T>(keep);
-    if (keep == 0.0) {
+    const T from_factor = static_cast<T>(a), to_factor = static_cast<T>(b);
+    if (b == 0.0) {
 #pragma omp simd
         for (int i = 0; i < n; ++i)
-            to[i] = static_cast<To>(factor * static_cast<T>(from[i]));
+            to[i] = static_cast<To>(from_factor * static_cast<T>(from[i]));
         return;
     }
 #pragma omp simd
     for (int i = 0; i < n; ++i)
-        to[i] = static_cast<To>(factor * static_cast<T>(from[i]) + kept * static_cast<T>(to[i]));
+        to[i] = static_cast<To>(from_factor * static_cast<T>(from[i]) +
+                                to_factor * static_cast<T>(to[i]));
 }
 
 template <bool keep, class T>

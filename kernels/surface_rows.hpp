@@ -1,42 +1,43 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A part of a surface at a time: what a relaxation does with its vectors, rows of sites and blocks
-// of waves (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
+// Vector operations of a relaxation on a part of a surface: rows of sites and blocks of waves
+// (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
 //
 // A block of waves is a few columns q_x of each component, [component][q_y][column], each wave a
-// pair (real, imaginary). Arithmetic is in the wider of the two types that meet, inner products
-// always in double, products with matrices in the type of the waves. Orders of sums belong to the
-// level: the same on any number of threads, others on another level.
+// pair (real, imaginary). Arithmetic is in the wider of the two argument types, inner products
+// always in double, products with matrices in the type of the waves. The order of a sum belongs to
+// the level: the same on any number of threads, different on another level.
 #pragma once
 
 namespace asperity {
 
-/// Columns of a block: one cache line of a row in single precision.
+/// Number of columns of a block: one cache line of a row in single precision.
 inline constexpr int block_columns = 8;
 
-/// The entries of a 3 x 3 matrix that acts on (u_x, u_y, i u_z). A table of them for a block is
+/// Entries of a 3 x 3 matrix that acts on (u_x, u_y, i u_z). A table of them for a block is
 /// [|q_y|][entry][column], of one component [|q_y|][column]; xy and yz change sign with q_y.
 namespace matrix_entry {
 enum { xx, yy, zz, xy, xz, yz, count };
 }
 
-/// A row of sites on their way downhill (engine/equilibrium/heavy_ball.hpp), by components.
+/// A row of sites that the heavy ball moves (engine/equilibrium/heavy_ball.hpp), by components.
 struct BallRow {
-    const float* target[3]; ///< where each would go, Å
-    double* u[3];           ///< where it is
-    float* momentum[3];     ///< how far it went last
-    float* step_size;       ///< fraction of the distance to the target that it goes
+    const float* target[3]; ///< targets of the sites, Å
+    double* u[3];           ///< displacements, Å; updated
+    float* momentum[3];     ///< last moves of the sites, Å; updated
+    float* step_size; ///< fractions of the distance to the target that the sites move; updated
 };
-/// How the momentum and the step size are kept.
+/// Rules for the momentum and the step size of the heavy ball.
 struct BallRule {
-    float keep;       ///< of the momentum
-    float cut, raise; ///< of the step size: where the target lies back, and elsewhere
-    float most;       ///< of the step size
-    float bound;      ///< of a move, Å
+    float keep; ///< factor of the last move in the next one
+    /// Factors of the step size: if the target lies behind the last move, and otherwise
+    float cut, raise;
+    float most;  ///< largest step size
+    float bound; ///< largest move, Å
 };
 
-/// The rows' arithmetic for one processor level.
+/// Arithmetic of the rows for one processor level.
 struct RowKernels {
     template <class A, class B>
     using Dot = double (*)(const A*, const B*, int rows, const double* weights);
@@ -59,10 +60,11 @@ struct RowKernels {
     float (*ball)(const BallRow&, const BallRule&, int, int);
 };
 
-/// The kernels for the running processor (processor_level()).
+/// Returns the kernels for the running processor (processor_level()).
 const RowKernels& row_kernels();
 
-/// A block's part of sum_q conj(a_q).b_q: rows of block_columns waves, weights of their columns.
+/// Returns a block's part of sum_q conj(a_q).b_q. rows: rows of block_columns waves; weights: those
+/// of the columns.
 inline double block_dot(const double* a, const double* b, int rows, const double* weights) {
     return row_kernels().dot_double(a, b, rows, weights);
 }
@@ -73,22 +75,22 @@ inline double block_dot(const float* a, const float* b, int rows, const double* 
     return row_kernels().dot_float(a, b, rows, weights);
 }
 
-/// to <- a from + keep to, n numbers; with keep = 0, to is not read.
-inline void combine_row(double a, const double* from, double keep, double* to, int n) {
-    row_kernels().combine_double(a, from, keep, to, n);
+/// Sets to <- a from + b to, n numbers; with b = 0, to is not read.
+inline void combine_row(double a, const double* from, double b, double* to, int n) {
+    row_kernels().combine_double(a, from, b, to, n);
 }
-inline void combine_row(double a, const double* from, double keep, float* to, int n) {
-    row_kernels().combine_narrow(a, from, keep, to, n);
+inline void combine_row(double a, const double* from, double b, float* to, int n) {
+    row_kernels().combine_narrow(a, from, b, to, n);
 }
-inline void combine_row(double a, const float* from, double keep, double* to, int n) {
-    row_kernels().combine_wide(a, from, keep, to, n);
+inline void combine_row(double a, const float* from, double b, double* to, int n) {
+    row_kernels().combine_wide(a, from, b, to, n);
 }
-inline void combine_row(double a, const float* from, double keep, float* to, int n) {
-    row_kernels().combine_float(a, from, keep, to, n);
+inline void combine_row(double a, const float* from, double b, float* to, int n) {
+    row_kernels().combine_float(a, from, b, to, n);
 }
 
-/// f <- m u + norm g for a block of one or three components; f may be u or g, and g is not read
-/// with norm = 0.
+/// Sets f <- m u + norm g for a block of one or three components; f may be u or g, and g is not
+/// read with norm = 0.
 inline void multiply_block(const double* m, int sites, int components, const double* u, double norm,
                            const double* g, double* f) {
     row_kernels().multiply_double(m, sites, components, u, norm, g, f);
@@ -98,15 +100,15 @@ inline void multiply_block(const float* m, int sites, int components, const floa
     row_kernels().multiply_float(m, sites, components, u, norm, g, f);
 }
 
-/// The greatest squared length of a row of vectors, given by components.
+/// Returns the largest squared length of a row of vectors, given by components.
 inline float longest_squared(const float* const* v, int components, int n) {
     return row_kernels().longest(v, components, n);
 }
-/// to <- norm (k u + f), n numbers.
+/// Sets to <- norm (k u + f), n numbers.
 inline void tie_row(double k, double norm, const double* u, const double* f, float* to, int n) {
     row_kernels().tie(k, norm, u, f, to, n);
 }
-/// Moves the sites. Returns the greatest squared distance from a target.
+/// Moves the sites of a row. Returns the largest squared distance from a target, Å^2.
 inline float move_row(const BallRow& row, const BallRule& rule, int components, int n) {
     return row_kernels().ball(row, rule, components, n);
 }

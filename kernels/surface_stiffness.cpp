@@ -10,12 +10,12 @@ namespace asperity {
 
 namespace {
 
-/// A filter c + e (along) + t (across) + d (diagonal) at the phases.
+/// Returns a filter c + e (along) + t (across) + d (diagonal) at the phases.
 double even(double c, double e, double t, double d, double along, double across) {
     return c + 2.0 * e * along + 2.0 * t * across + 4.0 * d * along * across;
 }
 
-/// What a plane does to itself: a of Face::lower, d of Face::upper.
+/// Returns the matrix of a plane on itself: a of Face::lower, d of Face::upper.
 SurfaceMatrix own(const Stencil& s, WavePhase x, WavePhase y) {
     SurfaceMatrix m;
     m.xx = -even(s.own_c, s.own_e, s.own_t, s.own_d, x.cosine, y.cosine);
@@ -45,7 +45,7 @@ Coupling coupling(const Stencil& s, WavePhase x, WavePhase y) {
     return b;
 }
 
-/// b m b^T
+/// Returns b m b^T.
 SurfaceMatrix sandwich(const Coupling& b, const SurfaceMatrix& m) {
     const double row[3][3] = {{b.xx, b.xy, b.xz}, {b.xy, b.yy, b.yz}, {-b.xz, -b.yz, b.zz}};
     double half[3][3]; // b m

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// S(q): what the elastic block is to its lowest layer at rest (docs/explanation/model.md).
+// S(q): stiffness of the elastic block at its lowest layer, at rest (docs/explanation/model.md).
 //
-// A static plane wave u exp(i q r) in the lowest layer of a lattice of `thickness` cells, its top
-// plane clamped, is answered by the force -S(q) u, all other layers being at equilibrium. S follows
-// layer by layer from the top. With a, d the matrices that a single layer of cells gives its lower
-// and its upper plane, and b the one between them,
+// The lowest layer of a lattice of `thickness` cells, its top plane clamped, responds to a static
+// plane wave u exp(i q r) with the force -S(q) u, all other layers being at equilibrium. S follows
+// layer by layer from the top. With a, d the matrices of a single layer of cells for its lower and
+// its upper plane, and b the one between them,
 //
 //     S_1 = a,      S_(k+1) = a - b (d + S_k)^-1 b^T,      S = S_thickness.
 //
@@ -14,24 +14,25 @@
 // plane components and within z, and odd where it couples z with x or y: its filters are cosines,
 // sin sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
 //
-//     F_x = A (i u_z(z+1) - i u_z(z-1)) = A (w(z+1) - w(z-1)),     F_w = i F_z = -A (x(z+1) -
-//     x(z-1)),
+//     F_x = A (i u_z(z+1) - i u_z(z-1)) = A (w(z+1) - w(z-1)),
+//     F_w = i F_z = -A (x(z+1) - x(z-1)),
 //
 // A = 2 sin p_x (out_r + 2 out_rd cos p_y). So a, b, d are real, a and d symmetric, and the
 // recursion keeps S real and symmetric in (x, y, w). In (x, y, z): S_xz = i xz, S_zx = -i xz,
 // hermitian. Signs: xy is odd in both of p_x, p_y, xz odd in p_x, yz odd in p_y; x and y may be
-// exchanged. So an eighth of the Brillouin zone holds everything, and where a sine vanishes (the
-// Nyquist lines, the axes) the couplings do.
+// exchanged. So an eighth of the Brillouin zone holds everything, and the couplings vanish where a
+// sine does (the Nyquist lines, the axes).
 //
-// The answer of layers deeper than a few wavelengths decays like exp(-2 q depth): the recursion
-// ends where they add nothing, so a whole table costs little more than its short waves.
+// The contribution of layers deeper than a few wavelengths decays like exp(-2 q depth): the
+// recursion ends when further layers add nothing, so a whole table costs little more than its short
+// waves.
 #pragma once
 
 #include "kernels/elastic_cell.hpp"
 
 namespace asperity {
 
-/// A real symmetric matrix on (u_x, u_y, i u_z); for a stiffness in eV/Å^2 for each site.
+/// A real symmetric matrix on (u_x, u_y, i u_z); a stiffness has eV/Å^2 for each site.
 struct SurfaceMatrix {
     double xx = 0.0, yy = 0.0, zz = 0.0;
     double xy = 0.0, xz = 0.0, yz = 0.0;
@@ -42,13 +43,14 @@ struct SurfaceMatrix {
 struct WavePhase {
     double cosine = 1.0, sine = 0.0;
 };
+/// Returns the phase of wave n on this many sites.
 WavePhase wave_phase(int n, int sites);
 
-/// S at the phases along x and y. The uniform mode (both sines zero and both cosines one) is exact:
-/// shear mu a / thickness, normal (lambda + 2 mu) a / thickness.
+/// Returns S at the phases along x and y, eV/Å^2. The uniform mode (both sines zero and both
+/// cosines one) is exact: shear mu a / thickness, normal (lambda + 2 mu) a / thickness.
 SurfaceMatrix surface_stiffness(CellElasticity elasticity, WavePhase x, WavePhase y, int thickness);
 
-/// The inverse of a positive matrix.
+/// Returns the inverse of a positive matrix.
 ASPERITY_INLINE SurfaceMatrix inverse(const SurfaceMatrix& s) {
     const double x = s.yy * s.zz - s.yz * s.yz; // cofactors
     const double y = s.xx * s.zz - s.xz * s.xz;

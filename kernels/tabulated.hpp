@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A potential given by numbers: cubics over equal intervals of r, V0 and V0' continuous. The
-// numbers belong to a PotentialTable (engine/interface/potential_table.hpp), which makes them of a
-// file.
+// numbers belong to a PotentialTable (engine/interface/potential_table.hpp), which makes them from
+// a file.
 #pragma once
 
 #include "kernels/number.hpp"
@@ -11,10 +11,11 @@
 namespace asperity {
 
 struct Tabulated {
-    /// [4 n + k], eV: V0 = c0 + x (c1 + x (c2 + x c3)) in interval n, x from 0 to 1 along it.
+    /// Coefficients of V0 = c0 + x (c1 + x (c2 + x c3)), eV: [4 n + k] in interval n, x from 0 to 1
+    /// along it.
     const double* cubics = nullptr;
     int intervals = 0;
-    double first = 0.0;  ///< where the table begins, Å
+    double first = 0.0;  ///< begin of the table, Å
     double step = 1.0;   ///< length of an interval, Å
     double cutoff = 0.0; ///< Å, within the table
     struct Shape {
@@ -46,7 +47,7 @@ struct Tabulated {
               per_length(same<V>(unit / p.step)), last(same<V>(p.intervals - 1.0)),
               force_scale(1.0 / (p.step * unit)) {}
 
-        /// 1/r
+        /// Returns 1/r.
         ASPERITY_INLINE V begin(V r2) const { return same<V>(1.0) / sqrt(r2); }
         ASPERITY_INLINE void begin(V a, V b, V& oa, V& ob) const {
             const V ra = sqrt(a), rb = sqrt(b), both = same<V>(1.0) / (ra * rb);
@@ -75,7 +76,7 @@ struct Tabulated {
             V of[4], x;
             ASPERITY_INLINE Cubic(const Terms& t, V o, V r2) {
                 const V at = (r2 * o - t.begin_at) * t.per_length;
-                // What is not a number gives the last interval.
+                // An argument that is not a number gives the last interval.
                 const V n = max(min(nearest_whole(at - same<V>(0.5)), t.last), same<V>(0.0));
                 x = at - n;
                 gather_four(t.table, n, of);

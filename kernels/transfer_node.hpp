@@ -14,24 +14,25 @@ template <class V>
 ASPERITY_INLINE V mean(V a, V b) {
     return V(0.5) * (a + b);
 }
-/// On the coarse row's place, between rows low and high (the same row twice on even fine rows).
+/// Returns the mean of rows low and high at the coarse row's place (the same row twice on even fine
+/// rows).
 template <class V>
 ASPERITY_INLINE V mean(const double* low, const double* high) {
     return mean(V::load(low), V::load(high));
 }
-/// Fine node x (counted over the box) between the coarse rows low and high.
+/// Returns the value of fine node x (counted over the box) between the coarse rows low and high.
 ASPERITY_INLINE double interpolated_node(const double* low, const double* high, int x) {
     const int X = x >> 1;
     const double on = mean(low[X], high[X]);
     return (x & 1) ? mean(on, mean(low[X + 1], high[X + 1])) : on;
 }
 
-/// Half, whole and half of three nodes or rows.
+/// Returns half, whole and half of three nodes or rows.
 template <class V>
 ASPERITY_INLINE V restricted(V before, V here, V behind) {
     return V(0.5) * (before + behind) + here;
 }
-/// Force on the coarse node at fine node `at` from the nine around it.
+/// Returns the force on the coarse node at fine node `at` from the nine fine nodes around it.
 ASPERITY_INLINE double restricted_node(const double* at, std::ptrdiff_t row) {
     const auto along_x = [](const double* p) { return restricted(p[-1], p[0], p[1]); };
     return restricted(along_x(at + row), along_x(at), along_x(at - row));

@@ -21,7 +21,7 @@ constexpr std::initializer_list<ProcessorLevel> compiled = {
 #endif
 };
 
-/// Of the running processor; v2 is what every one has that the tables are for.
+/// Returns the level of the running processor; every processor for which the tables exist has v2.
 ProcessorLevel detect() {
 #if ASPERITY_HAS_V2 || ASPERITY_HAS_V3 || ASPERITY_HAS_V4
     __builtin_cpu_init();

@@ -18,8 +18,8 @@
 
 namespace asperity {
 
-/// Halo width of every tile. Two, because the force on a constrained node one site outside the tile
-/// (which its coarse neighbour inside needs) reaches one site further.
+/// Halo width of every tile. It is two, because the force on a constrained node one site outside
+/// the tile (which its coarse neighbour inside needs) reaches one site further.
 inline constexpr int halo_width = 2;
 
 template <class T>
@@ -63,7 +63,7 @@ struct Vector3 {
     ASPERITY_HOST_DEVICE operator Vector3<Other>() const requires(!std::is_same_v<Other, View>) {
         return {x, y, z};
     }
-    ASPERITY_HOST_DEVICE auto operator[](int plane) const { // of a volume: the plane's components
+    ASPERITY_HOST_DEVICE auto operator[](int plane) const { // components of a plane of a volume
         return Vector3<decltype(x[plane])>{x[plane], y[plane], z[plane]};
     }
 };
@@ -73,7 +73,7 @@ using VectorPlane = Vector3<PlaneView<T>>;
 template <class T>
 using VectorVolume = Vector3<VolumeView<T>>;
 
-/// The three components' lines at y.
+/// Returns the lines of the three components at y.
 template <class T>
 std::array<T*, 3> lines(const VectorPlane<T>& plane, int y) {
     return {plane.x.line(y), plane.y.line(y), plane.z.line(y)};

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Kernels of sites over a wall: forces, and sites that come to rest, each under its own force,
-// while the elastic forces stay as they are (engine/equilibrium/wall_minimiser.hpp). All in double
-// precision, but for what the minimiser hands over in single.
+// Kernels of sites over a wall: forces, and the equilibrium of each site under its own force while
+// the elastic forces are held fixed (engine/equilibrium/wall_minimiser.hpp). All in double
+// precision except the single-precision input of the minimiser.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -11,34 +11,37 @@
 
 namespace asperity {
 
-/// A row of sites that come to rest.
+/// A row of sites that move to their equilibria.
 template <class T>
 struct WallRow {
-    const double* below; ///< the wall's height, Å
-    const double* u;     ///< where the sites are, Å
-    const float* step;   ///< how far they went last, Å
+    const double* below; ///< height of the wall, Å
+    const double* u;     ///< places of the sites, Å
+    const float* step;   ///< last moves of the sites, Å
     const T* elastic;    ///< S z, eV/Å, times 1 / norm
-    double* next;        ///< out: where they come to rest, Å
+    double* next;        ///< out: equilibria of the sites, Å
 };
+/// Parameters of an equilibrium over a wall; z is the point at which the elastic force is known.
 struct WallRule {
     double reference_height; ///< Å
-    double spring;           ///< eV/Å^2: of each site to z - (elastic force) / spring
-    double momentum;         ///< z = u + momentum step
-    double norm;
-    double load; ///< on each site, pressing down, eV/Å
+    double spring;           ///< spring from each site to z - (elastic force) / spring, eV/Å^2
+    double momentum;         ///< factor of the last move: z = u + momentum step
+    double norm;             ///< factor of the elastic forces
+    double load;             ///< load on each site, pressing down, eV/Å
 };
+/// Sums over the sites of a row.
 struct WallSums {
-    double furthest = 0.0; ///< |next - z| and the force left on a site over the spring, Å
+    double furthest = 0.0; ///< largest |next - z| and force left on a site over the spring, Å
     double reversal = 0.0; ///< sum of (z - next) (next - u), Å^2
     double height = 0.0;   ///< sum of next, Å
 };
 
-/// Compiled for one processor level.
+/// Kernels of a wall, compiled for one processor level.
 struct WallKernels {
-    /// Forces of rows [row_begin, row_end); [observe]. nearest_r2: the square of the gap, 0 where
-    /// it is negative.
+    /// Computes the forces of rows [row_begin, row_end); [observe]. nearest_r2: the square of the
+    /// gap, 0 if the gap is negative.
     void (*sweep[2])(const InterfaceSites&, const PlaneView<const double>& height, const WallLaw&,
                      int row_begin, int row_end, InterfaceSums&);
+    /// Moves the sites of a row to their equilibria.
     WallSums (*rest_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int sites);
     WallSums (*rest_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int sites);
 };

@@ -15,11 +15,11 @@
 //     U(g) = -A exp(-g/rho)                   g > 0,
 //     U(g) = -A (1 - g/rho) + K g^2 / 2       g <= 0,
 //
-// deepest at g = -A / (rho K), by A + A^2 / (2 rho^2 K). A is such that this is the work of
-// adhesion W, however soft the repulsion: A = 2 W / (1 + sqrt(1 + 2 W / (rho^2 K))).
+// deepest at g = -A / (rho K), by A + A^2 / (2 rho^2 K). A is chosen such that this depth is the
+// work of adhesion W, however soft the repulsion: A = 2 W / (1 + sqrt(1 + 2 W / (rho^2 K))).
 //
-// Each law is one text for all values (number.hpp): In<V> holds it for values of type V. A gap that
-// is not a number gives a force that is none.
+// Each law is one text for all values (number.hpp): Terms<V> holds it for values of type V. A gap
+// that is not a number gives a force that is not a number.
 //
 // Units: Å, eV, eV/Å, for each site.
 #pragma once
@@ -39,7 +39,7 @@ namespace asperity {
 template <class P>
 class SmearedWall {
 public:
-    /// density: atoms per Å^2. tail: neither cut nor shifted.
+    /// Sets the law. density: atoms per Å^2. tail: neither cut nor shifted.
     SmearedWall(const P& potential, double density, bool tail)
         : potential_(potential), plane_(2.0 * std::numbers::pi * density),
           floor_(std::fmax(0.5 * potential.zero(), potential.closest())) {
@@ -60,8 +60,8 @@ public:
     }
 
     template <class V>
-    struct In {
-        explicit In(const SmearedWall& w)
+    struct Terms {
+        explicit Terms(const SmearedWall& w)
             : terms(w.potential_, 1.0), plane(same<V>(w.plane_)),
               scale(same<V>(terms.energy_scale)), force_scale(same<V>(terms.force_scale)),
               shift(same<V>(w.shift_)), reach(same<V>(w.reach_)), floor(same<V>(w.floor_)),
@@ -82,9 +82,9 @@ public:
             const V deeper = below * (force(g) + same<V>(0.5) * stiffness * below);
             return select(gap > reach, same<V>(0.0), of_plane + deeper);
         }
-        /// Where a spring to the gap `target` lets a site come to rest: spring (target - g) +
-        /// force(g) = 0, the attraction's decay beyond its steepest place taken as it is at `gap`.
-        /// By Newton's method from where the site was an iteration before.
+        /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å:
+        /// spring (target - g) + force(g) = 0. The attraction beyond its steepest place is taken
+        /// from `gap`, the gap one iteration before, at which Newton's method starts.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             constexpr int newton_steps = 3;
             const V from = max(steepest, gap);
@@ -95,12 +95,12 @@ public:
                 const V way = (spring * (target - g) + force(g) + pull) / (spring + slope(g));
                 g = max(floor, min(steepest, g + way));
             }
-            // Below the floor the law is linear.
+            // The law is linear below the floor.
             const V push = spring * (target - floor) + force(floor) + pull;
             const V inside = select(push < same<V>(0.0), floor + push / (spring + stiffness), g);
             return select(outside > steepest, outside, inside);
         }
-        /// -dF/dg within the reach and over the floor.
+        /// Returns -dF/dg within the reach and over the floor.
         ASPERITY_INLINE V slope(V g) const {
             const V g2 = g * g, begun = terms.begin(g2);
             const auto difference = [](V a, V b, V c) { return fms(a, b, c); };
@@ -113,20 +113,31 @@ public:
             at_reach;
         V shifted, reach2;
     };
-    double force(double gap) const { return In<double>(*this).force(gap); }
-    double energy(double gap) const { return In<double>(*this).energy(gap); }
-    /// The least stiffness -dF/dg of a site, eV/Å^2: negative.
+    double force(double gap) const { return Terms<double>(*this).force(gap); }
+    double energy(double gap) const { return Terms<double>(*this).energy(gap); }
+    /// Returns -dF/dg at this gap, eV/Å^2.
+    double stiffness_at(double gap) const {
+        if (gap > reach_) return 0.0;
+        return gap < floor_ ? stiffness_ : Terms<double>(*this).slope(gap);
+    }
+    /// Returns how far a site may be below the wall under a force that presses, Å.
+    double depth_under(double force) const {
+        return std::fmax(0.0, (force - this->force(floor_)) / stiffness_ - floor_);
+    }
+    /// Returns the least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return softest_; }
-    /// Over which the attraction fades, Å: about the largest tension over -softest().
+    /// Returns the length over which the attraction fades, Å: about the largest tension over
+    /// -softest().
     double range() const { return 0.5 * potential_.zero(); }
-    /// Sites nearer than this, the largest tension of the law that is not cut, are in contact.
+    /// Returns the gap of the largest tension of the law without cutoff, Å: nearer sites are in
+    /// contact.
     double contact_gap() const { return contact_; }
     double reach() const { return reach_; }
 
 private:
-    /// Where the attraction is largest, -dF/dg = 0, by bisection.
+    /// Returns the gap of the largest attraction, -dF/dg = 0, by bisection.
     double steepest() const {
-        const In<double> law(*this);
+        const Terms<double> law(*this);
         double low = potential_.zero(), high = potential_.inflection();
         while (law.slope(high) > 0.0)
             high *= 1.5;
@@ -136,9 +147,10 @@ private:
             (law.slope(middle) > 0.0 ? low : high) = middle;
         }
     }
-    /// By golden section beyond the steepest place, where the stiffness has one minimum.
+    /// Returns the minimum of the stiffness, by golden section beyond the steepest place, where it
+    /// has one minimum.
     double least_stiffness() const {
-        const In<double> law(*this);
+        const Terms<double> law(*this);
         const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
         double low = steepest_, high = 2.0 * steepest_;
         while (high - low > 1e-9 * steepest_) {
@@ -150,25 +162,26 @@ private:
 
     P potential_;
     double plane_; ///< 2 pi n, 1/Å^2
-    double floor_; ///< below this the force goes on linearly
+    double floor_; ///< gap below which the force is continued linearly
     double reach_ = 0.0, shift_ = 0.0;
-    double stiffness_ = 0.0;                    ///< at the floor
-    double steepest_ = 0.0, force_there_ = 0.0; ///< of the attraction's largest
+    double stiffness_ = 0.0;                    ///< stiffness at the floor
+    double steepest_ = 0.0, force_there_ = 0.0; ///< gap and value of the largest attraction
     double at_reach_ = 0.0, contact_ = 0.0, softest_ = 0.0;
 };
 
+/// Exponential attraction over a linear repulsion.
 class ExponentialWall {
 public:
     ExponentialWall() = default;
-    /// adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
+    /// Sets the law. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
     ExponentialWall(double adhesion, double range, double stiffness)
         : adhesion_(2.0 * adhesion /
                     (1.0 + std::sqrt(1.0 + 2.0 * adhesion / (range * range * stiffness)))),
           range_(range), stiffness_(stiffness), tension_(adhesion_ / range) {}
 
     template <class V>
-    struct In {
-        explicit In(const ExponentialWall& w)
+    struct Terms {
+        explicit Terms(const ExponentialWall& w)
             : adhesion(same<V>(w.adhesion_)), rate(same<V>(1.0 / w.range_)),
               stiffness(same<V>(w.stiffness_)), tension(same<V>(w.tension_)) {}
 
@@ -180,7 +193,8 @@ public:
             const V into = min(same<V>(0.0), gap);
             return into * (tension + same<V>(0.5) * stiffness * into) - adhesion * decay(gap);
         }
-        /// As above, exactly.
+        /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
+        /// exact for a given `gap` in the attraction.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             const V pull = spring * target - tension * decay(gap);
             return select(pull > same<V>(0.0), pull / spring, pull / (spring + stiffness));
@@ -189,21 +203,29 @@ public:
         V adhesion, rate, stiffness, tension;
 
     private:
-        /// exp(-g/rho); 1 for g < 0, 0 beyond `ranges` ranges.
+        /// Returns exp(-g/rho); 1 for g < 0, 0 beyond `ranges` ranges.
         ASPERITY_INLINE V decay(V gap) const {
             const V x = rate * max(same<V>(0.0), gap);
             return select(x > same<V>(ranges), same<V>(0.0), exponential(-x));
         }
     };
-    double force(double gap) const { return In<double>(*this).force(gap); }
-    double energy(double gap) const { return In<double>(*this).energy(gap); }
+    double force(double gap) const { return Terms<double>(*this).force(gap); }
+    double energy(double gap) const { return Terms<double>(*this).energy(gap); }
+    /// Returns -dF/dg at this gap, eV/Å^2.
+    double stiffness_at(double gap) const {
+        return gap < 0.0 ? stiffness_ : Terms<double>(*this).force(gap) / range_;
+    }
+    /// Returns how far a site may be below the wall under a force that presses, Å.
+    double depth_under(double force) const {
+        return (std::fmax(0.0, force) + tension_) / stiffness_;
+    }
     double softest() const { return -tension_ / range_; }
     double range() const { return range_; }
-    /// Sites that touch the repulsion are in contact.
+    /// Returns the gap below which a site is in contact, Å: sites that touch the repulsion.
     double contact_gap() const { return 0.0; }
     double reach() const { return adhesion_ > 0.0 ? ranges * range_ : 0.0; }
     double stiffness() const { return stiffness_; }
-    double tension() const { return tension_; } ///< the largest, at g = 0
+    double tension() const { return tension_; } ///< returns the largest tension, that at g = 0
 
 private:
     static constexpr double ranges = 32.0; ///< e^-32 = 1.3e-14: nothing beyond
@@ -212,7 +234,7 @@ private:
     double range_ = 1.0, stiffness_ = 0.0, tension_ = 0.0;
 };
 
-/// The smeared walls of those potentials that have a moment().
+/// Smeared walls of the potentials that have a moment().
 template <class P>
 using SmearedWallsOf = std::conditional_t<P::has_tail, std::tuple<SmearedWall<P>>, std::tuple<>>;
 template <class... Law>

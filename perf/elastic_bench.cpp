@@ -57,7 +57,7 @@ void advance(benchmark::State& state, CellStrain strain, const LevelCell& cell, 
     Kick kick;
     kick.kick = 1e-6;
     kick.damped = damped;
-    kick.keep = kick.damped ? 0.999 : 1.0;
+    kick.velocity_factor = kick.damped ? 0.999 : 1.0;
     KickSums sums;
     for (auto _ : state)
         for (int y = 0; y < n; y += band)

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The area factor S of A*(ζ) = A(ζ) S(q): how much larger the area that follows the roughness is
-// than its projection; s = <|∇h|²> of all roughness up to q. Eq. (3) does not say how A* is
-// computed.
+// The area factor S of A*(ζ) = A(ζ) S(q): the ratio of the area that follows the roughness to its
+// projection; s = <|∇h|²> of all roughness up to q. Eq. (3) does not say how A* is computed.
 #pragma once
 
 namespace asperity::theory {
 
+/// Definition of the area factor S(s).
 enum class AreaFactor {
     gaussian,    ///< mean of √(1+|∇h|²) over Gaussian slopes of variance s
     small_slope, ///< 1 + s/2, its first two terms
     none,        ///< A* = A
-    lattice, ///< 1/(1 + c s): what a tilted interface of two lattices binds (flat_interface.hpp)
+    lattice, ///< 1/(1 + c s): binding of a tilted interface of two lattices (flat_interface.hpp)
 };
 
-/// S(s), 1 at s = 0; c: of `lattice`.
+/// Returns S(s), 1 at s = 0. c: tilt cost of `lattice`.
 [[nodiscard]] double area_factor(AreaFactor reading, double slope_variance, double c = 0);
 
 } // namespace asperity::theory

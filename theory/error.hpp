@@ -10,17 +10,18 @@
 
 namespace asperity::theory {
 
-/// The request itself makes no sense (a negative modulus, an unsorted table).
+/// Error of a request that makes no sense (a negative modulus, an unsorted table).
 struct InvalidInput : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-/// The request is sound but has no answer (a contact past pull-off, a root that does not exist).
+/// Error of a sound request without an answer (a contact past pull-off, a root that does not
+/// exist).
 struct NoSolution : std::domain_error {
     using std::domain_error::domain_error;
 };
 
-/// "a = 3 is ..." from pieces of text and numbers, with enough digits to act upon.
+/// Joins pieces of text and numbers to a message, "a = 3 is ...", with ten significant digits.
 template <class... Parts>
 [[nodiscard]] std::string message(const Parts&... parts) {
     std::ostringstream text;

@@ -23,7 +23,7 @@ FlatInterface start(const PairInteraction& pair, double spacing) {
     return flat;
 }
 
-/// Rings at Gauss points of R dR, `per_area` atoms for each area there.
+/// Adds rings at Gauss points of R dR, `per_area` atoms for each area there.
 void add_rings(double from, double to, double per_area, std::vector<FlatInterface::Ring>& rings) {
     using Rule = boost::math::quadrature::gauss<double, 20>;
     for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
@@ -34,7 +34,8 @@ void add_rings(double from, double to, double per_area, std::vector<FlatInterfac
         }
 }
 
-/// sideways2: mean square distance of a site from the nearest atom, along the surface.
+/// Completes the interface. sideways2: mean square distance of a site from the nearest atom, along
+/// the surface.
 FlatInterface complete(FlatInterface flat, double per_area, double sideways2) {
     const PairInteraction& pair = flat.pair;
     if (pair.tail) add_rings(pair.cutoff, tail_rings * pair.cutoff, per_area, flat.rings);

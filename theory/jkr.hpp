@@ -6,12 +6,12 @@
 
 namespace asperity::theory::jkr {
 
-/// Eq. (6): where a controlled load pulls off, F = (3/2) π γ R.
+/// Returns the pull-off force under a controlled load, Eq. (6): F = (3/2) π γ R.
 [[nodiscard]] double pull_off_force(double gamma, double radius);
-/// γ from a measured pull-off force.
+/// Returns γ from a measured pull-off force.
 [[nodiscard]] double work_from_pull_off(double force, double radius);
-/// γ from the energy U > 0 that it takes to part a sphere without a load (JKR 1971),
-/// U = (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}), K = 4E*/3. It needs no largest force.
+/// Returns γ from the energy U > 0 needed to separate a sphere without a load (JKR 1971), U =
+/// (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}), K = 4E*/3. It needs no largest force.
 [[nodiscard]] double work_from_binding_energy(double energy, double radius, double contact_modulus);
 
 } // namespace asperity::theory::jkr

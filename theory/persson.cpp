@@ -30,12 +30,12 @@ namespace asperity::theory {
 namespace {
 
 constexpr double tolerance = 1e-3;   ///< on γ_eff/Δγ and A/A0
-constexpr double least_error = 5e-5; ///< where two grids agree by chance
+constexpr double least_error = 5e-5; ///< two grids may agree by chance
 constexpr int finest = 3;            ///< level of the finest grid that is tried
 constexpr double spacing_of(int level) { return 0.32 / (1 << level); }
 constexpr int cells_of(int level) { return 160 << level; }
 
-/// The root between a and b, at which f has opposite signs.
+/// Returns the root between a and b, at which f has opposite signs.
 template <class F>
 double root_between(F&& f, double a, double b, double fa, double fb, double close_enough) {
     if (fa == 0 || fb == 0) return fa == 0 ? a : b;
@@ -46,8 +46,8 @@ double root_between(F&& f, double a, double b, double fa, double fb, double clos
     return (bracket.first + bracket.second) / 2;
 }
 
-/// The root of a rising function next to x, looked for up to `reach` from
-/// it in steps that grow from `step`.
+/// Returns the root of a rising function next to x, looked for up to `reach` from x in steps that
+/// grow from `step`.
 template <class F>
 std::optional<double> root_near(F&& f, double x, double step, double reach, double close_enough) {
     double fx = f(x);
@@ -81,7 +81,7 @@ public:
         return pressing_ ? lowest_ + x * (highest_ - lowest_)
                          : lowest_ + contact_.work_of_adhesion * std::exp(x);
     }
-    /// γ_eff(ζ_1)/Δγ - 1; in units of the energies that are exchanged.
+    /// Returns γ_eff(ζ_1)/Δγ - 1; under a load the energy (γ_eff(ζ_1) - Δγ) A.
     [[nodiscard]] double excess(double x, double* area = nullptr) const {
         const StressPath found = path(g0(x));
         if (area != nullptr) *area = found.area.back();
@@ -89,7 +89,8 @@ public:
         return (found.gamma.back() - contact_.work_of_adhesion) * found.area.back();
     }
 
-    /// x of the largest g0, from nothing. `missed`: the least excess if there is none.
+    /// Returns x of the largest g0, searched without a start. `missed`: the least excess if there
+    /// is none.
     [[nodiscard]] std::optional<double> search(double& missed) const {
         missed = std::numeric_limits<double>::infinity();
         if (!(highest_ > lowest_)) return std::nullopt;
@@ -111,7 +112,7 @@ public:
         }
         return pressing_ ? std::optional(0.0) : std::nullopt;
     }
-    /// From the root on a coarser grid.
+    /// Returns x of the largest g0, next to the root on a coarser grid.
     [[nodiscard]] std::optional<double> follow(double x, double& missed) const {
         const double step = pressing_ ? 1e-3 : 1e-2;
         const auto near =
@@ -119,7 +120,8 @@ public:
         return near ? near : search(missed);
     }
 
-    /// The excess where the adhesive branch ends: g0 at its lower end, or zero under a load.
+    /// Returns the excess at the end of the adhesive branch: g0 at its lower end, or zero under a
+    /// load.
     [[nodiscard]] double excess_at_end() const {
         if (!(highest_ > lowest_)) return 1.0; // pulled harder than even full contact bears
         if (pressing_) return excess(-lowest_ / (highest_ - lowest_));
@@ -136,12 +138,12 @@ public:
 private:
     const AdhesiveContact& contact_;
     int cells_;
-    double close_; ///< of a root; that of the coarse grid is followed up
+    double close_; ///< tolerance of a root; that of the coarse grid is followed up
     bool pressing_;
-    double lowest_ = 0, highest_ = 0; // of g0
+    double lowest_ = 0, highest_ = 0; // limits of g0
 };
 
-/// From a path, whose first point is ζ = 1.
+/// Returns the state of a path, whose first point is ζ = 1.
 ContactState state_of(const AdhesiveContact& c, const Magnifications& at, const StressPath& path) {
     ContactState s;
     s.gamma_eff = path.gamma.front();
@@ -160,7 +162,8 @@ ContactState state_of(const AdhesiveContact& c, const Magnifications& at, const 
     return s;
 }
 
-/// Contact is full for all magnifications, if the roughness never comes into reach of the boundary.
+/// Returns the state of full contact at all magnifications, if the distribution never meets the
+/// boundary.
 std::optional<ContactState> conforming(const AdhesiveContact& c) {
     if (c.spectrum.smooth()) {
         const double g = c.work_of_adhesion, q_L = c.spectrum.q_L();
@@ -175,7 +178,7 @@ std::optional<ContactState> conforming(const AdhesiveContact& c) {
     return state_of(c, grid.at, path);
 }
 
-/// On one grid; x: of the root, from that on a coarser one.
+/// Solves on one grid. x: the root, started from that on a coarser grid.
 std::optional<ContactState> solve_on(const OnGrid& grid, const AdhesiveContact& c,
                                      std::optional<double>& x, double& missed) {
     if (c.work_of_adhesion > 0) {
@@ -225,7 +228,8 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c) {
         scaled.spectrum = c.spectrum.with_rms_height(std::exp(log_h));
         return scaled;
     };
-    // Where adhesion would end if the area were fixed and S one: the natural scale of h.
+    // Adhesion would end at this roughness if the area were fixed and S one: the natural scale of
+    // h.
     double log_h =
         0.5 * std::log(c.work_of_adhesion / full_contact(at_roughness(0)).elastic_energy);
     constexpr double reach = 25;

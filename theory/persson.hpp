@@ -4,10 +4,11 @@
 // Persson's theory of adhesive contact between randomly rough elastic solids, Eqs. (1) to (5) of
 // Mulakaluri and Persson, at any load and for any isotropic spectrum.
 //
-// Equations as read: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq. (3) is the
-// energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. Eq. (2) is solved
-// by finite volumes (stress_distribution.hpp), once on a coarse and once on a grid twice as fine in
-// both directions; the difference is the error reported. Less than 0.1 s a state as a rule.
+// Interpretation of the equations: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq.
+// (3) is the energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. Eq.
+// (2) is solved by finite volumes (stress_distribution.hpp) on a coarse grid and on a grid twice as
+// fine in both directions; the difference is the reported error. A state takes less than 0.1 s as a
+// rule.
 #pragma once
 
 #include <string_view>
@@ -18,56 +19,58 @@
 
 namespace asperity::theory {
 
-/// What is pressed (or pulled) against what. Units: any consistent set.
+/// Contact of an elastic solid with a rough surface. Units: any consistent set.
 struct AdhesiveContact {
     Spectrum spectrum;
     double contact_modulus = 0;  ///< E* = E/(1-ν²) [stress]
     double work_of_adhesion = 0; ///< Δγ [energy/area], 0: no adhesion
-    double pressure = 0;         ///< p = F_N/A0 [stress], positive pressing, negative pulling
-    double beta = 0.45;          ///< β in W = a [β + (1-β) a²], 0..1
+    double pressure = 0; ///< p = F_N/A0 [stress], positive for pressing, negative for pulling
+    double beta = 0.45;  ///< β in W = a [β + (1-β) a²], 0..1
     AreaFactor area_factor = AreaFactor::gaussian;
     double tilt_cost = 0; ///< c of AreaFactor::lattice
 };
 
-/// Fraction of the elastic energy of full contact stored at area fraction a (Yang and Persson).
+/// Returns the elastic energy at area fraction a over that of full contact (Yang and Persson).
 [[nodiscard]] inline double energy_fraction(double a, double beta) {
     return a * (beta + (1 - beta) * a * a);
 }
 
+/// State of the contact.
 enum class Status {
     adhesive,   ///< γ_eff(1) > 0: bound without any load
     pressed,    ///< in contact, but only because of the load: γ_eff(1) <= 0
-    no_contact, ///< the surfaces come apart: everything below is exactly zero
+    no_contact, ///< the surfaces come apart: all results are exactly zero
 };
 
-/// Everything at one magnification.
+/// State of the contact at one magnification.
 struct ProfilePoint {
     double q = 0;                 ///< ζ q_L [1/length]
     double zeta = 1;              ///< q/q_L
     double area = 1;              ///< A(ζ)/A0, projected
     double real_area = 1;         ///< A*(ζ)/A0
-    double gamma_eff = 0;         ///< γ_eff(ζ) as Eq. (3) gives it, any sign [energy/area]
+    double gamma_eff = 0;         ///< γ_eff(ζ) of Eq. (3), any sign [energy/area]
     double detachment_stress = 0; ///< σ_a(ζ) [stress]
     double elastic_energy = 0;    ///< U_el(ζ)/A0: roughness from q to q1 [energy/area]
-    double stress_variance = 0;   ///< T(q), at full contact [stress²]
+    double stress_variance = 0;   ///< T(q) at full contact [stress²]
 };
 
+/// Solution of Eqs. (2) to (5).
 struct ContactState {
     Status status = Status::no_contact;
     double gamma_eff = 0;         ///< γ_eff(1) [energy/area]; negative if `pressed`
     double gamma_ratio = 0;       ///< γ_eff(1)/Δγ; 0 if Δγ = 0
     double area = 0;              ///< A(ζ_1)/A0
     double elastic_energy = 0;    ///< U_el(1)/A0 [energy/area]
-    double gamma_ratio_error = 0; ///< of gamma_ratio, by the difference of the last two grids
+    double gamma_ratio_error = 0; ///< error of gamma_ratio: difference of the last two grids
     double area_error = 0;
-    bool converged = true; ///< both errors are below 1e-3 (that of a ratio above 1: relative)
-    std::vector<ProfilePoint> profile; ///< on the finest grid, from ζ = 1 to ζ_1
+    bool converged = true; ///< the two errors are below 1e-3 (that of a ratio above 1: relative)
+    std::vector<ProfilePoint> profile; ///< states on the finest grid, from ζ = 1 to ζ_1
 };
 
-/// Solves Eqs. (2) to (5).
+/// Solves Eqs. (2) to (5). Throws InvalidInput if the contact makes no sense.
 [[nodiscard]] ContactState solve(const AdhesiveContact& contact);
 
-/// A = A0 throughout: γ_full = Δγ S(q1) - (π/2) E* ∫ q² C dq.
+/// State with A = A0 at all magnifications: γ_full = Δγ S(q1) - (π/2) E* ∫ q² C dq.
 struct FullContactState {
     double gamma = 0;          ///< [energy/area], any sign
     double elastic_energy = 0; ///< U_el/A0 [energy/area]
@@ -75,16 +78,18 @@ struct FullContactState {
 };
 [[nodiscard]] FullContactState full_contact(const AdhesiveContact& contact);
 
-/// The roughness at which adhesion ends: at zero load γ_eff and A vanish there together; pressing,
-/// γ_eff(1) goes through zero; pulling, the last roughness that withstands the pull. The spectrum
-/// gives the shape only. NoSolution if adhesion does not end.
+/// Roughness at which adhesion ends. At zero load γ_eff and A vanish there together; under pressure
+/// γ_eff(1) goes through zero; under tension it is the last roughness that withstands the pull. The
+/// spectrum gives the shape only.
 struct CriticalRoughness {
-    double h_rms = 0, error = 0;   ///< h_c [length]
-    double full_contact_h_rms = 0; ///< where the full-contact approximation vanishes [length]
+    double h_rms = 0, error = 0; ///< h_c [length]
+    /// Rms height at which the full-contact approximation vanishes [length]
+    double full_contact_h_rms = 0;
 };
+/// Returns the roughness at which adhesion ends. Throws NoSolution if adhesion does not end.
 [[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact);
 
-/// E* = E/(1-ν²), one body rigid.
+/// Returns E* = E/(1-ν²), one body rigid.
 [[nodiscard]] double contact_modulus(double youngs_modulus, double poisson_ratio);
 
 [[nodiscard]] std::string_view name(Status status);

@@ -5,9 +5,9 @@
 //     <h²> = 2π ∫ q C(q) dq,   <|∇h|²> = 2π ∫ q³ C(q) dq.
 //
 // A power law with roll-off and the ring averages of a surface are both pieces on which C = c
-// (q/qa)^n. On such a piece every moment has a closed form (a logarithm where the exponents cancel,
-// as at H = 1), however wide or narrow the spectrum. Gaps are wavevectors that no piece covers.
-// Units: any consistent set; q in 1/length, C in length⁴ (e.g. Å and Å⁴).
+// (q/qa)^n. On each piece every moment has a closed form (a logarithm if the exponents cancel, as
+// at H = 1), however wide or narrow the spectrum. Gaps are wavevectors that no piece covers. Units:
+// any consistent set; q in 1/length, C in length⁴ (e.g. Å and Å⁴).
 #pragma once
 
 #include <span>
@@ -15,10 +15,11 @@
 
 namespace asperity::theory {
 
-/// C constant for q_L <= q < q0, ∝ q^(-2(1+H)) for q0 <= q <= q1, zero otherwise.
+/// Spectrum C that is constant for q_L <= q < q0, ∝ q^(-2(1+H)) for q0 <= q <= q1, and zero
+/// otherwise.
 struct SelfAffine {
-    double q_L = 0, q0 = 0,
-           q1 = 0;    ///< smallest, roll-off (q_L: none), largest wavevector [1/length]
+    /// Smallest, roll-off (q_L: none) and largest wavevector [1/length].
+    double q_L = 0, q0 = 0, q1 = 0;
     double hurst = 0; ///< H, usually 0..1
     double h_rms = 0; ///< rms roughness [length]
 };
@@ -30,41 +31,44 @@ struct Magnification {
     double energy = 0; ///< M2(q) = ∫ q² C dq [length]
 };
 
-/// C = c (q/qa)^exponent on [qa, qb].
+/// Piece C = c (q/qa)^exponent on [qa, qb].
 struct PowerLaw {
     double qa = 0, qb = 0, c = 0, exponent = 0;
 };
 
+/// The roughness power spectrum C(q) by pieces.
 class Spectrum {
 public:
-    /// Power law with roll-off, scaled to h_rms.
+    /// Returns a power law with roll-off, scaled to h_rms.
     static Spectrum self_affine(const SelfAffine& options);
 
-    /// Ring averages of a surface: C[k] between edges[k] and edges[k+1]. The first edge is q_L even
-    /// where C is zero there.
+    /// Returns the ring averages of a surface: C[k] between edges[k] and edges[k+1]. The first edge
+    /// is q_L even if C is zero there.
     static Spectrum rings(std::span<const double> edges, std::span<const double> C);
 
-    /// The same shape at another roughness; 0 is smooth, and remembers the shape.
+    /// Returns the same shape with another rms height; 0 is smooth, and remembers the shape.
     [[nodiscard]] Spectrum with_rms_height(double h_rms) const;
 
-    [[nodiscard]] double operator()(double q) const; ///< C(q) [length⁴]
+    [[nodiscard]] double operator()(double q) const; ///< returns C(q) [length⁴]
     [[nodiscard]] double q_L() const { return q_smallest_; }
     [[nodiscard]] double q1() const { return q_largest_; }
-    [[nodiscard]] double rms_height() const; ///< √(2π ∫ q C dq) [length]
-    [[nodiscard]] double rms_slope() const;  ///< √(2π ∫ q³ C dq) [1]
+    [[nodiscard]] double rms_height() const; ///< returns √(2π ∫ q C dq) [length]
+    [[nodiscard]] double rms_slope() const;  ///< returns √(2π ∫ q³ C dq) [1]
 
+    /// Returns the moments of all roughness up to q.
     [[nodiscard]] Magnification at(double q) const;
     [[nodiscard]] Magnification last() const { return at(q_largest_); }
-    /// At q = q_first e^L, q_first the smallest wavevector with any roughness: next to it the
-    /// moments depend on the digits of L and not on those of q.
+    /// Returns the moments up to q = q_first e^L; q_first is the smallest wavevector with any
+    /// roughness. Next to q_first the moments depend on the digits of L and not on those of q.
     [[nodiscard]] Magnification from_first(double L) const;
 
-    /// ln(q/q_first) of the two ends and of the edges of gaps, ascending; first 0.
+    /// Returns ln(q/q_first) of the two ends and of the edges of gaps, ascending; the first is 0.
     [[nodiscard]] std::vector<double> edges() const;
-    /// The whole spectrum.
+    /// Returns the pieces of the whole spectrum.
     [[nodiscard]] std::vector<PowerLaw> pieces() const;
 
-    [[nodiscard]] bool smooth() const { return flat_ || segments_.empty(); } ///< no roughness
+    /// Returns true without any roughness
+    [[nodiscard]] bool smooth() const { return flat_ || segments_.empty(); }
 
 private:
     struct Segment : PowerLaw {

@@ -44,7 +44,7 @@ public:
         }
     }
 
-    /// A normal distribution of the stress about p, seen from the boundary b.
+    /// Starts with a normal distribution of the stress about p, seen from the boundary b.
     void start(double b, double p, double T, double length) {
         double before = normal_below((-b - p) / std::sqrt(T));
         for (std::size_t k = 0; k < count_; ++k) {
@@ -54,8 +54,8 @@ public:
         }
     }
 
-    /// The area left once the boundary has moved by db, the length from l0 to l1 and the variance
-    /// by dT. The state stays what it was until accept().
+    /// Returns the area left after the boundary has moved by db, the length from l0 to l1 and the
+    /// variance by dT. The state does not change until accept().
     double advance(double db, double l0, double l1, double dT) {
         const double l2 = l0 * l1, D = dT / (2 * l2), dl = l1 - l0, l = std::sqrt(l2);
         // Through face k flows left_[k] times the density on its left less right_[k] times that on
@@ -90,7 +90,7 @@ public:
     }
     void accept() { mass_.swap(next_); }
 
-    /// The same P about another boundary and length.
+    /// Transfers the same P to another boundary and length.
     void carry_over(double b0, double l0, double b1, double l1) {
         std::size_t k = 0;
         double below = 0, previous = 0; // mass below face k, below the last new face
@@ -123,7 +123,7 @@ Magnifications magnifications(const AdhesiveContact& c, double spacing) {
             area_factor(c.area_factor, 2 * std::numbers::pi * m.slope, c.tilt_cost));
     };
     // L = ln(q/q_first), q_first the smallest wavevector with any roughness.
-    constexpr double first = -75; // of ln(q/q_first - 1): T is 1e-32 of the whole
+    constexpr double first = -75; // start of ln(q/q_first - 1): T is 1e-32 of the whole
     const std::vector<double> edges = c.spectrum.edges();
     const double last = edges.back();
     std::vector<double> marks(edges.begin() + 1, edges.end());
@@ -183,7 +183,7 @@ StressPath stress_path(const AdhesiveContact& c, const Magnifications& at, doubl
 
     StressCells stress(cells);
     stress.start(b, c.pressure, at.T[path.start], l);
-    double rate = 0; // of the area in ln T, over the step before
+    double rate = 0; // rate of the area in ln T, over the step before
     for (std::size_t i = path.start + 1; i < n; ++i) {
         const double dT = at.T[i] - at.T[i - 1], d_energy = at.energy[i] - at.energy[i - 1];
         const double area0 = area, energy0 = energy, b0 = b, l0 = l;

@@ -56,7 +56,9 @@ for row in rows("fig5-equilibrium.csv"):
     points.setdefault(float(row["surface.rms"]), []).append(row)
 paths = {float(r["surface.rms"]): r for r in rows("fig5.csv")}
 table, cells = [], [["h_rms, Å", "in, averaged, 5 m/s", "out, 5 m/s", "by energy, surface 1", "by energy, six places",
-                     "flat, renormalised theory", "Maugis' λ of that law", "law's sphere, by force", "law's sphere, by energy"]]
+                     "flat, renormalised theory", "Maugis' λ of the smooth sphere",
+                     "smooth sphere with the renormalised potential, by force",
+                     "smooth sphere with the renormalised potential, by energy"]]
 for rms, these in points.items():
     one = these[0]
     flat, w = float(one["delta_gamma"]), float(one["theory.renormalised.gamma_eff"]) / 1e3

@@ -40,7 +40,7 @@ with style():
     work.set(xscale="log", ylim=(0, None), xlabel="velocity (m/s)", ylabel="work of the pull-off (meV/Å²)")
     v = np.geomspace(0.01, 1e4, 40)
     crack.plot(v, [rate.steady(x, 300) for x in v], color=GREY, lw=1.2, label="infinite solid, same law")
-    crack.plot(v, opening_factor([(rate.RATIO, rate.TIME)], v, 21.8), ":", color=GREEN, lw=1.4, label="Persson and Brener, $a_0$ = 21.8 nm")
+    crack.plot(v, opening_factor([(rate.RATIO, f"{rate.TIME} ns")], v, "21.8 nm"), ":", color=GREEN, lw=1.4, label="Persson and Brener, $a_0$ = 21.8 nm")
     for column, colour, marker, label in ((1, RED, "s", "strip of 64 nm"), (4, BLUE, "o", "strips, as 1/H → 0")):
         some = [(float(r[column]), float(r[0])) for r in rows("rate-crack.csv") if r[column] and float(r[0]) > 1]
         crack.plot(*np.array(some).T, marker, color=colour, ms=4.5, mfc="none", label=label)

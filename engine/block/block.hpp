@@ -11,15 +11,14 @@
 // Data of a level: u (displacement) and v (velocity at the half step), three arrays each; and
 // `transferred`, the forces handed to its lowest plane from below: by the interface on level 0, by
 // the constrained plane of the level below on the others. A step goes
-//
 //   interpolate()  constrained planes follow     needs u with halos
 //   (interface)    fills transferred of level 0  needs u of the lowest plane
-//   advance()      level by level from below: forces and kick; force on the upper plane, handed to
+//   advance()      level by level from below: forces and kick; force on the upper plane, passed to
 //                  the level above; drift of u in place, row after row behind the forces
 //   exchange()     halos of u
 //
-// Each node's arithmetic is the same whatever tile or thread does it, so states are bitwise
-// identical.
+//
+// Each node's arithmetic is the same on any tile and thread, so states are bitwise identical.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -37,46 +36,48 @@ namespace asperity {
 
 /// A spring in series with a dashpot, beside the block's own springs.
 struct Branch {
-    double ratio = 0.0; ///< modulus over the block's
-    double time = 0.0;  ///< that its stress falls to 1/e in, fs
+    double ratio = 0.0; ///< modulus over that of the block
+    double time = 0.0;  ///< relaxation time: the stress falls to 1/e in it, fs
 };
 
+/// Shape, elasticity and resolution of a block.
 struct BlockOptions {
     int sites = 512;      ///< atoms across the box, N
     double spacing = 2.6; ///< a, Å
-    double young = 0.0;   ///< eV/Å^3
+    double young = 0.0;   ///< Young's modulus, eV/Å^3
     double poisson = 0.42;
     double atom_mass = 0.0; ///< eV fs^2/Å^2
-    int thickness = 512;    ///< cells of edge a
+    int thickness = 512;    ///< number of cells of edge a
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
-    std::vector<Branch> branches{}; ///< of a block that relaxes, without inertia
+    std::vector<Branch> branches{}; ///< branches of a block that relaxes, without inertia
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
-    /// E/(1 - nu^2), eV/Å^3
+    /// Returns E/(1 - nu^2), eV/Å^3.
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
-    /// Of the box's longest wave, at the lowest layer of a block that is not thin: E* q_L / 2,
-    /// eV/Å^4. Thin blocks are stiffer.
+    /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not
+    /// thin: E* q_L / 2, eV/Å^4. Thin blocks are stiffer.
     double softest_wave() const { return contact_modulus() * std::numbers::pi / (sites * spacing); }
-    /// Speed of longitudinal waves, Å/fs.
+    /// Returns the speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;
-    /// Largest angular frequency of the bulk lattice with the interface's stiffness per site
-    /// (eV/Å^2) added to a surface atom, 1/fs.
+    /// Returns the largest angular frequency of the bulk lattice with the interface's stiffness per
+    /// site (eV/Å^2) added to a surface atom, 1/fs.
     double highest_frequency(double site_stiffness) const;
 };
 
+/// Number of a level, its nodes and its layers.
 struct LevelShape {
     int level = 0;
     int sites = 0; ///< nodes across the box
     int cells = 0; ///< layers
 };
-/// Levels that fill the thickness exactly, each at least layers_per_level cells thick, coarsening
-/// twofold while the box and the remaining thickness allow it.
+/// Returns levels that fill the thickness exactly, each at least layers_per_level cells thick,
+/// coarsening twofold while the box and the remaining thickness allow it.
 std::vector<LevelShape> level_shapes(const BlockOptions& options);
-/// Nodes of all of them together.
+/// Returns the number of nodes of all levels.
 double nodes_of(const std::vector<LevelShape>& levels);
 
 /// Parameters of a step (drive.hpp), from which the block makes coefficients for each plane.
@@ -84,40 +85,43 @@ struct StepParameters {
     double dt = 0.0;              ///< fs
     double damping = 0.0;         ///< Gamma, 1/fs
     double damping_from = 0.0;    ///< fraction of the thickness above which damping acts
-    double medium_velocity = 0.0; ///< of the top plane, Å/fs
+    double medium_velocity = 0.0; ///< velocity of the top plane, Å/fs
     bool observe = false;         ///< sum the kinetic energy
     bool operator==(const StepParameters&) const = default;
 };
 
+/// The elastic block: this rank's tiles of all levels.
 class Block {
 public:
-    /// Rows are worked on in bands of so many.
+    /// Number of rows in a band, the unit of work.
     static constexpr int band = band_rows;
-    /// Below this many nodes a level's work is done sooner than threads are woken.
+    /// Number of nodes below which a level is faster without threads.
     static constexpr long long worth_threads = 8192;
 
+    /// A level on this rank: its tile, constants and fields.
     struct Level {
         LevelShape shape;
         Tile tile;
         bool tiled = false;
-        double node_mass = 0.0; ///< of a node inside, eV fs^2/Å^2
-        double depth = 0.0;     ///< of its lowest plane, in cells of edge a
+        double node_mass = 0.0; ///< mass of a node inside, eV fs^2/Å^2
+        double depth = 0.0;     ///< depth of its lowest plane, in cells of edge a
         CellElasticity elasticity;
         Stencil lower, inner, upper;
         VectorField<double> u, transferred;
         VectorField<double> v;
-        VectorField<double> upper_force; ///< on the prescribed plane; one plane
+        VectorField<double> upper_force; ///< force on the prescribed plane; one plane
 
         std::size_t bytes() const;
         double edge(double a) const { return a * (1 << shape.level); }
-        /// Mass of a node of plane z, eV fs^2/Å^2.
+        /// Returns the mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
-        /// Nodes of this tile that move.
+        /// Returns the number of this tile's nodes that move.
         long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * shape.cells; }
-        /// The first plane at this fraction of the block's thickness or above it; shape.cells if
-        /// none is. Decides which nodes are damped, and which feel noise.
+        /// Returns the first plane at this fraction of the block's thickness or above it,
+        /// shape.cells if there is none. The plane decides which nodes are damped and receive
+        /// noise.
         int first_plane_from(double share_of_thickness, int thickness) const;
-        /// For the kernels; a: the spacing of atoms, Å.
+        /// Returns the cell for the kernels. a: spacing of the atoms, Å.
         LevelCell cell(double a) const { return {edge(a), elasticity}; }
         ElasticLevel view(double a);
     };
@@ -128,7 +132,7 @@ public:
     const ProcessGrid& grid() const { return grid_; }
     const Communicator& communicator() const { return communicator_; }
     const std::vector<Level>& levels() const { return levels_; }
-    /// Of a level of this block, to be written to.
+    /// Fields of a level of this block, for writing.
     struct Fields {
         VectorField<double>&u, &v, &transferred;
     };
@@ -140,40 +144,47 @@ public:
     VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
     VectorPlane<double> interface_force() { return levels_.front().transferred.plane(0); }
 
-    /// Everything displaced (0, 0, z) and moving with velocity (0, 0, w).
+    /// Displaces the whole block by (0, 0, z), Å, and sets its velocity to (0, 0, w), Å/fs.
     void set_uniform(double z, double w);
-    /// The top plane's displacement along z, Å.
+    /// Sets the top plane's displacement along z, Å.
     void set_top(double z);
     double top() const { return top_; }
-    /// The same where the plane itself is on a device.
+    /// Records the top plane's displacement along z, Å, if the plane itself is on a device.
     void note_top(double z) { top_ = z; }
 
     CellStrain strain() const {
         return options_.finite_strain ? CellStrain::finite : CellStrain::small;
     }
-    /// What a step does with the force on each plane of a level.
+    /// Returns the kicks of the planes of a level for a step.
     LevelKicks kicks(const Level& level, const StepParameters& step) const;
 
-    /// Only where there are constrained planes: nothing to do for a block of one level.
+    /// Returns true if there are constrained planes; a block of one level has none.
     bool has_constrained_planes() const { return levels_.size() > 1; }
+    /// Sets the constrained planes by interpolation from the coarse planes. u needs current halos.
     void interpolate();
+    /// Computes forces, kicks and drifts all levels from below, and adds to the sums.
     void advance(const StepParameters& step, KickSums& sums);
+    /// Updates the halos of u. Collective.
     void exchange();
-    /// In place of advance: forces on all moving planes (transferred ones included) into
-    /// out[level].
+    /// Computes the forces on all moving planes (transferred ones included) into out[level], in
+    /// place of advance().
     void forces(std::vector<VectorField<double>>& out);
 
-    // Global values: collective, bitwise identical on every rank.
-    /// Share of this rank in the elastic force on the rigid top plane, along z, eV/Å, as left by
-    /// the last advance() or forces().
+    // Shares of this rank in global values:
+    /// Adds this rank's share of the elastic force on the rigid top plane along z, eV/Å, after the
+    /// last advance() or forces().
     void add_top_force(ExactSum& sum) const;
+    /// Adds this rank's share of the elastic energy, eV.
     void add_elastic_energy(ExactSum& sum) const;
-    /// Sum of u_z over the lowest layer, Å.
+    /// Adds this rank's share of the sum of u_z over the lowest layer, Å.
     void add_lowest_z(ExactSum& sum) const;
+    /// Returns the mass of all nodes that move, of all ranks, eV fs^2/Å^2. Not collective.
+    double mass() const;
     std::size_t bytes() const;
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
-    /// True if this rank counts a level's nodes in global sums (levels held whole count once).
+    /// Returns true if this rank counts a level's nodes in global sums (levels held whole count
+    /// once).
     bool counts(const Level& level) const { return level.tiled || communicator_.root(); }
 
 private:
@@ -183,7 +194,7 @@ private:
     HaloExchange halo_;
     std::vector<Level> levels_;
     double top_ = 0.0;
-    /// Forces at finite strain: of each thread, two planes of a band of rows.
+    /// Workspace for forces at finite strain: two planes of a band of rows for each thread.
     std::vector<VectorField<double>> scratch_;
 
     static Tile scratch_tile(const ProcessGrid& grid, int levels);

@@ -18,6 +18,16 @@ double Block::Level::mass(int z) const {
     return 0.75 * node_mass;
 }
 
+double Block::mass() const {
+    double sum = 0.0;
+    for (const Level& level : levels_) {
+        const double nodes = options_.sites >> level.shape.level;
+        for (int z = 0; z < level.shape.cells; ++z)
+            sum += nodes * nodes * level.mass(z);
+    }
+    return sum;
+}
+
 ElasticLevel Block::Level::view(double a) {
     return {shape.cells, u.view(), v.view(), transferred.plane(0), upper_force.plane(0), lower,
             inner,       upper,    cell(a)};
@@ -36,7 +46,7 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
         const double m = level.mass(z);
         const double g = damped ? 0.5 * step.damping * step.dt : 0.0;
         Kick kick;
-        kick.keep = (1.0 - g) / (1.0 + g);
+        kick.velocity_factor = (1.0 - g) / (1.0 + g);
         kick.kick = step.dt / m / (1.0 + g);
         kick.drag_z = 2.0 * g * step.medium_velocity / (1.0 + g);
         kick.half_mass = 0.5 * m;
@@ -44,6 +54,7 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
         kick.damped = damped;
         kick.observed = step.observe;
         kick.drag = m * step.damping * step.dt;
+        kick.per_force = -0.125 * step.dt * step.dt / m;
         return kick;
     };
     const int from = step.damping > 0.0
@@ -52,10 +63,10 @@ LevelKicks Block::kicks(const Level& level, const StepParameters& step) const {
     return {make(0, from == 0), make(1, false), make(1, true), from};
 }
 
-/// Level by level from below, for the upper plane's forces are the transferred forces of the level
-/// above. Each thread advances its share of the rows band by band; a row drifts as soon as no force
-/// needs its old place, and the outermost rows of a share, which the neighbouring threads need,
-/// when all forces of the level are done.
+/// Advances level by level from below, because the upper plane's forces are the transferred forces
+/// of the level above. Each thread advances its share of the rows band by band; a row drifts as
+/// soon as no force needs its old place; the outermost rows of a share, which the neighbouring
+/// threads need, drift when all forces of the level are done.
 void Block::advance(const StepParameters& step, KickSums& sums) {
     const ElasticKernels& kernels = elastic_kernels(strain());
     if (options_.finite_strain)
@@ -107,7 +118,7 @@ void Block::forces(std::vector<VectorField<double>>& out) {
     }
 }
 
-/// Hands the forces on a level's upper plane to the level that it follows. Called by all threads.
+/// Passes the forces on a level's upper plane to the level that it follows. Called by all threads.
 void Block::restrict_forces(std::size_t fine) {
     if (fine + 1 >= levels_.size()) return;
     Level& coarse = levels_[fine + 1];
@@ -126,7 +137,7 @@ void Block::restrict_forces(std::size_t fine) {
     }
 }
 
-/// To every rank, where these hold the coarse level whole.
+/// Sums the forces over all ranks if these hold the coarse level whole.
 void Block::share_restricted_forces(std::size_t fine) {
     if (fine + 1 >= levels_.size()) return;
     const Level& coarse = levels_[fine + 1];
@@ -136,7 +147,7 @@ void Block::share_restricted_forces(std::size_t fine) {
     gather_footprints(communicator_, grid_, coarse.shape.level, planes);
 }
 
-/// A band as wide as the widest level's.
+/// Returns the tile of a band as wide as the widest level's.
 Tile Block::scratch_tile(const ProcessGrid& grid, int levels) {
     int widest = 0;
     for (int level = 0; level < levels; ++level)

@@ -57,7 +57,7 @@ Case surface_case_of(const Arguments& given, int ranks) {
     found.throw_if_any();
     Case c = resolve(scene, ranks, found);
     std::vector<io::Problem> of_surface;
-    for (const io::Problem& problem : found.list()) // that begin with the name of the key
+    for (const io::Problem& problem : found.list()) // messages that begin with the name of the key
         if (problem.what.starts_with("surface.")) of_surface.push_back(problem);
     if (!of_surface.empty()) throw io::SceneError(of_surface);
     return c;
@@ -126,7 +126,8 @@ void add(CLI::App& command, const Option& option, Arguments& given) {
     if (option.name == takes::scene.name) added.required();
     if (option.name == takes::set.name) added.allow_extra_args(false);
     if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::Range(1, 1 << 20));
-    if (std::holds_alternative<std::string Arguments::*>(option.into)) // as of a variable not set
+    // The empty value of a variable that is not set
+    if (std::holds_alternative<std::string Arguments::*>(option.into))
         added.check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
 }
 
@@ -134,7 +135,7 @@ void add(CLI::App& command, const Option& option, Arguments& given) {
 
 namespace {
 
-/// `--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that of one key the last one counts.
+/// Spells `--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that the last value of a key counts.
 std::vector<std::string> spelt_out(int argc, char** argv) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) {
@@ -187,7 +188,7 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     }
     try {
         std::vector<std::string> words = spelt_out(argc, argv);
-        std::reverse(words.begin(), words.end()); // as the library wants them
+        std::reverse(words.begin(), words.end()); // in the order that the library wants
         app.parse(words);
     } catch (const CLI::Success& asked) { // --help, --version
         return world.root() ? app.exit(asked) : 0;

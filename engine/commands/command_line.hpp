@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The command line: a list of commands, each with the options that it takes, and the arguments of a
-// call.
+// The command line: a list of commands, each with its options, and the arguments of a call.
 //
 //     const std::vector<Command> commands = {
 //         {"check", "look for mistakes in a scene", {takes::scene, takes::set, takes::json},
@@ -23,7 +22,8 @@ namespace asperity {
 
 class Communicator;
 
-/// What was given, as it was written. Options that a command does not take have their defaults.
+/// Arguments of a call, as they were written. Options that a command does not take have their
+/// defaults.
 struct Arguments {
     std::vector<std::string> words; ///< the scene, and overrides that follow a --set
     std::vector<std::string> overrides;
@@ -32,8 +32,8 @@ struct Arguments {
     bool restart = false;
     std::string wall_limit;
     std::string progress = "auto";
-    int ranks = 0;      ///< to plan for; 0: as many as there are
-    std::string points; ///< file with overrides, a line each
+    int ranks = 0;      ///< number of ranks to plan for; 0: as many as there are
+    std::string points; ///< file with overrides, one line each
     bool markdown = false;
     bool plain = false;
     bool json = false;
@@ -42,30 +42,35 @@ struct Arguments {
     bool results = false;
 };
 
-/// The case of the scene named by the words, with its overrides, for so many ranks.
+/// Returns the case of the scene named by the words, with its overrides, for so many ranks. Throws
+/// io::SceneError.
 Case case_of(const Arguments& given, int ranks);
-/// The same for its surface alone: what is wrong with keys of other sections is left out.
+/// Returns the same case for its surface alone: mistakes in keys of other sections are left out.
+/// Throws io::SceneError.
 Case surface_case_of(const Arguments& given, int ranks);
-/// The scene's file; the overrides among the words are added to the list: `--set a=1 b=2
-/// scene.toml` means what it looks like.
+/// Returns the scene's file and adds the overrides among the words to the list, so that `--set a=1
+/// b=2 scene.toml` means what it looks like. Throws io::SceneError.
 std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);
-/// Throw io::SceneError, like those above.
+/// Returns the options of a run. Throws io::SceneError.
 RunOptions run_options(const Arguments& given);
 
+/// An option of a command, and the argument that it sets.
 struct Option {
     std::string name;  ///< "--out"; without dashes: a word
-    std::string value; ///< what stands behind it, for --help; empty: a flag
+    std::string value; ///< value of the option in --help; empty: a flag
     std::string explanation;
     std::variant<bool Arguments::*, int Arguments::*, std::string Arguments::*,
                  std::vector<std::string> Arguments::*>
         into;
 };
 
+/// A command of the program, or of the Python package.
 struct Command {
     std::string name;
-    std::string purpose;         ///< one line
-    std::vector<Option> options; ///< none of a command of the Python package, which has its own
-    /// Returns the exit code. Empty: the Python package carries it out.
+    std::string purpose; ///< one line
+    /// Options; empty for a command of the Python package, which has its own
+    std::vector<Option> options;
+    /// Carries out the command and returns the exit code; empty: the Python package does.
     std::function<int(const Arguments&, const Communicator&)> act = {};
     bool looks_at_signals = false; ///< ends by itself after a signal (stop_signals.hpp)
 };
@@ -76,14 +81,14 @@ extern const Option scene, set, json, progress;
 Option out(const std::string& otherwise);
 } // namespace takes
 
-/// If argv names a command of the Python package (python/asperity): replaces this process by
-/// `python3 -m asperity`, which calls this program back through $ASPERITY_PROGRAM. Returns only if
-/// argv names another command (nothing) or Python or the package was not found (the exit code; the
-/// reason is printed). Before MPI is initialised.
+/// Replaces this process by `python3 -m asperity` if argv names a command of the Python package
+/// (python/asperity), which calls this program back through $ASPERITY_PROGRAM. Returns nothing if
+/// argv names another command; the exit code, after printing the reason, if Python or the package
+/// was not found. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
-/// Reads the command line and carries out the command it names; --help and --version are answered.
-/// Returns the exit code. Throws io::SceneError for a call that cannot be understood.
+/// Reads the command line and carries out the command; answers --help and --version. Returns the
+/// exit code. Throws io::SceneError if the call cannot be understood.
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world);
 

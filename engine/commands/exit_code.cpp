@@ -19,10 +19,10 @@ namespace asperity {
 
 namespace {
 
-/// How long an error waits for the other ranks, s.
+/// Time that an error waits for the other ranks, s.
 constexpr double patience = 30.0;
 
-/// Says what went wrong, on rank 0, and with which code to end.
+/// Prints the error on rank 0 and returns the exit code.
 int report(const std::exception& error, const Communicator& world) {
     int code = io::exit_code::internal;
     std::string text = error.what();
@@ -33,7 +33,7 @@ int report(const std::exception& error, const Communicator& world) {
             text +=
                 fmt::format("\n{} problem{}; nothing was written", count, count == 1 ? "" : "s");
     } else if (dynamic_cast<const std::bad_alloc*>(&error)) {
-        code = io::exit_code::scene; // like a run that is refused because it does not fit
+        code = io::exit_code::scene; // the code of a run that is refused because it does not fit
         text =
             "asperity: out of memory"
             "\n    why: a limit (ulimit -v, the batch system's) or other processes left too little"
@@ -51,8 +51,8 @@ int report(const std::exception& error, const Communicator& world) {
     return code;
 }
 
-/// An error inside a run of several ranks. The others give rank 0 time to report first;
-/// if it does not, the error is not one of rank 0.
+/// Ends a run of several ranks by an error on one of them. The others give rank 0 time to report
+/// first; if it does not, the error is not one of rank 0.
 [[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
     const int code = report(error, world);
     if (!world.root()) {
@@ -63,8 +63,8 @@ int report(const std::exception& error, const Communicator& world) {
     world.abort(code);
 }
 
-/// An error that every rank meets alike, or the root for all of them: they agree on the code. Where
-/// not all come, the others wait for this one elsewhere.
+/// Ends the program by an error that every rank meets alike, or the root for all of them: they
+/// agree on the code. If not all ranks come, the others wait for this one elsewhere.
 int end_alike(const std::string& what, int code, const Communicator& world) {
     if (!world.all_come(patience)) {
         fmt::print(stderr,

@@ -37,8 +37,8 @@ namespace asperity {
 
 namespace {
 
-/// For programs: a sweep calls it before it varies the scene, so that what a run of the scene
-/// itself would refuse is listed, not thrown.
+/// Returns the check of a scene for programs: a sweep calls it before it varies the scene, so that
+/// the problems of a run of the scene itself are listed, not thrown.
 io::Json check_json(const Case& c, const Communicator& world) {
     const Scene& scene = c.scene;
     io::Json all;
@@ -64,8 +64,8 @@ io::Json check_json(const Case& c, const Communicator& world) {
     return all;
 }
 
-/// The scene of `asperity init`: what a beginner changes first, and every other key with its
-/// default behind a "#".
+/// Returns the scene of `asperity init`: the keys that a beginner changes first, and every other
+/// key with its default behind a "#".
 std::string starting_scene(const std::string& file) {
     constexpr std::array shown = {
         "surface.kind",   "surface.sites",  "surface.rms",   "surface.hurst",    "surface.seed",
@@ -154,17 +154,12 @@ int plan_command(const Case& c, const Communicator& world) {
 
 namespace {
 
-/// What the file of a measured surface holds, before the scene makes anything of it.
+/// Prints the contents of the file of a measured surface, before the scene uses them.
 void print_map_file(const Case& c) {
     const Scene& scene = c.scene;
-    const io::HeightMap map = io::read_map_file(c.file, scene.surface.file_unit);
-    std::optional<double> width = map.width, height = map.height;
-    if (scene.surface.file_size) { // the scene's value takes precedence
-        const double pixel =
-            *scene.surface.file_size / static_cast<double>(std::min(map.columns, map.rows));
-        width = pixel * static_cast<double>(map.columns);
-        height = pixel * static_cast<double>(map.rows);
-    }
+    const io::HeightMap map =
+        io::read_map_file(c.file, {scene.surface.file_unit, false, false, scene.surface.file_size});
+    const std::optional<double>&width = map.width, &height = map.height;
     const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
                  dy = height.value_or(0.0) / static_cast<double>(map.rows);
     const MapStatistics s = map_statistics(map.heights, map.columns, map.rows, dx, dy, false);
@@ -195,7 +190,8 @@ void print_map_file(const Case& c) {
 
 void write_surface(const Case& c, const Surface& surface, const std::string& out) {
     const Scene& scene = c.scene;
-    const io::ResultDirectory place({out, scene.name + "-surface"});
+    const io::ResultDirectory place(
+        {out, scene.name + "-surface", false, false, {"heights.h5", "result.json"}, c.inputs()});
 
     const SurfaceStatistics& statistics = surface.statistics;
     const std::string file = place.directory() / "heights.h5";
@@ -252,7 +248,19 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
 
 } // namespace
 
-int surface_command(const Case& c, const std::string& out, const Communicator& world) {
+int surface_command(const Case& c, const std::string& out, bool json, const Communicator& world) {
+    if (json) {
+        const Surface surface = surface_of(c, world);
+        const auto n = static_cast<std::size_t>(surface.sites);
+        const double pixel = surface.length / surface.sites;
+        const io::Json all = {{"rms", surface.statistics.rms},
+                              {"slope_of_neighbours",
+                               map_statistics(surface.height, n, n, pixel, pixel, true).rms_slope},
+                              {"doubts", surface.doubts},
+                              {"notes", surface.notes}};
+        if (world.root()) fmt::print("{}\n", io::json_text(all));
+        return io::exit_code::done;
+    }
     if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
     world.on_root([&] { write_surface(c, surface, out); });

@@ -21,8 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder that holds the package: that of the source tree which the program was built in, or of
-/// the place it is installed to; empty: Python may know it.
+/// Returns the folder of the package: that of the source tree in which the program was built, or of
+/// its place of installation; empty: Python may know it.
 fs::path package_folder(const fs::path& program) {
     std::error_code error;
     for (fs::path at = program.parent_path(); at.has_relative_path(); at = at.parent_path())
@@ -31,15 +31,16 @@ fs::path package_folder(const fs::path& program) {
     return {};
 }
 
-/// The python3 of the virtual environment that `pip install` put the program into; empty: none did.
+/// Returns the python3 of the virtual environment into which `pip install` put the program; empty
+/// if there is none.
 fs::path python_beside(const fs::path& program) {
     std::error_code error;
     const fs::path bin = program.parent_path();
     return fs::exists(bin.parent_path() / "pyvenv.cfg", error) ? bin / "python3" : fs::path();
 }
 
-/// $ASPERITY_PYTHON, that of an active virtual environment, or the distribution's, whose packages
-/// are the ones that the script `asperity` installs.
+/// Returns $ASPERITY_PYTHON, the Python of an active virtual environment, or that of the
+/// distribution, whose packages the script `asperity` installs.
 std::string python() {
     if (const char* chosen = std::getenv("ASPERITY_PYTHON")) return chosen;
     if (const char* environment = std::getenv("VIRTUAL_ENV"))

@@ -25,7 +25,8 @@ namespace {
 
 using io::Json;
 
-/// Of several scenes in turn: a surface is generated anew only where more than its rms changes.
+/// Surfaces of several scenes in turn: a surface is generated anew only if more than its rms
+/// changes.
 class SurfaceCache {
 public:
     const Surface& of(const Case& c) {
@@ -64,7 +65,7 @@ std::vector<std::string> overrides_of(const std::string& line, const std::string
     return overrides;
 }
 
-/// The columns of theory.h5, whose units and meanings are in io/quantities.
+/// Returns the columns of theory.h5, whose units and meanings are in io/quantities.
 Json profile_json(const TheoryCase& what, const TheoryNumbers& n) {
     using Point = theory::ProfilePoint;
     Json columns = Json::array();
@@ -117,7 +118,7 @@ Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
     return point;
 }
 
-/// The theory stands beside a run, which goes on without one.
+/// Returns the theory of a point beside a run, which goes on without a theory.
 Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     std::string why = no_theory(c);
     try {
@@ -171,7 +172,7 @@ int theory_points_command(const TheoryPoints& what) {
             point = what.runnable ? simulated_point(c, surfaces, what.profile)
                                   : point_json(c, surfaces, what.profile);
             if (what.runnable && (c.scene.surface.reads_file() || c.table_digest)) {
-                // What files hold now.
+                // Present contents of the files.
                 const Json now = surface_result(c, surfaces.of(c)).json();
                 for (const char* part : {"surface", "interface"})
                     if (now.contains(part)) point[part] = now[part];

@@ -21,14 +21,15 @@ const DeviceFunctions& functions_of(const DeviceChoice& choice) {
     throw std::invalid_argument("a CUDA device, and this program was built without CUDA");
 }
 
-/// The device of this rank: ranks of a machine take its devices in turn, from the one asked for.
+/// Returns the device of this rank: ranks of a machine take its devices in turn, from the chosen
+/// one.
 DeviceChoice own_device(DeviceChoice choice, const Communicator& ranks) {
     const int devices = choice.kind == DeviceChoice::Kind::cuda ? cuda_device_count() : 0;
     if (choice.index < devices) choice.index = (choice.index + ranks.local_rank()) % devices;
     return choice;
 }
 
-/// Doubles that one side's message of an axis carries, level by level.
+/// Returns the doubles in one side's message along an axis, level by level.
 NodeRanges halo_strip(const ProcessGrid& grid, const std::vector<LevelShape>& shapes,
                       bool along_x) {
     NodeRanges strip;
@@ -130,7 +131,7 @@ T* DeviceBlock::copied(const DeviceLayout::Region& region, std::span<const T> va
 void DeviceBlock::fetch(const DeviceLayout::Region& region, Field<double>& to) const {
     copy(to.storage().data(), at<double>(region), region.bytes);
 }
-/// A region for a field of the host's shape.
+/// Returns the view of a region for a field of the host's shape.
 VolumeView<double> DeviceBlock::view(const DeviceLayout::Region& region,
                                      const Field<double>& host) const {
     if (host.bytes() != region.bytes)
@@ -311,14 +312,15 @@ DeviceSums DeviceBlock::step(const Block& block, double reference_height,
     result.lowest_z = forces.sum[ForceSum::lowest_z];
     result.top_force = forces.sum[ForceSum::top_z];
     result.kick.kinetic = moved.sum[AdvanceSum::kinetic];
+    result.kick.of_step = moved.sum[AdvanceSum::of_step];
     result.kick.dissipated = moved.sum[AdvanceSum::dissipated];
     result.kick.dragged = moved.sum[AdvanceSum::dragged];
     result.elastic = moved.sum[AdvanceSum::elastic];
-    result.heat = moved.sum[AdvanceSum::heat];
+    result.noise.heat = moved.sum[AdvanceSum::heat];
     return result;
 }
 
-/// Into the level that every rank holds, from all tiles of the level below.
+/// Sums the forces of all tiles into the level that every rank holds, from the level below.
 void DeviceBlock::share_restricted_forces(const Block& block) {
     const Block::Level& coarse = block.levels()[static_cast<std::size_t>(shared_level_)];
     const ProcessGrid& grid = block.grid();

@@ -24,23 +24,25 @@
 
 namespace asperity {
 
-/// "none", "emulated", "NVIDIA H100 (device 0)"
+/// Returns the name of a device: "none", "emulated", "NVIDIA H100 (device 0)".
 std::string describe_device(const DeviceChoice& choice);
 
-/// This rank's share of the sums of a step.
+/// Share of this rank in the sums of a step.
 struct DeviceSums {
     InterfaceSums interface;
     KickSums kick;
-    ExactSum top_force, lowest_z, elastic, heat;
+    NoiseSums noise;
+    ExactSum top_force, lowest_z, elastic;
 };
 
-/// Where the arrays lie in device memory. It follows from the options alone, so it also says how
-/// much memory a run needs before anything is allocated.
+/// Places of the arrays in device memory. They follow from the options alone, so the layout also
+/// tells the memory of a run before anything is allocated.
 struct DeviceLayout {
+    /// A part of the device memory, bytes.
     struct Region {
         std::size_t begin = 0, bytes = 0;
     };
-    using Vector = std::array<Region, 3>; ///< the components of a field
+    using Vector = std::array<Region, 3>; ///< regions of the components of a field
     struct Level {
         std::array<Vector, 2> u;
         Vector v, transferred, upper_force;
@@ -51,24 +53,26 @@ struct DeviceLayout {
 
     std::vector<Level> levels;
     Region level_table, kicks, sums; ///< DeviceLevel and LevelKicks of each level; two PassSums
-    Region heights, highest, lowest, columns, map, mean_height, cubics; ///< of the substrate
+    Region heights, highest, lowest, columns, map, mean_height, cubics; ///< arrays of the substrate
     Region sent, received; ///< halos of both sides of an axis
-    std::size_t bytes = 0; ///< in all
+    std::size_t bytes = 0; ///< total size, bytes
 };
 
+/// A block and its interface in the memory of a device.
 class DeviceBlock {
 public:
-    /// Allocates; copies the tables. Throws io::FileError where the device or its memory fails,
-    /// std::invalid_argument for what a device cannot do: finite strain, a substrate that is not
-    /// the block's lattice.
+    /// Allocates device memory and copies the tables. Throws io::FileError if the device or its
+    /// memory fails, std::invalid_argument for features that a device lacks: finite strain, a
+    /// substrate that is not the block's lattice.
     DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface);
 
-    /// Displacements and velocities, halos included.
+    /// Copies displacements and velocities, halos included, to the device.
     void upload(const Block& block);
+    /// Copies displacements and velocities, halos included, back to the block.
     void download(Block& block) const;
 
-    /// One time step, halos included. block: whose constants, ranks and top plane these are;
-    /// noise: in a scene with a temperature.
+    /// Makes one time step, halos included. block: gives constants, ranks and top plane; noise:
+    /// only in a scene with a temperature. Returns this rank's share of the sums. Collective.
     DeviceSums step(const Block& block, double reference_height, const StepParameters& step,
                     const std::optional<ThermalNoise>& noise);
 
@@ -97,15 +101,16 @@ private:
     DeviceChoice choice_;
     const DeviceFunctions& device_;
     DeviceLayout layout_;
-    /// Released by the device's own function, also where the constructor throws.
+    /// Device memory, released by the device's own function, also if the constructor throws.
     std::unique_ptr<std::byte, void (*)(std::byte*)> memory_{nullptr, device_.release};
-    std::vector<DeviceLevel> levels_; ///< as the device has them
+    std::vector<DeviceLevel> levels_; ///< levels as the device has them
     DeviceStep step_;
-    PairPotential potential_;     ///< a table's numbers in device memory
-    std::array<Strip, 2> strips_; ///< along x, along y
-    int shared_level_ = -1;       ///< whose transferred forces are put together over the ranks
-    VectorField<double> shared_;  ///< the host's copy of them
-    std::optional<StepParameters> kicked_with_; ///< what the kicks in device memory are made of
+    PairPotential potential_;     ///< potential; a table's numbers are in device memory
+    std::array<Strip, 2> strips_; ///< strips along x and along y
+    /// Level whose transferred forces are summed over the ranks; negative: none
+    int shared_level_ = -1;
+    VectorField<double> shared_;                ///< transferred forces of that level on the host
+    std::optional<StepParameters> kicked_with_; ///< parameters of the kicks in device memory
 };
 
 } // namespace asperity

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/dynamics/approach_start.hpp"
 
+#include "decomposition/global_largest.hpp"
 #include "decomposition/global_sum.hpp"
 
 #include <algorithm>
@@ -19,19 +20,25 @@ struct Height {
     double yielded; ///< energy, eV
 };
 
-/// By the block under the forces of the last sweep.
+/// Returns the energy that the block yields under the forces of the last sweep, eV. Collective.
 double yielded(Block& block, double force) {
-    if (force == 0.0) return 0.0;
     const PlaneView<double> f = block.interface_force().z;
+    const double largest =
+        global_largest(block.communicator(), block.grid().tile(0), [&](int x, int y) {
+            return std::abs(f(x, y));
+        }).value;
+    if (force == 0.0 || largest == 0.0) return 0.0;
+    // Exact sums have an absolute quantum (exact_sum.hpp): their terms are shares of the largest.
     ExactSum squares;
     for (int y = 0; y < f.ny; ++y) {
         for (int x = 0; x < f.nx; ++x)
-            squares.add(f(x, y) * f(x, y));
+            squares.add(f(x, y) / largest * (f(x, y) / largest));
         squares.carry();
     }
     const double sum = global_sum(block.communicator(), squares);
     const BlockOptions& o = block.options();
-    const double radius = o.spacing * std::abs(force) / std::sqrt(sum * std::numbers::pi);
+    const double radius =
+        o.spacing * std::abs(force) / (largest * std::sqrt(sum * std::numbers::pi));
     const double edge = o.sites * o.spacing, modulus = o.lame() + 2.0 * o.shear_modulus();
     const double compliance = 1.0 / (2.0 * o.contact_modulus() * radius) +
                               o.thickness * o.spacing / (modulus * edge * edge);

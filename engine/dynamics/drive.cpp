@@ -63,18 +63,32 @@ double Drive::slide_velocity(int axis, double t) const {
     return by_hand_ ? 0.0 : slide_[static_cast<std::size_t>(axis)].at(t - begun_, options_.ramp);
 }
 
-bool Drive::observe(const Felt& felt) {
-    if (by_hand_ || at_ == options_.path.size() || !ended(felt)) return false;
+void AveragedForce::look(double force, double time, double over) {
+    const double part = 1.0 - std::exp(-(time - last) / over);
+    last = time;
+    if (force == 0.0) once = twice = square = 0.0; // nothing is within the interaction range
+    once += part * (force - once);
+    twice += part * (once - twice);
+    square += part * ((force - mean()) * (force - mean()) - square);
+}
+
+bool Drive::observe(const Observation& now) {
+    Observation step = now;
+    if (options_.average_over > 0.0) {
+        average_.look(now.force, now.time, options_.average_over);
+        step.force = average_.mean();
+    }
+    if (by_hand_ || at_ == options_.path.size() || !ended(step)) return false;
     ++at_;
-    if (at_ < options_.path.size()) begin(felt);
+    if (at_ < options_.path.size()) begin(step);
     return true;
 }
 
-/// The next segment, from the velocity that the top plane has.
-void Drive::begin(const Felt& felt) {
+/// Begins the next segment with the present velocity of the top plane.
+void Drive::begin(const Observation& step) {
     const Segment& next = options_.path[at_];
-    const double from = normal_.at(felt.time - begun_, options_.ramp), v = options_.velocity;
-    begun_ = felt.time;
+    const double from = normal_.at(step.time - begun_, options_.ramp), v = options_.velocity;
+    begun_ = step.time;
     slide_ = {VelocityProfile{}, VelocityProfile{}};
     switch (next.kind) {
     case Segment::approach:
@@ -84,10 +98,10 @@ void Drive::begin(const Felt& felt) {
         normal_ = {from, v, HUGE_VAL};
         break;
     case Segment::load:
-        normal_ = {from, felt.gone || felt.force < next.amount ? -v : v, HUGE_VAL};
+        normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, HUGE_VAL};
         break;
     case Segment::height:
-        normal_ = VelocityProfile::over(next.amount - reference_height_ - felt.top, from, v,
+        normal_ = VelocityProfile::over(next.amount - reference_height_ - step.top, from, v,
                                         options_.ramp);
         break;
     case Segment::slide:
@@ -100,7 +114,7 @@ void Drive::begin(const Felt& felt) {
         normal_ = {from, 0.0, HUGE_VAL};
         break;
     }
-    begin_rule(felt.force);
+    begin_rule(step.force);
 }
 
 void Drive::begin_rule(double force) {
@@ -109,9 +123,9 @@ void Drive::begin_rule(double force) {
     rule_.begin(segment.kind, load, normal_.to < 0.0, options_.area, force);
 }
 
-bool Drive::ended(const Felt& felt) {
+bool Drive::ended(const Observation& step) {
     const Segment& now = options_.path[at_];
-    const double since = felt.time - begun_;
+    const double since = step.time - begun_;
     switch (now.kind) {
     case Segment::height:
         return since >= normal_.end(options_.ramp);
@@ -122,7 +136,7 @@ bool Drive::ended(const Felt& felt) {
     case Segment::relax:
         return true;
     default:
-        return rule_.look(felt.force, felt.gone) != SegmentRule::End::no;
+        return rule_.look(step.force, step.beyond_range) != SegmentRule::End::no;
     }
 }
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What moves the rigid top plane over the substrate (docs/explanation/model.md), segment after
-// segment of the path.
+// The drive: motion of the rigid top plane over the substrate (docs/explanation/model.md), segment
+// after segment of the path.
 //
 // An approach moves down at constant velocity until the total normal force on the lowest layer has
 // been attractive and has returned to the prescribed load (zero); a pull-off moves up until the
@@ -11,8 +11,8 @@
 // stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which acts on the interface as a
 // load.
 //
-// A slide moves the substrate under the block by the negative of its distance: seen from the block,
-// and from the damping medium that goes with it, nothing else changes.
+// A slide moves the substrate under the block by the negative of its distance: this changes nothing
+// else in the frame of the block and of the damping medium that moves with it.
 #pragma once
 
 #include "engine/scene/segment.hpp"
@@ -26,32 +26,38 @@
 
 namespace asperity {
 
+/// Options of the drive, in the units of the engine.
 struct DriveOptions {
     double velocity = 5e-5;  ///< Å/fs
     double ramp = 0.0;       ///< time over which a velocity changes, fs
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
-    double area = 1.0;       ///< of the interface, Å^2
-    /// Amounts in the units of the engine: a load in eV/Å, a hold in fs.
+    double area = 1.0;       ///< area of the interface, Å^2
+    /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
+    /// a warm block, whose force fluctuates.
+    double average_over = 0.0;
+    /// Segments of the path. Amounts in the units of the engine: a load in eV/Å, a hold in fs.
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
 };
 
-/// Whether a pull-off has come to its end: the top plane is back where the approach started or
-/// beyond (top, Å), and the force is no larger than it was there, or small beside the strongest
-/// attraction met (eV/Å). The force alone is not enough: it passes through zero on the way out of
-/// compression.
+/// Returns true if a pull-off has come to its end: the top plane is back where the approach started
+/// or beyond (top, Å), and the force is no larger than at_start, or small beside the strongest
+/// attraction so far (eV/Å). The force alone is not enough: it passes through zero on the way out
+/// of compression.
 bool beyond_range(double top, double force, double strongest, double at_start = 0.0);
 
-/// A velocity over time: from one to another along half a cosine, and, where `cruise` ends, to rest
-/// along another.
+/// Velocity over time: from one value to another along half a cosine, and, from the time `cruise`,
+/// to rest along another.
 struct VelocityProfile {
     double from = 0.0, to = 0.0; ///< Å/fs
-    double cruise = HUGE_VAL;    ///< when the second ramp begins, fs
+    double cruise = HUGE_VAL;    ///< time at which the second ramp begins, fs
 
+    /// Returns the velocity at time t after the beginning of the profile, Å/fs.
     double at(double t, double ramp) const;
-    /// When it is at rest, fs.
+    /// Returns the time of rest, fs.
     double end(double ramp) const;
-    /// From this velocity to rest at a distance, Å, at `velocity` (above 0) at most.
+    /// Returns the profile from a velocity (Å/fs) to rest at a distance (Å), at most at `velocity`
+    /// (above 0).
     static VelocityProfile over(double distance, double from, double velocity, double ramp);
 
     template <class Visitor>
@@ -62,43 +68,72 @@ struct VelocityProfile {
     }
 };
 
+/// A force averaged over thermal noise: exponentially, twice, so that a steady change of the force
+/// does not lag behind.
+struct AveragedForce {
+    double once = 0.0, twice = 0.0, square = 0.0; ///< eV/Å, eV/Å, (eV/Å)^2
+    double last = 0.0;                            ///< time of the last step, fs
+
+    /// Takes the force of a step into the average.
+    void look(double force, double time, double over);
+    /// Returns the mean force, eV/Å.
+    double mean() const { return 2.0 * once - twice; }
+    /// Returns the root mean square of the force about its mean, eV/Å.
+    double scatter() const { return std::sqrt(square); }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("once", once);
+        v("twice", twice);
+        v("square", square);
+        v("last", last);
+    }
+};
+
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
-    /// reference_height: of the lowest layer where the top plane's displacement is 0, Å.
+    /// Sets the height of the lowest layer at zero displacement of the top plane, Å.
     void begin_at(double reference_height);
 
-    /// Number of the segment under way, from 0; of the last one when the path is done.
+    /// Returns the number of the current segment, from 0; the last one when the path is done.
     std::size_t segment() const;
     const Segment& now() const { return options_.path[segment()]; }
     bool done() const { return at_ == options_.path.size() && !by_hand_; }
-    /// Of the top plane along z at time t, Å/fs.
+    /// Returns the velocity of the top plane along z at time t, Å/fs.
     double velocity(double t) const;
-    /// Of the block over the substrate along an axis, Å/fs.
+    /// Returns the velocity of the block over the substrate along an axis at time t, Å/fs.
     double slide_velocity(int axis, double t) const;
 
-    /// What a step has felt: force on the lowest layer, eV/Å, positive upwards; gone:
-    /// beyond_range().
-    struct Felt {
+    /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
+    /// displacement of the top plane (Å), and the result of beyond_range().
+    struct Observation {
         double time = 0.0, force = 0.0, top = 0.0;
-        bool gone = false;
+        bool beyond_range = false;
     };
-    /// True at the step at which a segment ends. Throws io::PhysicsError where a pull that a
-    /// segment leads to is not there.
-    bool observe(const Felt& felt);
+    /// Returns the average by which segments of a warm block end; empty: the force of each step
+    /// counts.
+    std::optional<AveragedForce> averaged() const {
+        return options_.average_over > 0.0 ? std::optional(average_) : std::nullopt;
+    }
+    /// Ends the current segment if this step fulfils its rule, and begins the next one. Returns
+    /// true if it did. Throws io::PhysicsError if a segment demands a stronger pull than the
+    /// attraction.
+    bool observe(const Observation& step);
 
-    /// By hand: from now on the top plane moves at this velocity, Å/fs, nothing slides, and no
-    /// segment ends; none: the segment goes on, and a height, a hold or a slide ends when it would
-    /// have, wherever it is. Not in checkpoints.
-    void take_over(std::optional<double> velocity) { by_hand_ = velocity; }
+    /// Moves the top plane at this velocity, Å/fs, by hand: nothing slides, and no segment ends.
+    /// Without a velocity the current segment goes on; a height, a hold or a slide ends at its
+    /// planned time, wherever the top plane is. Not part of checkpoints.
+    void set_velocity(std::optional<double> velocity) { by_hand_ = velocity; }
     const std::optional<double>& by_hand() const { return by_hand_; }
 
-    /// The state of the machine, for checkpoints.
+    /// Passes the state of the machine to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
         v("segment", at_);
         v("begun", begun_);
         v("rule", rule_);
+        v("average", average_);
         v("normal", normal_);
         v("slide_x", slide_[0]);
         v("slide_y", slide_[1]);
@@ -106,15 +141,16 @@ public:
     }
 
 private:
-    void begin(const Felt& felt);
+    void begin(const Observation& step);
     void begin_rule(double force);
-    bool ended(const Felt& felt);
+    bool ended(const Observation& step);
 
     DriveOptions options_;
     double reference_height_ = 0.0;
     std::size_t at_ = 0;
-    double begun_ = 0.0; ///< when the segment began, fs
-    SegmentRule rule_;   ///< of one that a force ends
+    double begun_ = 0.0; ///< time at which the segment began, fs
+    SegmentRule rule_;   ///< rule of a segment that ends at a force
+    AveragedForce average_;
     VelocityProfile normal_;
     std::array<VelocityProfile, 2> slide_;
     std::optional<double> by_hand_;

@@ -72,30 +72,31 @@ void Simulation::step_on_processor(bool observe) {
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { advance_block(observe); });
     if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
+    if (external_) external_after_ = power_of_external();
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
 }
 
-/// The same step; its launches are listed in kernels/device/device.hpp.
+/// Makes the same step on a device; kernels/device/device.hpp lists its launches.
 void Simulation::step_on_device(bool observe) {
     if (host_is_newer_) device_->upload(block_);
     host_is_newer_ = false;
     device_is_newer_ = true;
     const double velocity = velocity_of_top();
-    const DeviceSums sums = device_->step(
-        block_, reference_height_,
-        {options_.dt, options_.damping, options_.damping_from, velocity, observe},
-        thermostat_ ? std::optional(thermostat_->noise(options_.dt, step_)) : std::nullopt);
+    const DeviceSums sums =
+        device_->step(block_, reference_height_,
+                      {options_.dt, options_.damping, options_.damping_from, velocity, observe},
+                      thermostat_ ? std::optional(noise()) : std::nullopt);
     block_.note_top(block_.top() + options_.dt * velocity);
     interface_sums_ = sums.interface;
     kick_sums_ = sums.kick;
     top_force_ = sums.top_force;
     lowest_z_ = sums.lowest_z;
     elastic_ = sums.elastic;
-    heat_ = sums.heat;
+    noise_sums_ = sums.noise;
     begin_record(observe);
 }
 
-/// Everything that the host's block has: displacements, velocities, halos, prescribed planes.
+/// Copies all fields of the host's block: displacements, velocities, halos, prescribed planes.
 void Simulation::download() const {
     device_->download(block_);
     block_.set_top(block_.top());
@@ -116,7 +117,7 @@ void Simulation::sweep_interface(bool observe) {
     if (external_) add_external();
 }
 
-/// On top of the substrate's forces, which the sums above are of.
+/// Adds external forces to those of the substrate, which the sums above contain.
 void Simulation::add_external() {
     const VectorPlane<double> to = block_.interface_force();
     const VectorPlane<const double> from = external_->plane(0);
@@ -141,7 +142,7 @@ ExactSum Simulation::power_of_external() const {
     return power;
 }
 
-/// A trapezium from n-1 to n, like the works above: half with the forces at each end.
+/// Integrates by a trapezium from n-1 to n, as the works above: half with the forces at each end.
 void Simulation::integrate_external_work() {
     const auto [before, after] =
         global_sums(communicator(), std::array{external_before_, external_after_});
@@ -151,10 +152,22 @@ void Simulation::integrate_external_work() {
 }
 
 void Simulation::add_noise() {
-    heat_ = thermostat_->kick(block_, options_.dt, options_.damping_from, step_);
+    noise_sums_ = thermostat_->kick(block_, noise(), options_.damping_from);
+    kick_sums_.kinetic.merge(noise_sums_.kinetic); // one sum, as on a device
 }
 
-/// In the middle of this step.
+ThermalNoise Simulation::noise() const {
+    return thermostat_->noise(options_.dt, step_, velocity_of_top());
+}
+
+void Simulation::take_to_step(const VectorPlane<double>& v) const {
+    if (!thermostat_) return;
+    const double medium = drive_.velocity((static_cast<double>(record_.step) + 0.5) * options_.dt);
+    thermostat_->take_to_step(block_, thermostat_->noise(options_.dt, record_.step, medium),
+                              options_.damping_from, v);
+}
+
+/// Returns the velocity of the top plane in the middle of this step, Å/fs.
 double Simulation::velocity_of_top() const {
     return drive_.velocity((static_cast<double>(step_) + 0.5) * options_.dt);
 }
@@ -165,14 +178,13 @@ void Simulation::advance_block(bool observe) {
     kick_sums_ = {};
     block_.advance({options_.dt, options_.damping, options_.damping_from, velocity, observe},
                    kick_sums_);
-    if (external_) external_after_ = power_of_external();
     top_force_ = {};
     block_.add_top_force(top_force_);
     block_.set_top(block_.top() + options_.dt * velocity);
     if (slides()) slide();
 }
 
-/// Force and work of the step sideways: a trapezium, as along z. Before the next step has come.
+/// Adds force and work of the sideways step by a trapezium, as along z, before the next step.
 void Simulation::update_slide() {
     const std::array<double, 2> force = global_sums(communicator(), lateral_);
     const std::array<double, 2>& place = interface_.place();
@@ -187,7 +199,7 @@ void Simulation::update_slide() {
     record_.lateral_force = force;
 }
 
-/// To where the block stands over the substrate at the next step.
+/// Moves the block over the substrate to its place at the next step.
 void Simulation::slide() {
     const double middle = (static_cast<double>(step_) + 0.5) * options_.dt;
     for (int axis : {0, 1})
@@ -211,11 +223,13 @@ void Simulation::begin_record(bool observe) {
 
 void Simulation::update_energy_balance() {
     // One reduction a step (and one for the counts of an observed one).
-    const auto sums = global_sums(communicator(),
-                                  std::array{interface_sums_.force_z, lowest_z_, top_force_,
-                                             kick_sums_.dissipated, kick_sums_.dragged, heat_,
-                                             interface_sums_.energy, elastic_, kick_sums_.kinetic});
-    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic] = sums;
+    const auto sums =
+        global_sums(communicator(), std::array{interface_sums_.force_z, lowest_z_, top_force_,
+                                               kick_sums_.dissipated, kick_sums_.dragged,
+                                               noise_sums_.heat, interface_sums_.energy, elastic_,
+                                               kick_sums_.kinetic, kick_sums_.of_step});
+    const auto [force, lowest, top_force, dissipated, dragged, heat, lj, elastic, kinetic,
+                of_step] = sums;
 
     const double sites = static_cast<double>(options_.block.sites);
     const double mean_height = reference_height_ + lowest / (sites * sites);
@@ -225,12 +239,12 @@ void Simulation::update_energy_balance() {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         balance_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         balance_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
-        // What the medium takes and gives likewise, half of it at each end; noise given after n-1
-        // was observed is part of n's energy, that of n is not yet.
+        // What the medium takes and gives at a step, and what the noise gives there, likewise: half
+        // of it before the energies of the step, half of it after.
         balance_.damped += 0.5 * (dissipated + pending_.dissipated);
         balance_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
-        balance_.heat += pending_.heat;
     }
+    balance_.heat += 0.5 * (heat + pending_.heat); // of the first step, half
 
     if (slides()) update_slide();
     if (external_ || external_pending_ != 0.0) integrate_external_work();
@@ -248,12 +262,14 @@ void Simulation::update_energy_balance() {
     record_.interface_energy = lj;
     record_.elastic_energy = elastic;
     record_.kinetic_energy = kinetic;
-    const double energy = record_.energy();
+    record_.time_step_energy = thermostat_ ? of_step : 0.0;
+    const double energy = record_.energy() + record_.time_step_energy;
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
     record_.work = balance_.work() + *energy_brought_;
     record_.interface_work = balance_.interface;
     record_.damped = balance_.net_damped();
-    scale_ = std::max({scale_, std::abs(lj), elastic, kinetic, std::abs(record_.work)});
+    scale_ =
+        std::max({scale_, std::abs(lj), elastic, record_.kinetic_energy, std::abs(record_.work)});
     const double balance = record_.work - energy - record_.damped;
     record_.residual = scale_ > 0.0 ? balance / scale_ : 0.0;
 }

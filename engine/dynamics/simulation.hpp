@@ -6,9 +6,10 @@
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
-// With a device the fields are there; block() and block_to_write() are the gates. Both bring them
-// to the host where the device's are newer; what was asked for by block_to_write() is copied to the
-// device before the next step. A reference that is kept over a step is out of date.
+// With a device the fields are in its memory; block() and block_to_write() are the only access.
+// Both copy the fields to the host if those of the device are newer; after block_to_write() they
+// are copied to the device before the next step. A reference that is kept over a step is out of
+// date.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -27,33 +28,35 @@ namespace asperity {
 
 class DeviceBlock;
 
+/// Options of a simulation.
 struct SimulationOptions {
     BlockOptions block;
     InterfaceOptions interface;
     DriveOptions drive;
     double dt = 10.0;          ///< fs
     double damping = 0.0;      ///< 1/fs
-    double damping_from = 0.0; ///< fraction of the thickness
+    double damping_from = 0.0; ///< fraction of the thickness above which damping acts
     double temperature = 0.0;  ///< K
-    std::uint64_t seed = 1;    ///< of the noise
-    DeviceChoice device;       ///< that takes the steps; none: the processor
+    std::uint64_t seed = 1;    ///< seed of the noise
+    DeviceChoice device;       ///< device that makes the steps; none: the processor
 };
 
 /// Work and dissipation since the start, eV.
 struct EnergyBalance {
-    double top_work = 0.0;  ///< done on the block by the top plane, sideways too
-    double lateral = 0.0;   ///< of this, by what moves the block sideways
-    double drag_work = 0.0; ///< done on the block by the moving damping medium
-    double damped = 0.0;    ///< dissipated against the medium
-    double heat = 0.0;      ///< given by the thermostat's noise
-    double external = 0.0;  ///< done by forces from outside
+    double top_work = 0.0;  ///< work of the top plane on the block, sideways too
+    double lateral = 0.0;   ///< part of top_work that moves the block sideways
+    double drag_work = 0.0; ///< work of the moving damping medium on the block
+    double damped = 0.0;    ///< energy dissipated against the medium
+    double heat = 0.0;      ///< heat given by the thermostat's noise
+    double external = 0.0;  ///< work of forces from outside
     double interface = 0.0; ///< int F dz of the mean height
     double drive() const { return top_work + drag_work; }
     double work() const { return drive() + external; }
-    /// Net: both parts of the heat that goes to and fro at a temperature grow with time.
+    /// Returns the net loss: at a temperature both damped and heat grow with time.
     double net_damped() const { return damped - heat; }
 };
 
+/// A block, an interface and a drive, advanced step by step.
 class Simulation {
 public:
     Simulation(const SimulationOptions& options, const Surface& substrate,
@@ -61,17 +64,22 @@ public:
     Simulation(Simulation&&) noexcept;
     ~Simulation();
 
-    /// The undeformed block at this height of its lowest layer, moving with the drive; also after
-    /// steps, of which nothing is left.
+    /// Begins anew with the undeformed block, its lowest layer at this height (Å), moving with the
+    /// drive.
     void start(double height);
-    /// One time step. observe: sum the energies and contacts too.
+    /// Makes one time step and returns its record. observe: sum the energies and contacts too.
+    /// Collective.
     const StepRecord& step(bool observe);
 
     const StepRecord& now() const { return record_; }
+    /// Changes v, the mean of the lowest layer's velocities half a step before and after now(), to
+    /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
+    /// noise have acted (thermostat.hpp).
+    void take_to_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return balance_; }
     const SimulationOptions& options() const { return options_; }
     double reference_height() const { return reference_height_; }
-    /// Of the block over the substrate at the next step, Å.
+    /// Returns the place of the block over the substrate at the next step, Å.
     const std::array<double, 2>& place() const { return slide_; }
     long long steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * options_.dt; }
@@ -81,28 +89,28 @@ public:
         if (device_is_newer_) download();
         return block_;
     }
-    /// With a device: copied to it before the next step.
+    /// Returns the block for writing; with a device it is copied back before the next step.
     Block& block_to_write() {
         if (device_is_newer_) download();
         host_is_newer_ = true;
         return block_;
     }
-    /// Forces on the sites of this rank's tile beside the substrate's, eV/Å, at each step from the
-    /// next one on; null: none. The field is read where it is. Its work is counted, but for that on
-    /// displacements by a thermostat's noise. Not with a device.
+    /// Adds forces on the sites of this rank's tile to those of the substrate, eV/Å, from the next
+    /// step on; null: none. The field is read in place at each step. Its work is counted. Not
+    /// available with a device.
     void push(const VectorField<double>* external) { external_ = external; }
-    /// After fields were written to from outside, which is no work: the energy balance starts anew
-    /// with the next observed step.
+    /// Begins a new energy balance with the next observed step, because writing to the fields from
+    /// outside is not work.
     void restart_balance() { energy_brought_.reset(); }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
     const Phases& phases() const { return phases_; }
     const Communicator& communicator() const { return block_.communicator(); }
 
-    /// Everything but the fields, for checkpoints.
+    /// Passes everything but the fields to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v);
-    /// The same of forces from outside.
+    /// Passes the work and power of forces from outside to a visitor, for checkpoints.
     template <class Visitor>
     void visit_external(Visitor& v) {
         v("work", balance_.external);
@@ -114,6 +122,7 @@ private:
     void step_on_processor(bool observe);
     void download() const;
     double velocity_of_top() const;
+    ThermalNoise noise() const;
     bool slides() const { return options_.interface.slides; }
     void slide();
     void update_slide();
@@ -128,7 +137,7 @@ private:
     void update_energy_balance();
 
     SimulationOptions options_;
-    mutable Block block_; ///< the host's; const functions bring it up to date
+    mutable Block block_; ///< fields of the host; const functions bring them up to date
     Interface interface_;
     Drive drive_;
     std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
@@ -138,27 +147,30 @@ private:
     Phases phases_;
 
     double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
-    std::array<double, 2> slide_{}; ///< of the block over the substrate, Å
+    std::array<double, 2> slide_{}; ///< place of the block over the substrate, Å
     long long step_ = 0;
     StepRecord record_;
     EnergyBalance balance_;
-    /// That no work has brought: set by the first observed step.
+    /// Energy at the first observed step, eV, which no work has brought.
     std::optional<double> energy_brought_;
     double scale_ = 0.0;        ///< largest energy seen, for the residual
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
+    /// Terms of the step before, eV: integrated with those of the next step.
     struct Pending {
         double dissipated = 0.0, drag = 0.0, heat = 0.0;
-    } pending_; ///< of the step before, eV: integrated with the next
+    } pending_;
 
     const VectorField<double>* external_ = nullptr; ///< forces from outside
-    ExactSum external_before_, external_after_;     ///< their power with v(n-1/2), v(n+1/2), eV/fs
-    double external_pending_ = 0.0;                 ///< the latter of the step before
+    /// Power of forces from outside with v(n-1/2) and v(n+1/2), eV/fs
+    ExactSum external_before_, external_after_;
+    double external_pending_ = 0.0; ///< power with v(n+1/2) at the step before
 
-    // Sums of the step under way, this rank's share.
+    // Sums of the current step, this rank's share.
     InterfaceSums interface_sums_;
     KickSums kick_sums_;
-    ExactSum top_force_, lowest_z_, elastic_, heat_;
-    std::array<ExactSum, 2> lateral_; ///< of a path that slides
+    NoiseSums noise_sums_;
+    ExactSum top_force_, lowest_z_, elastic_;
+    std::array<ExactSum, 2> lateral_; ///< force along x and y, of a path that slides
 };
 
 template <class Visitor>

@@ -11,9 +11,13 @@ namespace asperity {
 
 using namespace ASPERITY_VARIANT;
 
-ThermalNoise Thermostat::noise(double dt, long long step) const {
-    return {seed_, step, 2.0 * damping_ * units::boltzmann * temperature_ * dt,
-            1.0 + 0.5 * damping_ * dt, dt};
+ThermalNoise Thermostat::noise(double dt, long long step, double medium) const {
+    return {seed_,
+            step,
+            2.0 * damping_ * units::boltzmann * temperature_ * dt,
+            1.0 + 0.5 * damping_ * dt,
+            dt,
+            medium};
 }
 
 void Thermostat::keep_velocities(const Block& block, double damping_from) {
@@ -35,13 +39,12 @@ void Thermostat::keep_velocities(const Block& block, double damping_from) {
     }
 }
 
-ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long long step) const {
-    ExactSum heat;
+NoiseSums Thermostat::kick(Block& block, const ThermalNoise& noise, double damping_from) const {
+    NoiseSums sums;
     const int thickness = block.options().thickness;
-    const ThermalNoise noise = this->noise(dt, step);
 #pragma omp parallel
     {
-        ExactSum mine;
+        NoiseSums mine;
         for (const Block::Level& level : block.levels()) {
             const Block::Fields fields = block.fields(level);
             const auto v = fields.v.view(), u = fields.u.view();
@@ -59,20 +62,43 @@ ExactSum Thermostat::kick(Block& block, double dt, double damping_from, long lon
                         normals(noise, level.shape.level, level.tile.x0 + x, level.tile.y0 + y, z);
                     Triple<double> speed = {v.x(x, y, z), v.y(x, y, z), v.z(x, y, z)};
                     Triple<double> place = {u.x(x, y, z), u.y(x, y, z), u.z(x, y, z)};
-                    const double given =
+                    const NoiseEnergies given =
                         add_noise(noise, level.mass(z), xi, {before[0], before[nx], before[2 * nx]},
                                   speed, place);
                     v.x(x, y, z) = speed.x, v.y(x, y, z) = speed.y, v.z(x, y, z) = speed.z;
                     u.x(x, y, z) = place.x, u.y(x, y, z) = place.y, u.z(x, y, z) = place.z;
-                    if (counted) mine.add(given);
+                    if (!counted) continue;
+                    mine.heat.add(given.heat);
+                    mine.kinetic.add(given.kinetic);
                 }
-                mine.carry();
+                mine.heat.carry();
+                mine.kinetic.carry();
             }
         }
 #pragma omp critical(asperity_thermostat)
-        heat.merge(mine);
+        sums.heat.merge(mine.heat), sums.kinetic.merge(mine.kinetic);
     }
-    return heat;
+    return sums;
+}
+
+/// v is w + add/2 with w of push() (node_noise.hpp), and p = w + g (w - V).
+void Thermostat::take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
+                              const VectorPlane<double>& v) const {
+    const Block::Level& level = block.levels().front();
+    if (level.first_plane_from(damping_from, block.options().thickness) > 0) return;
+    const double half = 0.5 * noise_speed(noise, level.mass(0)), g = noise.drag - 1.0;
+    for (int y = 0; y < v.x.ny; ++y)
+        for (int x = 0; x < v.x.nx; ++x) {
+            const auto xi =
+                normals(noise, level.shape.level, level.tile.x0 + x, level.tile.y0 + y, 0);
+            const auto of_step = [&](double& mean, double add, double medium) {
+                const double w = mean - half * add;
+                mean = w + g * (w - medium);
+            };
+            of_step(v.x(x, y), xi.x, 0.0);
+            of_step(v.y(x, y), xi.y, 0.0);
+            of_step(v.z(x, y), xi.z, noise.medium_z);
+        }
 }
 
 } // namespace asperity

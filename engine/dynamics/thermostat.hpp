@@ -5,12 +5,19 @@
 //
 // The damping that the scene asks for gets its fluctuating partner: after the kick each damped
 // node's velocity receives sigma xi with sigma^2 = 2 Gamma k_B T dt / m / (1 + Gamma dt/2)^2
-// (Bruenger, Brooks and Karplus 1984). Of a spring mode of frequency w the recursion's stationary
-// moments are those of
+// (Bruenger, Brooks and Karplus 1984). The stationary moments of a spring mode of frequency w are
+// those of
 //
-//   T / (1 - (w dt/2)^2)       displacements, and velocities at half steps;
-//   T / (1 + Gamma dt/2)^2     the record's kinetic energy: velocities at whole steps, without the
-//                              noise of the present step, half of which they would have.
+//   T / (1 - (w dt/2)^2)       displacements u(n), and velocities v(n-1/2) at half steps;
+//   T                          velocities at whole steps before friction and noise have acted,
+//                              p(n) = v(n-1/2) + dt F(n)/2m, and after it, p'(n) = v(n+1/2) -
+//                              dt F(n)/2m. The record's kinetic energy is the mean of both
+//                              (kernels/node_noise.hpp), the trajectory has p(n);
+//   T / (1 + Gamma dt/2)       the mean of v(n-1/2) and v(n+1/2), which is not reported.
+//
+// The energies of mode and step are those of T / (1 - (w dt/2)^2) in the springs and T in motion,
+// but the noise brings k_B T: the leapfrog conserves U + K - dt^2 F^2/8m, exactly over springs, and
+// the energy balance has that (StepRecord::time_step_energy).
 //
 // xi is drawn from a counter-based generator keyed by seed, step and node
 // (kernels/node_noise.hpp): bitwise identical on any number of ranks and threads, and on a
@@ -25,25 +32,30 @@
 
 namespace asperity {
 
+/// Langevin noise of a scene with a temperature.
 class Thermostat {
 public:
-    /// temperature in K, damping in 1/fs.
+    /// Sets the parameters. temperature: K; damping: 1/fs.
     Thermostat(double temperature, double damping, std::uint64_t seed)
         : temperature_(temperature), damping_(damping), seed_(seed) {}
 
-    /// That of a step.
-    ThermalNoise noise(double dt, long long step) const;
+    /// Returns the noise of a step. medium: velocity of the damping medium along z, Å/fs.
+    ThermalNoise noise(double dt, long long step, double medium) const;
 
-    /// Before a step: keeps v(n-1/2), of which the energy given depends.
+    /// Copies v(n-1/2) before a step, because the energy given by the noise depends on it.
     void keep_velocities(const Block& block, double damping_from);
-    /// Adds the noise of this step to v(n+1/2) and u(n+1). Returns this rank's share of the energy
-    /// given to the nodes, eV.
-    ExactSum kick(Block& block, double dt, double damping_from, long long step) const;
+    /// Adds the noise to v(n+1/2) and u(n+1). Returns this rank's shares of the energy given to the
+    /// nodes and of the kinetic energy at the whole step, eV.
+    NoiseSums kick(Block& block, const ThermalNoise& noise, double damping_from) const;
+    /// Changes v, the mean of v(n-1/2) and v(n+1/2) of the lowest layer, to p(n), Å/fs.
+    void take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
+                      const VectorPlane<double>& v) const;
 
 private:
     double temperature_, damping_;
     std::uint64_t seed_;
-    std::vector<std::vector<double>> old_; ///< of each level: rows of x, y and z of its planes
+    /// v(n-1/2): rows of x, y and z of the planes of each level
+    std::vector<std::vector<double>> old_;
 };
 
 } // namespace asperity

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Energy that a quasi-static path dissipates: where a state becomes unstable, the block goes over
-// to the next one at the same position of what is held (top plane or mean height), and the energy
-// that this sets free goes into vibrations that the path does not follow.
+// Energy that a quasi-static path dissipates. When a state becomes unstable, the block moves to the
+// next one at the same position of the held quantity (top plane or mean height), and the energy set
+// free goes into vibrations that the path does not follow.
 #pragma once
 
 #include "engine/scene/segment.hpp"
@@ -17,16 +17,17 @@
 
 namespace asperity {
 
+/// One instability of a quasi-static path.
 struct Instability {
-    double energy = 0.0;                                ///< dissipated, eV
-    std::size_t segment = 0;                            ///< of the path
-    double top = 0.0;                                   ///< displacement of what is held, Å
+    double energy = 0.0;                                ///< energy dissipated, eV
+    std::size_t segment = 0;                            ///< segment of the path
+    double top = 0.0;                                   ///< displacement of the held quantity, Å
     double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
     std::array<double, 2> slide{};                      ///< place over the substrate, Å
-    double force_before = 0.0, force_after = 0.0;       ///< that holding it takes, eV/Å
+    double force_before = 0.0, force_after = 0.0;       ///< force of the holder, eV/Å
     std::int64_t contact_before = 0, contact_after = 0; ///< sites
     int site_x = 0, site_y = 0;   ///< the site of the lowest layer that moved most
-    double largest_move = 0.0;    ///< how far, Å
+    double largest_move = 0.0;    ///< distance moved by that site, Å
     std::int64_t sites_moved = 0; ///< sites that moved more than half as far
 
     template <class Visitor>
@@ -48,12 +49,13 @@ struct Instability {
     }
 };
 
-/// All so far.
+/// Energy dissipated so far, and the instabilities.
 struct Dissipation {
-    double in_segment = 0.0;        ///< in the segment under way, eV
-    double before = 0.0;            ///< in the segments before it, eV
-    double not_followed = 0.0;      ///< of it, in steps too long to tell what the block took, eV
-    long long events = 0;           ///< points of the path at which some was counted
+    double in_segment = 0.0; ///< energy dissipated in the current segment, eV
+    double before = 0.0;     ///< energy dissipated in the earlier segments, eV
+    /// Part of the total in steps too long to tell the part of the block, eV
+    double not_followed = 0.0;
+    long long events = 0;           ///< points of the path with dissipation
     std::vector<Instability> jumps; ///< the strongest, in the order of the path
 
     double total() const { return before + in_segment; }

@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-HeavyBall::HeavyBall(SpectralBlock& block)
+HeavyBall::HeavyBall(Response& block)
     : block_(block), momentum_(block.new_field<float>()), step_sizes_(block.tile(), 1, 0) {
     const PlaneView<float> step_size = step_sizes_.plane(0);
     for (int y = 0; y < step_size.ny; ++y)
@@ -27,11 +27,10 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
     std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
-    block_.respond(preconditioner);
-    const SurfaceTransform<float>& by = block_.transform<float>();
-#pragma omp parallel for schedule(static) num_threads(by.threads())
+    const SiteRows<float> targets = block_.respond(preconditioner);
+#pragma omp parallel for schedule(static) num_threads(targets.threads())
     for (int y = 0; y < step_size.ny; ++y) {
-        const float* const* target = by.get_rows(y);
+        const float* const* target = targets.get(y);
         BallRow row{};
         for (int c = 0; c < components; ++c) {
             row.target[c] = target[c];

@@ -21,24 +21,24 @@
 // contacts (up to 9 eV/Å^2, k being less than 1) adapt by themselves, whatever k is.
 #pragma once
 
-#include "engine/block/spectral_block.hpp"
+#include "engine/waves/preconditioner.hpp"
 
 namespace asperity {
 
 class HeavyBall {
 public:
-    explicit HeavyBall(SpectralBlock& block);
+    explicit HeavyBall(Response& block);
 
     /// Moves the sites, interface_force() being up to date, none further than bound (Å) but for
     /// the shift that keeps a prescribed mean height; their waves do not follow
-    /// (SpectralBlock::apply_constraint()). Returns the largest distance to a target, Å.
+    /// (Response::apply_constraint()). Returns the largest distance to a target, Å.
     /// Collective.
     double move(const Preconditioner& preconditioner, double bound);
     /// From rest again; the step sizes are kept.
     void stop();
 
 private:
-    SpectralBlock& block_;
+    Response& block_;
     SiteField<float> momentum_;
     Field<float> step_sizes_;
 };

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/equilibrium/last_point.hpp"
 
+#include "decomposition/global_sum.hpp"
+
 #include <fmt/format.h>
 
 namespace asperity {
@@ -15,7 +17,7 @@ double LastPoint::lead(Along along) {
     return at_;
 }
 
-/// Over the substrate, with the coordinate there.
+/// Moves the block over the substrate to the place with this coordinate.
 void LastPoint::place_block(double at) {
     std::array<double, 2> place = place_;
     if (along_ == Along::x || along_ == Along::y) place[static_cast<std::size_t>(along_)] = at;
@@ -25,6 +27,7 @@ void LastPoint::place_block(double at) {
 void LastPoint::accept(double at) {
     state_.take(state_of(block_));
     block_.end_step();
+    last_dt_ = dt_ > 0.0 ? dt_ : HUGE_VAL;
     at_ = at;
     if (along_ == Along::z) normal_ = at;
     if (along_ == Along::time) clock_ = at;
@@ -33,7 +36,7 @@ void LastPoint::accept(double at) {
 
 void LastPoint::put_back() {
     state_.restore(state_of(block_));
-    block_.apply_constraint(constraint(at_));
+    block_.hold(constraint(at_));
     place_block(at_);
 }
 
@@ -41,7 +44,8 @@ RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
                                  const ForceWindow& window) {
     state_.restore(state_of(block_));
     block_.constrain(constraint(at_));
-    block_.begin_step(dt);
+    block_.begin_step(dt, last_dt_);
+    dt_ = dt;
     place_block(at);
     RelaxOptions options;
     options.start = Start::near;
@@ -66,14 +70,30 @@ std::function<double(int, int)> LastPoint::moves() const {
     };
 }
 
+double LastPoint::all_moves() const {
+    const auto moved = moves();
+    const auto layer = block_.lowest_layer();
+    ExactSum sum;
+    for (int y = 0; y < layer.x.ny; ++y) {
+        for (int x = 0; x < layer.x.nx; ++x)
+            sum.add(moved(x, y));
+        sum.carry();
+    }
+    return global_sum(block_.communicator(), sum);
+}
+
 std::vector<StateArray> LastPoint::states() {
     const auto arrays = state_of(block_);
     if (state_.empty()) state_.take(arrays);
     std::vector<StateArray> list = state_.arrays(arrays);
-    if (auto* memory = block_.memory())
-        for (std::size_t k = 0; k < memory->size(); ++k)
-            for (std::size_t c = 0; c < (*memory)[k].size(); ++c)
-                list.push_back({fmt::format("/level0/branch{}_{}", k, c), 0, &(*memory)[k][c], 1});
+    const auto add = [&](const char* name, std::vector<SiteField<double>>* fields) {
+        for (std::size_t k = 0; fields && k < fields->size(); ++k)
+            for (std::size_t c = 0; c < (*fields)[k].size(); ++c)
+                list.push_back(
+                    {fmt::format("/level0/{}{}_{}", name, k, c), 0, &(*fields)[k][c], 1});
+    };
+    add("branch", block_.memory());
+    add("history", block_.history());
     return list;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The last point of a sequence of equilibria along a prescribed coordinate (the top plane or the
-// mean height of the lowest layer; or, at a fixed one of these, the place of the block over the
+// mean height of the lowest layer; or, with one of these fixed, the place of the block over the
 // substrate along x or y), and the relaxation from it to the next one.
 #pragma once
 
@@ -17,46 +17,63 @@
 
 namespace asperity {
 
+/// The last point of a quasi-static path.
 class LastPoint {
 public:
     struct Options {
         Constraint::Of along = Constraint::Of::top;
-        double tolerance = 0.0; ///< of points, eV/Å
+        double tolerance = 0.0; ///< tolerance of the first point, eV/Å
         Scales scales;
         double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
     LastPoint(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}
 
-    /// The place along x or y, or what is prescribed along z, the others staying where they are; or
-    /// the way that what is held would go in the time that passes (block_memory.hpp).
+    /// Coordinate of the path: the place along x or y; the prescribed quantity along z, with the
+    /// place fixed; or time, in units of the distance that the held quantity would move meanwhile
+    /// (block_memory.hpp).
     enum class Along { x, y, z, time };
-    /// From now on this coordinate changes. Returns where it stands.
+    /// Selects the coordinate that changes from now on. Returns its value.
     double lead(Along along);
     double at() const { return at_; }
-    /// What the sum of the residual forces of a point may be from now on, eV/Å (RelaxOptions).
+    /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
 
-    /// The block as it is becomes the last point.
+    /// Sets the largest residual force of points from now on, eV/Å.
+    void relax_to(double tolerance) { options_.tolerance = tolerance; }
+    double tolerance() const { return options_.tolerance; }
+
+    /// Makes the present state of the block the last point.
     void accept(double at);
-    /// Puts the block back to the last point, from wherever it was taken.
+    /// Returns the sum of the displacements of the sites of the lowest layer since the last point,
+    /// Å. Collective.
+    double all_moves() const;
+    /// Puts the block back to the last point.
     void put_back();
-    /// Relaxes from the last point with the coordinate there, dt later (fs; infinite: at rest);
-    /// report and window as in RelaxOptions. Collective.
     using Report = std::function<bool(long long, double)>;
+    /// Relaxes from the last point with the coordinate at this value, dt later (fs; infinite: at
+    /// rest), as the continuation of the step before unless turn() was called since. report and
+    /// window as in RelaxOptions. Collective.
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
 
+    /// The next step in time does not continue the last one: the displacements have changed their
+    /// course.
+    void turn() { last_dt_ = HUGE_VAL; }
+    /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
+    double last_dt() const { return last_dt_; }
+
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
-    /// How far a site of the lowest layer has moved since the last point, Å.
+    /// Returns the distance that a site of the lowest layer has moved since the last point, Å.
     std::function<double(int, int)> moves() const;
-    /// The site that has moved most. Collective.
+    /// Returns the site that has moved most. Collective.
     LargestSite largest_move() const {
         return global_largest(block_.communicator(), interface_.tile(), moves());
     }
 
-    /// For checkpoints: numbers, and what a state is made of, to be read before put_back().
+    /// Passes the numbers to a visitor, for checkpoints; states() lists the arrays, to be read
+    /// before put_back().
     template <class Visitor>
     void visit(Visitor& v) {
         v("at", at_);
@@ -66,11 +83,12 @@ public:
         v("clock", clock_);
         v("iterations", iterations_);
         v("balance", balance_);
+        v("last_dt", last_dt_);
     }
     std::vector<StateArray> states();
 
 private:
-    /// Along z, with the coordinate there.
+    /// Returns the constraint along z with the coordinate at this value.
     Constraint constraint(double at) const {
         return {options_.along, along_ == Along::z ? at : normal_};
     }
@@ -79,15 +97,17 @@ private:
     SpectralBlock& block_;
     Interface& interface_;
     Options options_;
-    Phases phases_; ///< of the relaxations; their lines are not lines of the step
+    Phases phases_; ///< clocks of the relaxations, apart from those of the step
     StateCopy state_;
     double at_ = 0.0;
     Along along_ = Along::z;
     double balance_ = HUGE_VAL;     ///< eV/Å
-    double normal_ = 0.0;           ///< along z, Å
-    double clock_ = 0.0;            ///< along time, Å
-    std::array<double, 2> place_{}; ///< of the block over the substrate, Å
+    double normal_ = 0.0;           ///< prescribed value along z, Å
+    double clock_ = 0.0;            ///< coordinate along time, Å
+    std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     long long iterations_ = 0;
+    double dt_ = HUGE_VAL;      ///< of the step under way, fs
+    double last_dt_ = HUGE_VAL; ///< of the step that this one continues, fs
 };
 
 } // namespace asperity

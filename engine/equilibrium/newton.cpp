@@ -4,10 +4,11 @@
 
 #include "engine/equilibrium/relaxation.hpp"
 
+#include <utility>
+
 namespace asperity {
 
-Newton::Newton(const SpectralBlock& block, const Preconditioner& preconditioner,
-               const Scales& scales)
+Newton::Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales)
     : block_(block), preconditioner_(preconditioner),
       stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length),
       r_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
@@ -19,37 +20,37 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
     combine(-1.0, g, 0.0, r_);
     d.clear();
     double rz = advance(0.0, d);
-    double keep = 0.0;
+    double fraction = 0.0;
     const double enough = forcing * forcing * rz;
     for (int i = 0; i < RelaxationConstants::most_products && rz > enough; ++i) {
-        const double curvature = multiply(keep);
+        const double curvature = multiply(fraction);
         if (!(curvature > 0.0)) return false;
         const double next = advance(rz / curvature, d);
-        keep = next / rz;
+        fraction = next / rz;
         rz = next;
     }
     return true;
 }
 
-double Newton::multiply(double keep) {
+double Newton::multiply(double fraction) {
     const double n = block_.options().sites, norm = 1.0 / (n * n);
     OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
-    const SurfaceTransform<float>& by = block_.transform<float>();
-#pragma omp parallel for schedule(static) num_threads(by.threads())
+    WaveBlocks<float> waves = block_.transform<float>().from_waves();
+#pragma omp parallel for schedule(static) num_threads(waves.threads())
     for (int b = 0; b < p_.blocks(); ++b) {
-        preconditioner_.apply(b, r_.block(b), keep, p_.block(b));
-        by.put_block(b, p_.block(b));
+        preconditioner_.apply(b, r_.block(b), fraction, p_.block(b));
+        waves.put(b, p_.block(b));
     }
-    by.to_rows();
-#pragma omp parallel for schedule(static) num_threads(by.threads())
+    SiteRows<float> rows = std::move(waves).to_rows();
+#pragma omp parallel for schedule(static) num_threads(rows.threads())
     for (int y = 0; y < block_.slab().rows; ++y) {
-        stiffness_.apply_row(y, by.get_rows(y));
-        by.put_rows(y);
+        stiffness_.apply_row(y, rows.get(y));
+        rows.put(y);
     }
-    by.to_blocks();
-#pragma omp parallel for schedule(static) num_threads(by.threads())
+    const WaveBlocks<float> hessian_p = std::move(rows).to_blocks(); // N^2 H p
+#pragma omp parallel for schedule(static) num_threads(hessian_p.threads())
     for (int b = 0; b < p_.blocks(); ++b) {
-        block_.stiffen<float>(b, p_.block(b), norm, by.get_block(b), q_.block(b));
+        block_.stiffen<float>(b, p_.block(b), norm, hessian_p.get(b), q_.block(b));
         *sums.part(b) = dot_of_block(b, p_, q_);
     }
     return sums.total()[0];

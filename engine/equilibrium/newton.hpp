@@ -6,15 +6,15 @@
 // 3 x 3 matrices (interface_stiffness.hpp).
 #pragma once
 
-#include "engine/block/spectral_block.hpp"
 #include "engine/interface/interface_stiffness.hpp"
 #include "engine/interface/scales.hpp"
+#include "engine/waves/preconditioner.hpp"
 
 namespace asperity {
 
 class Newton {
 public:
-    Newton(const SpectralBlock& block, const Preconditioner& preconditioner, const Scales& scales);
+    Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales);
 
     /// The direction where the block stands, its interface_force() and gradient being up to date,
     /// to a residual of `forcing` times the gradient, both measured by the preconditioner. False,
@@ -25,12 +25,12 @@ public:
     double mean_stiffness(const Interface& interface, double reference_height);
 
 private:
-    /// p <- P r + keep p, q <- (S + H) p. Returns p.q.
-    double multiply(double keep);
-    /// d <- d + a p, r <- r - a q. Returns r.(P r).
+    /// Sets p to P r + fraction p and q to (S + H) p. Returns p.q.
+    double multiply(double fraction);
+    /// Sets d to d + a p and r to r - a q. Returns r.(P r).
     double advance(double a, Waves<float>& d);
 
-    const SpectralBlock& block_;
+    const Response& block_;
     const Preconditioner& preconditioner_;
     InterfaceStiffness stiffness_;
     Waves<float> r_, p_, q_;

@@ -19,6 +19,11 @@
 
 namespace asperity {
 
+namespace {
+/// A step that is short in time, over the shortest time of the branches.
+constexpr double short_time = 0.02;
+} // namespace
+
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report) {
     PathOptions o;
@@ -103,7 +108,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     const RelaxedState state = last_.relax_at(top, dt, {});
     if (!state.converged)
         throw io::PhysicsError("the path does not start from an equilibrium",
-                               why_not_converged(state, 0.25 * options_.tolerance),
+                               why_not_converged(state, last_.tolerance()),
                                "a larger drive.tolerance, or a height further from the substrate");
     last_.accept(top);
     record_.step = 0;
@@ -112,6 +117,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     energy_at_start_ = energy - record_.work;
     set_record(state, top);
     trail_.begin(top, state.top_force);
+    if (!here.from_apart) turn();
 }
 
 void QuasistaticPath::resume() {
@@ -174,10 +180,12 @@ void QuasistaticPath::begin_to(double at) {
 void QuasistaticPath::begin(Along along, double direction) {
     if (along != course_.along || direction != course_.direction) {
         // No points of the segment before for the integral.
+        if (along != course_.along) trail_.forget_slope();
         course_.along = along;
         course_.direction = direction;
         trail_.begin(at(), force());
         bracket_.reset();
+        turn();
     }
     length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
@@ -189,8 +197,9 @@ void QuasistaticPath::begin(Along along, double direction) {
     const double a = block_.options().spacing;
     course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
                        slack(record_.in_contact));
-    course_.bracketed = false;
+    course_.bracketed = course_.comes_to_rest = false;
     course_.work = course_.relaxed = course_.gap = course_.squares = 0.0;
+    course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
 }
 
@@ -211,10 +220,41 @@ double QuasistaticPath::time_of(double step) const {
     return options_.velocity > 0.0 ? step / options_.velocity : HUGE_VAL;
 }
 
-/// So short that displacements may be taken to go evenly over it.
+/// So short that the block hardly relaxes in it.
 bool QuasistaticPath::is_short_in_time(double step) const {
     if (!(options_.velocity > 0.0)) return true;
-    return time_of(step) <= 0.02 * block_.options().branches.front().time;
+    return time_of(step) <= short_time * block_.options().branches.front().time;
+}
+
+void QuasistaticPath::turn() {
+    if (!(options_.velocity > 0.0)) return;
+    last_.turn();
+    const double shortest = block_.options().branches.front().time;
+    length_ = std::min(length_, short_time * shortest * options_.velocity);
+}
+
+/// Å. With a block that relaxes also a tenth of a step that is short in time, unless the rounding
+/// of positions forbids it.
+double QuasistaticPath::smallest_step() const {
+    const double smallest = options_.step * 0x1p-16;
+    if (!(options_.velocity > 0.0)) return smallest;
+    const double shortest = block_.options().branches.front().time;
+    return std::min(smallest, std::max(0.1 * short_time * shortest * options_.velocity,
+                                       options_.step * 0x1p-30));
+}
+
+/// What energy may be missing in a step in which the drive goes so far (Å), eV: no less than what
+/// sums over the sites leave out (kernels/exact_sum.hpp).
+double QuasistaticPath::allowed_missing(double way, double tolerance) const {
+    return std::max(tolerance * sites_ * way, sites_ * 0x1p-51);
+}
+
+/// A patch of a slow block that becomes unstable goes its way while the drive hardly moves: the
+/// tolerance is then for each Å of the way of each site.
+double QuasistaticPath::allowed_missing_in_time(double way, double tolerance) const {
+    const double allowed = allowed_missing(std::min(way, options_.step), tolerance);
+    if (!(options_.velocity > 0.0)) return allowed;
+    return std::max(allowed, tolerance * last_.all_moves());
 }
 
 /// A hold has no other bound than its errors.
@@ -223,10 +263,13 @@ double QuasistaticPath::longest_step() const {
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
+    if (course_.comes_to_rest) return come_to_rest();
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     const double aim = course_.rule.aim();
     for (;;) {
         const bool all_the_way = bisect();
+        if (std::isfinite(last_.last_dt())) // a step continues no one that is much shorter
+            length_ = std::min(length_, 2.0 * last_.last_dt() * options_.velocity);
         const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
         const bool arrives = left <= length_;
@@ -235,6 +278,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
         const double way = std::abs(there - at());
         const bool last_try = length_ <= smallest_step();
         const bool any_force = all_the_way || last_try || course_.along != Along::z;
+        const double tolerance = tolerance_to(there);
+        last_.relax_to(0.25 * tolerance);
         const long long iterations = last_.iterations();
         const RelaxedState state =
             last_.relax_at(there, time_of(way), options_.report,
@@ -259,15 +304,17 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             const PathPoint trial = point(state, there);
             const StepDecision step =
                 decide(point(), trial, trail_,
-                       {allowed_missing(std::min(way, options_.step)), allowed_uncertainty(),
-                        last_try, is_short_in_time(way)});
-            if (step.verdict != StepDecision::halve) {
+                       {allowed_missing_in_time(way, tolerance), allowed_uncertainty(tolerance),
+                        last_try, is_short_in_time(way), state.branches.error});
+            // A force that has fallen further than was known asks for a smaller tolerance.
+            const bool coarse = !last_try && 2.0 * tolerance_under(state.force) < tolerance;
+            if (step.verdict != StepDecision::halve && !coarse) {
                 accept(state, there, step);
                 if (arrives) length_ = std::max(length_, planned);
                 return outcome();
             }
-            if (!step.excess) bracket_ = {there, trial.force};
-        } else if (state.jumped) {
+            if (!step.excess && !step.coarse) bracket_ = {there, trial.force};
+        } else if (state.jumped && is_short_in_time(way)) {
             bracket_ = {there, state.force};
         }
         length_ *= 0.5;
@@ -284,11 +331,32 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:
-        return Outcome::apart;
+        // A block that relaxes may still be stretched: the next point is the one at rest.
+        course_.comes_to_rest = options_.velocity > 0.0;
+        return course_.comes_to_rest ? Outcome::point : Outcome::apart;
     case SegmentRule::End::no:
         break;
     }
     return Outcome::point;
+}
+
+/// The solids are apart, and what the block has stored it dissipates without any work.
+QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
+    const long long iterations = last_.iterations();
+    RelaxedState state = last_.relax_at(at(), HUGE_VAL, options_.report);
+    if (state.interrupted) {
+        put_back();
+        last_.set_iterations(iterations);
+        return Outcome::interrupted;
+    }
+    if (!state.converged) refuse_place(state, at());
+    const PathPoint before = point();
+    state.branches.dissipated = std::max(
+        before.energy - record_.relaxed - state.interface_energy - state.elastic_energy, 0.0);
+    const PathPoint there = point(state, at());
+    accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
+    course_.comes_to_rest = false;
+    return Outcome::apart;
 }
 
 void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
@@ -299,7 +367,7 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                                            : "mean height displaced by",
                                        at),
                            fmt::format("after {} iterations {}", state.iterations,
-                                       why_not_converged(state, 0.25 * options_.tolerance)),
+                                       why_not_converged(state, last_.tolerance())),
                            "a larger drive.tolerance, or a height further from the substrate");
 }
 
@@ -319,9 +387,18 @@ std::array<double, 2> QuasistaticPath::lateral_force() const {
 double QuasistaticPath::slack(std::int64_t in_contact) const {
     const bool all = options_.along == Constraint::Of::top;
     const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
-    const double slack = 0.25 * options_.tolerance * count;
+    const double slack = 0.25 * tolerance_under(record_.force) * count;
     const double load = to_load() ? this->load() : 0.0;
     return load == 0.0 ? slack : std::min(slack, load_accuracy * std::abs(load));
+}
+
+/// Returns the tolerance of a step to this place: that under the smallest force on the way, as far
+/// as it is known; on the way down to a load, no less than under that.
+double QuasistaticPath::tolerance_to(double to) const {
+    double force = record_.force;
+    if (course_.along == Along::z) force = std::min(force, trail_.continued(to));
+    if (to_load() && course_.direction > 0.0) force = std::max(force, load());
+    return tolerance_under(force);
 }
 
 /// With the last point still on the other side of it. Also where the attraction
@@ -349,14 +426,16 @@ bool QuasistaticPath::bisect() {
 /// As decide() has it where energy is missing.
 bool QuasistaticPath::work_is_known(double to, double there) const {
     const double step = std::abs(to - at());
-    return trail_.to(to, there).error <= allowed_missing(step) ||
-           0.5 * step * std::abs(there - force()) <= allowed_uncertainty();
+    const double tolerance = tolerance_to(to);
+    return trail_.to(to, there).error <= allowed_missing(step, tolerance) ||
+           0.5 * step * trail_.jump(to, there) <= allowed_uncertainty(tolerance);
 }
 
 /// A force outside is too far from a smooth continuation for a step to this place; a half more than
 /// that, for a fall may come back a little.
 ForceWindow QuasistaticPath::acceptable_force(double to) const {
-    return {trail_.continued(to), 1.5 * 2.0 * allowed_uncertainty() / std::abs(to - at())};
+    return {trail_.continued(to),
+            1.5 * 2.0 * allowed_uncertainty(tolerance_to(to)) / std::abs(to - at())};
 }
 
 PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
@@ -370,7 +449,8 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
     course_.work += step.work;
-    course_.gap += std::abs(step.gap);
+    // An extension that is wrong acts on with the larger ones that follow: twice.
+    course_.gap += std::abs(step.gap) + 2.0 * state.branches.error;
     course_.squares += step.uncertain * step.uncertain;
     record_.work += step.work;
     const double way = std::abs(at - this->at());
@@ -382,7 +462,8 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         record_.damped = dissipation_.total();
     }
     const double force = point(state, at).force;
-    if (step.smooth)
+    const bool same_branch = step.smooth && step.dissipated == 0.0;
+    if (same_branch)
         trail_.add(at, force);
     else
         trail_.begin(at, force);
@@ -393,8 +474,10 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;
-    // An instability was bracketed with ever smaller steps; beyond it there is no reason for them.
-    if (!step.smooth) length_ = std::max(length_, options_.step / 4.0);
+    // An instability was bracketed with ever smaller steps. Beyond it they begin at four times the
+    // last one: in a far longer one the next instability would hide.
+    if (!same_branch) length_ = std::max({length_, 4.0 * way, options_.step / 256.0});
+    if (!step.smooth) turn();
     length_ = std::clamp(length_, smallest_step(), longest_step());
 }
 

@@ -23,13 +23,16 @@
 //   halved    otherwise, and tried again from the last point. Where that was and the force there
 //             are kept: they tell how close the last point has to come.
 //
-// So an instability ends up between two points so close that its place and its energy are known,
-// while many small instabilities that leave the force smooth are counted without looking for each.
-// As long as a place further on is kept, steps go half of the way to it. A relaxation whose force
-// jumps further than a step of its length may have it is given up on its way
+// So an instability ends up between two points so close that its place and its energy are known.
+// Beyond it only one point of the new branch is known, and a step may hide the next instability:
+// the force may come back to where it was, and the error of the integral may be what was lost. So
+// forces are compared with the slope of the branch before, and a step is halved where that is
+// missed by too much. As long as a place further on is kept, steps go half of the way to it. A
+// relaxation whose force jumps further than a step of its length may have it is given up on its way
 // through the instability: its step would, with few exceptions, be halved anyway.
 // "Nothing" is drive.tolerance for each site and Å of the step: errors of the energy are then
-// bounded by that on the whole path. To be that good, points are relaxed to a quarter of it.
+// bounded by that on the whole path. To be that good, points are relaxed to a quarter of it. The
+// tolerance follows the force that presses, where that is larger than the scale of forces.
 // decide() (step_decision.hpp) says which of the three it is.
 #pragma once
 
@@ -51,7 +54,7 @@ namespace asperity {
 struct PathOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
     double step = 0.25;                         ///< the largest of what is led, Å
-    double tolerance = 0.0;                     ///< eV/Å
+    double tolerance = 0.0;                     ///< where little force is there, eV/Å
     Scales scales;
     double load = 0.0;             ///< at which the approach ends, eV/Å
     double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
@@ -86,11 +89,11 @@ public:
     void begin_to(double at);
     enum class Outcome { point, at_load, apart, there, interrupted };
     /// The next point of the segment. at_load: an approach or a load has come to its load (the path
-    /// stands there exactly); apart: nothing is left of the force on a pull-off; there: a height or
-    /// a slide has come to its end, exactly. Where a relaxation was interrupted, block and path are
-    /// back at the last point, and the next call makes the whole point again. Collective. Throws
-    /// io::PhysicsError where no equilibrium is found, and where the solids part on the way to a
-    /// pull.
+    /// stands there exactly); apart: nothing is left of the force on a pull-off, and the block is
+    /// at rest; there: a height or a slide has come to its end, exactly. Where a relaxation was
+    /// interrupted, block and path are back at the last point, and the next call makes the whole
+    /// point again. Collective. Throws io::PhysicsError where no equilibrium is found, and where
+    /// the solids part on the way to a pull.
     Outcome advance();
 
     /// The last point. On quasi-static paths: step counts points, damped is what was dissipated.
@@ -99,13 +102,16 @@ public:
     /// minus that of the interface's force, for the mean height does not jump.
     double work() const { return course_.work; }
     /// What this, and what was dissipated in the segment, may be wrong by, eV: the sum of the gaps
-    /// in the energy balance of its steps, and three times the root of the sum of squares of what
-    /// the work of each step with an instability is not known by. (Three, for these errors are not
-    /// independent: measured in docs/explanation/relaxation.md.)
+    /// in the energy balance of its steps and of their errors in time, and three times the root of
+    /// the sum of squares of what the work of each step with an instability is not known by.
+    /// (Three, for these errors are not independent: measured in docs/explanation/relaxation.md.)
     double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
     /// What a block that relaxes has dissipated in the segment under way, beside the dissipation at
     /// instabilities, eV.
     double relaxed() const { return course_.relaxed; }
+    /// Returns the change of the energy of interface and block, branches included, in the segment
+    /// under way, eV: work() less this and what was dissipated is 0 to within uncertainty().
+    double stored() const { return record_.energy() - course_.stored_at_start; }
     const Dissipation& dissipation() const { return dissipation_; }
     /// What the force of the last point may be wrong by, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -126,17 +132,19 @@ private:
     /// Of the segment under way.
     struct Course {
         Segment::Kind kind = Segment::approach;
-        std::size_t number = 0;     ///< in the path
-        Along along = Along::z;     ///< what it leads
-        double direction = -1.0;    ///< of that; 0: the segment ends where it began
-        std::optional<double> end;  ///< where it ends, Å; none: at a load, or apart
-        std::optional<double> load; ///< eV/Å; none: an approach's, or apart
-        SegmentRule rule;           ///< of one that a force ends
-        bool bracketed = false;     ///< the load at which the segment ends
-        double work = 0.0;          ///< of the top plane, eV
-        double relaxed = 0.0;       ///< dissipated by the block, eV
-        double gap = 0.0;           ///< the sum of those of its steps, eV
-        double squares = 0.0;       ///< of what the works of its steps are not known by, eV^2
+        std::size_t number = 0;       ///< in the path
+        Along along = Along::z;       ///< what it leads
+        double direction = -1.0;      ///< of that; 0: the segment ends where it began
+        std::optional<double> end;    ///< where it ends, Å; none: at a load, or apart
+        std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
+        SegmentRule rule;             ///< of one that a force ends
+        bool bracketed = false;       ///< the load at which the segment ends
+        bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
+        double work = 0.0;            ///< of the top plane, eV
+        double relaxed = 0.0;         ///< dissipated by the block, eV
+        double stored_at_start = 0.0; ///< energy of interface and block, eV
+        double gap = 0.0;             ///< the sum of those of its steps, with errors in time, eV
+        double squares = 0.0;         ///< of what the works of its steps are not known by, eV^2
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -147,8 +155,10 @@ private:
             v("load", load);
             v("rule", rule);
             v("bracketed", bracketed);
+            v("comes_to_rest", comes_to_rest);
             v("work", work);
             v("relaxed", relaxed);
+            v("stored_at_start", stored_at_start);
             v("gap", gap);
             v("squares", squares);
         }
@@ -167,6 +177,7 @@ private:
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
     Outcome outcome();
+    Outcome come_to_rest();
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }
@@ -181,14 +192,24 @@ private:
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, Here here);
     double longest_step() const;
-    double smallest_step() const { return options_.step * 0x1p-16; }
-    /// What energy may be missing in a step of this length, eV: no less than what sums over the
-    /// sites leave out (kernels/exact_sum.hpp).
-    double allowed_missing(double step) const {
-        return std::max(options_.tolerance * sites_ * step, sites_ * 0x1p-51);
+    double smallest_step() const;
+    /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
+    /// (setup/scales.cpp), or of a site's part of this force, if that is larger.
+    double tolerance_under(double force) const {
+        return options_.tolerance * std::max(1.0, force / (sites_ * options_.scales.force));
     }
-    /// Of the work of a step with an instability, eV.
-    double allowed_uncertainty() const { return allowed_missing(options_.step); }
+    double tolerance_to(double at) const;
+    double allowed_missing(double way, double tolerance) const;
+    /// Returns the same of a step in which a block that relaxes may go on without the drive, eV.
+    /// Collective.
+    double allowed_missing_in_time(double way, double tolerance) const;
+    /// Sets the displacements to change their course in time: the next step continues none, and is
+    /// short.
+    void turn();
+    /// Returns the uncertainty that the work of a step with an instability may have, eV.
+    double allowed_uncertainty(double tolerance) const {
+        return allowed_missing(options_.step, tolerance);
+    }
 
     SpectralBlock& block_;
     Interface& interface_;

@@ -6,6 +6,7 @@
 #include "engine/equilibrium/heavy_ball.hpp"
 #include "engine/equilibrium/newton.hpp"
 #include "engine/equilibrium/wall_minimiser.hpp"
+#include "engine/equilibrium/wall_tangent.hpp"
 
 #include <fmt/format.h>
 
@@ -57,7 +58,7 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
 /// The relaxation: where it is, what is left, and how it goes on.
 class Minimiser {
 public:
-    Minimiser(SpectralBlock& block, const Interface& interface, double reference_height,
+    Minimiser(Response& block, const Interface& interface, double reference_height,
               const RelaxOptions& options, Phases& phases)
         : block_(block), interface_(interface), height_(reference_height), options_(options),
           phases_(phases), preconditioner_(block, options.scales.stiffness), ball_(block),
@@ -112,7 +113,7 @@ private:
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
-        block_.at_sites(g_, at_sites_);
+        to_sites(g_, block_.transform<float>(), at_sites_);
         return largest(block_.communicator(), at_sites_);
     }
     void tune() {
@@ -151,7 +152,7 @@ private:
             forcing_ = Constants::tight;
         }
         if (!newton_.direction(interface_, height_, forcing_, g_, d_)) return false;
-        block_.at_sites(d_, at_sites_);
+        to_sites(d_, block_.transform<float>(), at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
         const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
         const double fraction = most > max_move_ ? max_move_ / most : 1.0;
@@ -161,7 +162,7 @@ private:
         return true;
     }
 
-    SpectralBlock& block_;
+    Response& block_;
     const Interface& interface_;
     double height_;
     const RelaxOptions& options_;
@@ -186,7 +187,7 @@ private:
 
 /// Whether the forces on the sites, which add up to this, are what the constraint asks for. What
 /// rounding leaves of a sum is let pass. Collective.
-bool balanced(SpectralBlock& block, double force, double balance, double rounding) {
+bool balanced(Response& block, double force, double balance, double rounding) {
     const Constraint& constraint = block.constraint();
     if (constraint.is_mean_height()) return true;
     const double sites = static_cast<double>(block.options().sites) * block.options().sites;
@@ -206,7 +207,7 @@ bool balanced(SpectralBlock& block, double force, double balance, double roundin
 
 /// The loop of both minimisers.
 template <class Minimiser>
-RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptions& options,
+RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& options,
                     double rounding) {
     RelaxedState state;
     state.rounding = rounding;
@@ -245,8 +246,9 @@ RelaxedState follow(Minimiser& minimiser, SpectralBlock& block, const RelaxOptio
     // Largest values pass over what is not a number; sums do not.
     state.converged = state.converged && std::isfinite(values[0]) && std::isfinite(values[1]);
     state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
-    state.branches = block.branch_energies();
-    state.elastic_energy = block.elastic_energy() + state.branches.stored;
+    const BlockEnergies energies = block.energies();
+    state.branches = energies.branches;
+    state.elastic_energy = energies.elastic + state.branches.stored;
     state.mean_height = block.mean_height();
     static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());
     return state;
@@ -282,7 +284,12 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
     if (!(options.scales.length > 0.0 && options.scales.stiffness > 0.0))
         throw std::invalid_argument("relax: a relaxation needs the scales of its interface");
-    block.apply_constraint(constraint);
+    long long products = 0;
+    if (interface.options().wall && options.start == Start::near)
+        products = follow_tangent(block, interface, reference_height, constraint,
+                                  Constants::max_move * options.scales.length);
+    else
+        block.hold(constraint);
     const double height =
         std::abs(reference_height) + std::abs(block.mean_height()) + interface.start_height();
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
@@ -290,7 +297,9 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
         RelaxOptions whole = options;
         whole.force_window = {}; // its steps do not add up the force
         WallMinimiser minimiser(block, interface, reference_height, whole, phases);
-        return follow(minimiser, block, whole, rounding);
+        RelaxedState state = follow(minimiser, block, whole, rounding);
+        state.iterations += products;
+        return state;
     }
     Minimiser minimiser(block, interface, reference_height, options, phases);
     return follow(minimiser, block, options, rounding);

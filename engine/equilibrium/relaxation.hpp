@@ -32,11 +32,11 @@
 // forces below the tolerance that all point one way add up.
 #pragma once
 
-#include "engine/block/constraint.hpp"
-#include "engine/block/spectral_block.hpp"
 #include "engine/interface/interface.hpp"
 #include "engine/interface/scales.hpp"
 #include "engine/phases.hpp"
+#include "engine/waves/constraint.hpp"
+#include "engine/waves/spectral_block.hpp"
 
 #include <functional>
 #include <limits>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A state as a list of arrays: what is copied and written to checkpoints, whoever
-// owns it.
+// A state as a list of arrays, which are copied and written to checkpoints without regard to their
+// owner.
 #pragma once
 
 #include "decomposition/field.hpp"
-#include "engine/block/spectral_block.hpp"
+#include "engine/waves/spectral_block.hpp"
 
 #include <string>
 #include <vector>
@@ -15,7 +15,7 @@ namespace asperity {
 
 /// One component of a field of one level; its first `planes` planes are the state.
 struct StateArray {
-    std::string name; ///< of its data set in a checkpoint
+    std::string name; ///< name of its data set in a checkpoint
     int level = 0;
     Field<double>* field = nullptr;
     int planes = 0;
@@ -26,18 +26,19 @@ struct StateArray {
 void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
                 std::vector<StateArray>& list);
 
-/// The displacements of a block's lowest layer: its whole state. apply_constraint() is to follow
-/// what is written to them.
+/// Returns the displacements of a block's lowest layer: its whole state. After writing to them call
+/// apply_constraint().
 std::vector<StateArray> state_of(SpectralBlock& block);
 
 /// A copy of all arrays of a list, to go back to.
 class StateCopy {
 public:
+    /// Copies the arrays.
     void take(const std::vector<StateArray>& arrays);
-    /// The arrays as they were taken, bit for bit, halos included.
+    /// Copies the values back, bit for bit, halos included.
     void restore(const std::vector<StateArray>& arrays) const;
-    /// The copies as a list like the one they were taken from: to be written to a checkpoint, or
-    /// read from one (halos are then not current).
+    /// Returns the copies as a list like the copied one, to be written to a checkpoint or read from
+    /// one (halos are then not current).
     std::vector<StateArray> arrays(const std::vector<StateArray>& like);
     bool empty() const { return copies_.empty(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }

@@ -28,7 +28,9 @@ struct ForceAt {
 /// three before it (Newton's divided differences), so that the error of a step h is of order h^5
 /// where the force is smooth. Where it is not, the polynomial through the old points alone misses
 /// the new force, and wherever in the step that came about, the integral is wrong by no more than
-/// half the step times the miss. Where the force jumps, the trail begins anew.
+/// half the step times the miss. Where the force jumps, the trail begins anew: what it has missed
+/// is then measured from the slope of the branch before, which a jump of a small part of the
+/// contact leaves nearly as it was.
 class ForceTrail {
 public:
     struct Integral {
@@ -37,7 +39,10 @@ public:
 
     /// A first point, with nothing behind it.
     void begin(double x, double f) { points_.assign(1, {x, f}); }
+    /// Another coordinate is led from here.
+    void forget_slope() { branch_slope_ = 0.0; }
     void add(double x, double f) {
+        branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
         if (points_.size() == longest) points_.erase(points_.begin());
         points_.push_back({x, f});
     }
@@ -46,7 +51,7 @@ public:
         const std::size_t n = points_.size();
         const ForceAt& last = points_[n - 1];
         const double h = x - last.x, slope = (f - last.f) / h;
-        double value = 0.5 * h * (f + last.f), miss = f - last.f;
+        double value = 0.5 * h * (f + last.f), miss = f - last.f - h * branch_slope_;
         if (n > 1) {
             const ForceAt& second = points_[n - 2];
             const double d = last.x - second.x, old_slope = (last.f - second.f) / d;
@@ -64,14 +69,17 @@ public:
         }
         return {value, std::abs(0.5 * h * miss)};
     }
-    /// From the last point but one to the last; none of one alone.
-    double slope() const {
-        if (points_.size() == 1) return 0.0;
-        const ForceAt &last = points_.back(), &second = points_[points_.size() - 2];
-        return (last.f - second.f) / (last.x - second.x);
+    /// One point has nothing behind it.
+    bool is_new() const { return points_.size() == 1; }
+    /// The force at x on the line through the last point with the slope of its branch.
+    double continued(double x) const {
+        return points_.back().f + (x - points_.back().x) * branch_slope_;
     }
-    /// The force at x on the line through the last two points; of one alone, its own.
-    double continued(double x) const { return points_.back().f + (x - points_.back().x) * slope(); }
+    /// By how much a force there misses the last one or the continued one, whichever it misses
+    /// more: after an instability and some way along the new branch it may be the last one again.
+    double jump(double x, double f) const {
+        return std::max(std::abs(f - points_.back().f), std::abs(f - continued(x)));
+    }
     /// By the trapezium, whatever came before.
     double trapezium(double x, double f) const {
         return 0.5 * (x - points_.back().x) * (f + points_.back().f);
@@ -80,11 +88,13 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("points", points_);
+        v("branch_slope", branch_slope_);
     }
 
 private:
     static constexpr std::size_t longest = 3;
     std::vector<ForceAt> points_;
+    double branch_slope_ = 0.0; ///< of the last step in which nothing jumped, eV/Å^2
 };
 
 struct PathPoint {
@@ -100,6 +110,7 @@ struct StepLimits {
     /// It is short beside the times in which the block relaxes: what is missing is then no error of
     /// the step in time.
     bool short_in_time = true;
+    double in_time = 0.0; ///< error of the step in time, eV (block_memory.hpp)
 };
 
 struct StepDecision {
@@ -115,6 +126,7 @@ struct StepDecision {
     double uncertain = 0.0;  ///< of the work, where energy is missing, eV
     bool smooth = true;      ///< the force did not jump
     bool excess = false;     ///< more energy gained than the work can have brought
+    bool coarse = false;     ///< halved for its error in time, not for an instability
     double growth = 1.0;     ///< of the step that follows
 };
 
@@ -125,16 +137,21 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     StepDecision d;
     d.work = -integral.value;
     const double missing = d.work - gained;
-    const double error =
-        limits.short_in_time ? std::min(integral.error, std::abs(missing)) : std::abs(missing);
+    const double error = std::max(limits.short_in_time ? std::min(integral.error, std::abs(missing))
+                                                       : std::abs(missing),
+                                  limits.in_time);
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
-    if (std::abs(missing) <= limits.missing) {
-        d.verdict = StepDecision::accept;
+    // Of a trail that is new, the error of the integral may be just what an instability took.
+    const bool hides = trail.is_new() && integral.error > limits.uncertain && !limits.last_try;
+    if (std::abs(missing) <= limits.missing && !hides) {
+        d.coarse = limits.in_time > limits.missing && !limits.last_try;
+        if (!d.coarse) d.verdict = StepDecision::accept;
         d.gap = missing;
         return d;
     }
+    d.coarse = !limits.short_in_time;
     // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
     // the residual.
     d.uncertain = integral.error;
@@ -142,7 +159,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     bool known = d.smooth;
     if (!d.smooth) {
         d.work = -trail.trapezium(trial.at, trial.force);
-        d.uncertain = 0.5 * std::abs(trial.at - last.at) * std::abs(trial.force - last.force);
+        d.uncertain = 0.5 * std::abs(trial.at - last.at) * trail.jump(trial.at, trial.force);
         known = d.uncertain <= limits.uncertain;
     }
     const double least = std::max(d.uncertain, limits.missing);

@@ -15,31 +15,19 @@ namespace {
 
 using Constants = RelaxationConstants;
 
-double stiffest_wave(const SpectralBlock& block) {
-    double stiffest = 0.0;
-    for (int ny = 0; ny < block.slab().columns(); ++ny)
-        for (int nx = 0; nx < block.slab().columns(); ++nx)
-            stiffest = std::max(stiffest, block.stiffness(nx, ny).zz);
-    return stiffest;
-}
-
 } // namespace
 
-WallMinimiser::WallMinimiser(SpectralBlock& block, const Interface& interface,
-                             double reference_height, const RelaxOptions& options, Phases& phases)
+WallMinimiser::WallMinimiser(Response& block, const Interface& interface, double reference_height,
+                             const RelaxOptions& options, Phases& phases)
     : block_(block), interface_(interface), height_(reference_height), options_(options),
-      phases_(phases), waves_(block.new_waves<double>()), single_waves_(block.new_waves<float>()),
-      field_(block.new_field<double>()), single_field_(block.new_field<float>()),
-      next_(block.tile(), 1, 0), step_(block.tile(), 1, 0) {
-    spring_ = stiffest_wave(block);
+      phases_(phases), waves_(block.new_waves<double>()), field_(block.new_field<double>()),
+      single_field_(block.new_field<float>()), next_(block.tile(), 1, 0),
+      step_(block.tile(), 1, 0) {
+    spring_ = block.stiffest_wave();
     estimate_ = spring_ * options.scales.length;
     mean_ = block.mean_height();
-    const Constraint& constraint = block.constraint();
-    const double n = block.options().sites;
-    known_ = block.uniform_known();
-    uniform_force_ = constraint.is_top()
-                         ? block.stiffness(0, 0).zz * (mean_ - constraint.value) + known_
-                         : constraint.load() / (n * n);
+    holder_ = block.holder();
+    uniform_force_ = holder_(mean_);
 }
 
 void WallMinimiser::step() {
@@ -47,10 +35,10 @@ void WallMinimiser::step() {
     single_ = single_ && estimate_ > Constants::rounding * spring_ * widest_;
     double reversal = 0.0;
     if (single_) { // as long as that is good enough
-        elastic_forces(single_waves_, single_field_);
+        elastic_forces(single_field_);
         reversal = relax_sites(single_field_);
     } else {
-        elastic_forces(waves_, field_);
+        elastic_forces(field_);
         reversal = relax_sites(field_);
     }
     accept();
@@ -69,7 +57,7 @@ double WallMinimiser::conclude() {
     }
     const auto t = phases_.time(Phase::sums);
     block_.gradient(waves_);
-    block_.at_sites(waves_, field_);
+    to_sites(waves_, block_.transform<double>(), field_);
     const PlaneView<const double> g = std::as_const(field_[0]).plane(0);
     double largest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : largest)
@@ -85,7 +73,7 @@ double WallMinimiser::conclude() {
 
 /// N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
 template <class T>
-void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
+void WallMinimiser::elastic_forces(SiteField<T>& field) {
     const PlaneView<double> u = block_.moving_layer(0);
     const PlaneView<T> z = field[0].plane(0);
     const PlaneView<const float> step = std::as_const(step_).plane(0);
@@ -97,16 +85,7 @@ void WallMinimiser::elastic_forces(Waves<T>& waves, SiteField<T>& field) {
             widest = std::max(widest, std::abs(static_cast<double>(z(x, y))));
         }
     widest_ = block_.communicator().max(widest);
-    block_.to_waves(field, waves);
-    block_.stiffen(waves);
-    if (const Waves<double>* known = block_.known()) {
-        const bool uniform = block_.slab().holds_uniform(); // which balance() looks after
-        const T mean = uniform ? waves.uniform(0) : T(0);
-        const double n = block_.options().sites;
-        combine(n * n, *known, 1.0, waves);
-        if (uniform) waves.uniform(0) = mean;
-    }
-    block_.at_sites(waves, field);
+    block_.shape_forces(field); // balance() looks after the uniform wave
 }
 
 /// Fills next_. Returns by how much the step turns against the gradient.
@@ -142,12 +121,10 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     };
     // What the block's spring and the load ask for, less the force, and less what L adds to the
     // uniform wave; or what lifts the mean to where it is held.
-    const double spring = constraint.is_top() ? block_.stiffness(0, 0).zz : 0.0;
     const auto excess = [&](double force) {
         relax(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
-        const double top = constraint.is_top() ? spring * (mean - constraint.value) + known_ : load;
-        return top - spring_ * (mean - mean_) - force;
+        return holder_(mean) - spring_ * (mean - mean_) - force;
     };
     // A mean height to its rounding, a load well enough for load_accuracy.
     double enough = Constants::closure * options_.tolerance;

@@ -33,14 +33,14 @@
 // the mean needs no momentum, and has none: with it, a held top oscillates.
 #pragma once
 
-#include "engine/block/spectral_block.hpp"
 #include "engine/equilibrium/relaxation.hpp"
+#include "engine/waves/response.hpp"
 
 namespace asperity {
 
 class WallMinimiser {
 public:
-    WallMinimiser(SpectralBlock& block, const Interface& interface, double reference_height,
+    WallMinimiser(Response& block, const Interface& interface, double reference_height,
                   const RelaxOptions& options, Phases& phases);
 
     /// What the last step leaves, eV/Å: the largest L |z - u|.
@@ -53,31 +53,30 @@ public:
 
 private:
     template <class T>
-    void elastic_forces(Waves<T>& waves, SiteField<T>& field);
+    void elastic_forces(SiteField<T>& field);
     template <class T>
     double relax_sites(const SiteField<T>& elastic);
     template <class Excess>
     void balance(const Excess& excess_at, double enough);
     void accept();
 
-    SpectralBlock& block_;
+    Response& block_;
     const Interface& interface_;
     double height_;
     const RelaxOptions& options_;
     Phases& phases_;
-    double spring_ = 0.0;    ///< L, eV/Å^2
-    double sequence_ = 1.0;  ///< Nesterov's t
-    double momentum_ = 0.0;  ///< beta
-    double mean_ = 0.0;      ///< of u, Å
-    double next_mean_ = 0.0; ///< of next_, Å
-    double known_ = 0.0;     ///< force of branches against the uniform wave, on each site, eV/Å
-    double widest_ = 0.0;    ///< the largest |z - mean|, Å
+    double spring_ = 0.0;        ///< L, eV/Å^2
+    double sequence_ = 1.0;      ///< Nesterov's t
+    double momentum_ = 0.0;      ///< beta
+    double mean_ = 0.0;          ///< of u, Å
+    double next_mean_ = 0.0;     ///< of next_, Å
+    Holder holder_;              ///< of the uniform wave
+    double widest_ = 0.0;        ///< the largest |z - mean|, Å
     double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
     double estimate_;
     double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not
     bool single_ = true;
     Waves<double> waves_;
-    Waves<float> single_waves_;
     SiteField<double> field_;
     SiteField<float> single_field_;
     Field<double> next_;

@@ -17,7 +17,7 @@
 namespace asperity {
 
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
-                                      double lowest_atom, double range) {
+                                      double lowest_atom, double range, double negligible) {
     block.set_uniform(0.0);
     double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
     const double stride = 0.057 * range;
@@ -26,7 +26,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
             interface.sweep(block.lowest_layer(), block.interface_force(), height, {.rough = true});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
-        if (force > 0.0 || height < lowest_atom) return best_height;
+        if (force > negligible || height < lowest_atom) return best_height;
     }
 }
 
@@ -43,11 +43,13 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                                        double reference_height, double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
-    options.tolerance = c.tolerance;
+    // Of a load larger than the scale of forces, a site's part is the scale.
+    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
+    options.tolerance = c.tolerance * std::max(1.0, load / (sites * c.scales.force));
     options.scales = c.scales;
     options.report = stop;
-    Phases own; // its lines are not lines of the step
-    block.begin_step(std::numeric_limits<double>::infinity()); // of what relaxes, at the end
+    Phases own;                                                // apart from the lines of the step
+    block.begin_step(std::numeric_limits<double>::infinity()); // branches have relaxed at the end
     const RelaxedState s =
         relax(block, interface, reference_height, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;
@@ -91,7 +93,7 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     };
     SpectralBlock block(c.simulation.block, ranks);
     InterfaceOptions options = c.simulation.interface;
-    options.rough_too = true;
+    options.mixed_on_request = true;
     Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
     interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)

@@ -15,14 +15,14 @@ namespace asperity {
 
 namespace {
 
-/// Registries sampled along an axis: all that occur, or enough that the average is exact to
-/// rounding (the corrugation's harmonics die out exponentially; beyond 24 points they are below
-/// 1e-16).
+/// Returns the number of registries sampled along an axis: all that occur, or enough that the
+/// average is exact to rounding (the corrugation's harmonics die out exponentially; beyond 24
+/// points they are below 1e-16).
 int registries(int sites, int substrate_sites) {
     return std::min(sites / std::gcd(sites, substrate_sites), 24);
 }
 
-/// In closed form: the repulsion holds the tension at g = -tension / K.
+/// Returns the reference in closed form: the repulsion holds the tension at g = -tension / K.
 FlatReference flat_reference(const ExponentialWall& law, double area) {
     FlatReference flat;
     flat.separation = -law.tension() / law.stiffness();
@@ -76,14 +76,13 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     if (options.wall)
         if (const auto* law = std::get_if<ExponentialWall>(&*options.wall))
             return flat_reference(*law, spacing * spacing);
-    const double r0 = zero_of(options.potential); // its length
+    const double r0 = zero_of(options.potential); // the length of the potential
     // The minimum: where the force turns from pushing to pulling, by bisection.
     double low = 0.4 * r0, high = 1.2 * r0;
     if (!(force(low) > 0.0 && force(high) < 0.0))
         throw std::invalid_argument(fmt::format(
             "interface: flat on flat has no minimum of energy between {:.3f} and {:.3f} Å for "
-            "a potential that is zero at {} Å, cutoff = {} Å, spacing = {} Å; choose a potential "
-            "whose length is not far from the spacing and a cutoff of at least 1.5 times that",
+            "a potential that is zero at {} Å, cutoff = {} Å, spacing = {} Å",
             low, high, r0, cutoff_of(options.potential), spacing));
     while (high - low > 1e-12 * r0) {
         const double middle = 0.5 * (low + high);

@@ -39,9 +39,12 @@ double HeightMap::between(double x, double y) const {
 
 namespace {
 constexpr double nothing_there = -1e30;
-}
+/// By how much ranges are widened so that rounding leaves no atom out, over the spacing.
+constexpr double slack = 1e-3, slack_of_rings = 1e-9;
+} // namespace
 
-/// An atom counts in all rings between the nearest and the farthest point of the block's row.
+/// Makes the bounds. An atom counts in all rings between the nearest and the farthest point of the
+/// block's row.
 ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest,
                        double margin, bool skip)
     : highest_(size(tile), nothing_there), lowest_(size(tile), -nothing_there) {
@@ -50,8 +53,7 @@ ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, d
     bounds_.blocks = blocks_in_row(tile);
     const SubstrateMap whole = map.view();
     const double b = whole.spacing;
-    // Slightly wider, so that rounding leaves no atom out.
-    const double reach = widest + 1e-3;
+    const double reach = widest + slack * spacing;
     const auto ring = [&](double lateral) {
         return std::clamp(static_cast<int>(lateral / bounds_.ring_width), 0, interface_rings - 1);
     };
@@ -81,8 +83,10 @@ ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, d
                     const double nearest = std::max({left - x, x - right, 0.0});
                     const double farthest = std::min(std::max(x - left, right - x), half);
                     // An atom on the border of two rings counts in both.
-                    const int from = ring(std::sqrt(nearest * nearest + dy * dy) - 1e-9);
-                    const int to = ring(std::sqrt(farthest * farthest + dy * dy) + 1e-9);
+                    const int from =
+                        ring(std::sqrt(nearest * nearest + dy * dy) - slack_of_rings * spacing);
+                    const int to =
+                        ring(std::sqrt(farthest * farthest + dy * dy) + slack_of_rings * spacing);
                     for (int r = from; r <= to; ++r) {
                         highest[r] = std::max(highest[r], h);
                         lowest[r] = std::min(lowest[r], h);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate's heights on a square lattice, whole on every rank: what the substrates made of one
-// layer share.
+// The substrate's heights on a square lattice, whole on every rank: shared by the substrates of one
+// layer.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -16,32 +16,35 @@
 
 namespace asperity {
 
-/// Sites along x whose reach is bounded together, in a row of a tile.
+/// Returns the number of blocks of sites along x, whose reach is bounded together, in a row of a
+/// tile.
 inline int blocks_in_row(const Tile& tile) {
     return (tile.nx + interface_block - 1) / interface_block;
 }
 
+/// Heights of the substrate's atoms on a square lattice, periodic.
 class HeightMap {
 public:
-    /// sites: of the block, across the box; spacing: theirs, Å.
+    /// Copies the heights of a substrate. sites: those of the block across the box; spacing: of
+    /// these, Å.
     HeightMap(const Surface& substrate, int sites, double spacing);
 
-    /// Atom (i, j) stands at (i b, j b, at(i, j)).
+    /// Returns the height of atom (i, j), which stands at (i b, j b), Å.
     double at(int i, int j) const {
         return height_[static_cast<std::size_t>(periodic(j, sites_)) *
                            static_cast<std::size_t>(sites_) +
                        static_cast<std::size_t>(periodic(i, sites_))];
     }
-    int sites() const { return sites_; }        ///< atoms across the box
-    double spacing() const { return spacing_; } ///< b, Å
-    double highest() const { return highest_; } ///< Å
+    int sites() const { return sites_; }        ///< returns the number of atoms across the box
+    double spacing() const { return spacing_; } ///< returns b, Å
+    double highest() const { return highest_; } ///< returns the largest height, Å
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
     const std::vector<double>& heights() const { return height_; }
 
     /// Moves all atoms by so many spacings.
     void shift(int i, int j);
 
-    /// Bilinear between the four atoms around (x, y), Å.
+    /// Returns the height at (x, y), bilinear between the four atoms around, Å.
     double between(double x, double y) const;
     /// Calls visit(sideways distance, height) for every atom within `reach` sideways of (x, y).
     template <class Visit>
@@ -66,10 +69,12 @@ private:
     double spacing_, highest_;
 };
 
-/// How high and low the substrate gets around each block of sites, ring by ring (ReachBounds).
+/// Greatest and least heights of the substrate around each block of sites, ring by ring
+/// (ReachBounds).
 class ReachTable {
 public:
-    /// widest: lateral distance of the outermost ring, Å. skip: false: as if atoms were everywhere.
+    /// Makes the tables. widest: lateral distance of the outermost ring, Å; skip = false: bounds as
+    /// if atoms were everywhere.
     ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest, double margin,
                bool skip);
 
@@ -77,7 +82,8 @@ public:
     const std::vector<double>& highest() const { return highest_; }
     const std::vector<double>& lowest() const { return lowest_; }
     std::size_t bytes() const { return (highest_.size() + lowest_.size()) * sizeof(double); }
-    static std::size_t size(const Tile& tile) { ///< of each of the two
+    /// Returns the number of bounds in each of the two tables.
+    static std::size_t size(const Tile& tile) {
         return static_cast<std::size_t>(blocks_in_row(tile)) * static_cast<std::size_t>(tile.ny) *
                interface_rings;
     }
@@ -87,7 +93,7 @@ private:
     std::vector<double> highest_, lowest_;
 };
 
-/// The heights of a tile of atoms and a halo, over the highest atom, as the sweeps read them.
+/// Heights of a tile of atoms and a halo, over the highest atom, as the sweeps read them.
 class TileHeights {
 public:
     TileHeights(const HeightMap& map, const Tile& atoms, int halo);

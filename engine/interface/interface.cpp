@@ -44,7 +44,7 @@ void check(const InterfaceOptions& options, bool anywhere, double spacing, doubl
             pairs.cutoff, most, spacing, between_atoms, 4.0 * zero_of(options.potential)));
 }
 
-/// Which sweep is taken where the options leave it open.
+/// Returns the sweep for options that leave it open.
 InterfaceMethod method_for(const InterfaceOptions& options, const Surface& surface, int sites) {
     if (options.wall) return InterfaceMethod::wall;
     if (options.method != InterfaceMethod::automatic) return options.method;
@@ -56,11 +56,13 @@ InterfaceMethod method_for(const InterfaceOptions& options, const Surface& surfa
 
 namespace {
 
-/// Positions in single precision are multiples of a fixed length, down to a fixed depth: scenes of
-/// other lengths are relaxed in double precision alone.
+/// Allows mixed sweeps only for lengths that single precision can hold: positions in it are
+/// multiples of a fixed length, down to a fixed depth; other scenes are relaxed in double
+/// precision.
 InterfaceOptions within_single(InterfaceOptions options) {
     const double cutoff = options.pairs().cutoff;
-    options.rough_too = options.rough_too && cutoff > 0.5 && cutoff < 0.25 * fixed_depth;
+    options.mixed_on_request =
+        options.mixed_on_request && cutoff > 0.5 && cutoff < 0.25 * fixed_depth;
     return options;
 }
 
@@ -102,7 +104,7 @@ void Interface::slide_to(double x, double y) {
     if (!mean_height_.empty()) find_mean_heights();
 }
 
-/// As seen from the substrate.
+/// Returns the displacements in the frame of the substrate.
 VectorPlane<const double>
 Interface::over_substrate(const VectorPlane<const double>& displacement) const {
     if (rest_ == std::array{0.0, 0.0}) return displacement;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What acts between the substrate and the block's lowest layer.
+// Options of the interaction between the substrate and the block's lowest layer.
 #pragma once
 
 #include "engine/interface/potential_table.hpp"
@@ -13,23 +13,24 @@
 
 namespace asperity {
 
-/// How pairs are found. The reference loop is for tests; rows hold for any spacing.
+/// Methods of finding pairs. The reference loop is for tests; rows hold for any spacing.
 enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
+/// Options of the interface.
 struct InterfaceOptions {
-    std::optional<WallLaw> wall = {}; ///< in place of atoms
+    std::optional<WallLaw> wall = {}; ///< wall in place of atoms
     PairPotential potential;
-    /// Of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
+    /// Potentials of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
     std::vector<PairPotential> by_type = {};
-    /// That these potentials read.
+    /// Tables that these potentials read.
     std::vector<std::shared_ptr<const PotentialTable>> tables = {};
-    bool tail = false;      ///< continuum correction beyond the cutoff
-    bool mixed = false;     ///< pairs in single precision, in the sweep over a lattice
-    bool rough_too = false; ///< sweeps may be asked for with SweepOptions::rough
-    bool slides = false;    ///< the block is moved over the substrate (Interface::slide_to())
+    bool tail = false;             ///< continuum correction beyond the cutoff
+    bool mixed = false;            ///< pairs in single precision, in the sweep over a lattice
+    bool mixed_on_request = false; ///< sweeps may be asked for with SweepOptions::rough
+    bool slides = false; ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
-    bool skip =
-        true; ///< false: visit all offsets or atoms everywhere (bitwise identical; for tests)
+    /// Skip offsets or atoms beyond reach; false: visit all (bitwise identical; for tests).
+    bool skip = true;
 
     PairTable pairs() const {
         if (by_type.empty()) return potential;
@@ -37,14 +38,14 @@ struct InterfaceOptions {
     }
 };
 
-/// What a sweep is asked for.
+/// Options of one sweep.
 struct SweepOptions {
     bool observe = false; ///< energies, contacts and nearest distances too
     bool rough = false;   ///< forces good to some 1e-6 eV/Å are enough
 };
 
-/// Distance from which on the substrate does not act on a site, Å: beyond the cutoff; with the
-/// tail, which ends nowhere, 4 cutoffs, where 1/256 of its energy is left.
+/// Returns the distance beyond which the substrate does not act on a site, Å: the cutoff; with the
+/// tail, which has no end, 4 cutoffs, where 1/256 of its energy is left.
 double reach_of(const InterfaceOptions& options);
 
 } // namespace asperity

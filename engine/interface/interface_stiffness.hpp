@@ -4,12 +4,12 @@
 // Stiffness of the interface at each site: -dF/du, six numbers a site, or -dF_z/du_z alone.
 //
 // The substrate is rigid, so the force on a site depends on its own position alone, and the
-// interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, all sites displaced by a
-// little along x, y and z, give it by differences; the normal component alone takes one. The
+// interface's whole Hessian is this map of 3 x 3 matrices. Three sweeps, with all sites displaced
+// by a little along x, y and z, give it by differences; the normal component alone takes one. The
 // displacement is a compromise: the force's own curvature requires a small one, its steps at the
 // cutoff (1.2e-4 of a site's largest attraction a pair, at 4 r0) a large one. Each measurement
-// displaces the other way than the last: a site beside such a step, of which a difference makes a
-// stiffness that is far off, is then measured on its other side.
+// displaces in the direction opposite to the last: a site beside such a step, whose difference
+// gives a wrong stiffness, is then measured on its other side.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -18,29 +18,32 @@
 
 namespace asperity {
 
+/// Stiffness of the interface at each site of a tile.
 class InterfaceStiffness {
 public:
-    /// components: three, or one: the normal. difference: the displacement, Å.
+    /// Allocates the map. components: three, or one: the normal. difference: the displacement, Å.
     InterfaceStiffness(const Tile& tile, int components, double difference);
 
-    /// At these displacements, where the force is as given.
+    /// Measures the stiffness at these displacements, at which the force is given.
     void measure(const Interface& interface, const VectorPlane<const double>& u,
                  const VectorPlane<const double>& force, double reference_height);
-    /// The mean over all sites of -dF_z/du_z, where that is positive, alone. Collective.
+    /// Returns the mean over all sites of -dF_z/du_z, zero where it is negative, eV/Å^2.
+    /// Collective.
     double mean(const Interface& interface, const VectorPlane<const double>& u,
                 const VectorPlane<const double>& force, double reference_height,
                 const Communicator& ranks);
-    /// v <- H v for the sites of row y; v: the row of each component.
+    /// Multiplies the sites of row y: v <- H v; v: the row of each component.
     void apply_row(int y, float* const* v) const;
 
 private:
     enum Entry { zz, xx, yy, xy, xz, yz };
     PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
 
-    double sites_;                          ///< across the box
-    double difference_;                     ///< Å, of either sign
-    SiteField<float> map_;                  ///< eV/Å^2, by Entry
-    VectorField<double> displaced_, force_; ///< displaced_: of three components
+    double sites_;         ///< number of sites across the box
+    double difference_;    ///< displacement, Å, of either sign
+    SiteField<float> map_; ///< eV/Å^2, by Entry
+    /// displaced_: displacements with the difference, of three components
+    VectorField<double> displaced_, force_;
 };
 
 } // namespace asperity

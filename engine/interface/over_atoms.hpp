@@ -11,14 +11,16 @@
 
 namespace asperity {
 
+/// A substrate of atoms anywhere.
 class OverAtoms {
 public:
-    /// Throws std::invalid_argument for a tail, and for a cutoff above largest_cell_cutoff.
+    /// Makes the cells. Throws std::invalid_argument for a tail, and for a cutoff above
+    /// largest_cell_cutoff.
     OverAtoms(const AtomPositions& atoms, const Tile& tile, double spacing,
               const InterfaceOptions& options);
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
-    /// The reference loop over all atoms.
+    /// Sums a row of sites by the reference loop over all atoms.
     void reference_row(const InterfaceSites& sites, int y, InterfaceSums& sums) const;
 
     std::size_t bytes() const { return cells_.bytes(); }
@@ -26,7 +28,7 @@ public:
 private:
     PairTable pairs() const { return {pairs_.data(), static_cast<int>(pairs_.size())}; }
 
-    std::vector<PairPotential> pairs_; ///< by type
+    std::vector<PairPotential> pairs_; ///< potentials by type
     SubstrateCells cells_;
 };
 

@@ -25,10 +25,10 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
       heights_(map, tile, halo(cutoff_of(potential_), spacing)) {
     const bool formula = !std::holds_alternative<Tabulated>(potential_);
     mixed_ = options.mixed && formula;
-    if (mixed_ || (options.rough_too && formula)) make_fixed(tile);
+    if (mixed_ || (options.mixed_on_request && formula)) make_fixed(tile);
     const Offsets offsets(cutoff_of(potential_), spacing);
     for (int k = 0; k < offsets.cuts; ++k) {
-        const double lateral = k / offsets.cuts_per_length + 1e-9;
+        const double lateral = k / offsets.cuts_per_length + 1e-9 * spacing;
         for (int n = 1; n <= offsets.half; ++n) {
             const auto within = [&](int m) {
                 return std::hypot((m - 0.5) * spacing, (n - 0.5) * spacing) < lateral;
@@ -54,7 +54,7 @@ std::size_t OverLattice::bytes() const {
            columns_.size() * sizeof(std::int32_t);
 }
 
-/// Heights in units of fixed_quantum, for the mixed sweep.
+/// Makes heights in units of fixed_quantum, for the mixed sweep.
 void OverLattice::make_fixed(const Tile& tile) {
     const int halo = heights_.field().halo();
     fixed_ = Field<std::int32_t>(tile, 1, halo);

@@ -12,6 +12,7 @@
 
 namespace asperity {
 
+/// A substrate of the block's own lattice.
 class OverLattice {
 public:
     OverLattice(const HeightMap& map, const Tile& tile, double spacing,
@@ -19,14 +20,14 @@ public:
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
-    /// Of this object's arrays.
+    /// Returns a view of this object's arrays.
     const LatticeSubstrate& view() const { return view_; }
     const TileHeights& heights() const { return heights_; }
     const ReachTable& reach() const { return reach_; }
     const std::vector<std::int32_t>& columns() const { return columns_; }
     std::size_t bytes() const;
 
-    /// Offsets along half an axis, and lateral distances in the table of columns.
+    /// Numbers of offsets along half an axis, and of lateral distances in the table of columns.
     struct Offsets {
         double cuts_per_length;
         int half, cuts;
@@ -35,7 +36,7 @@ public:
             return static_cast<std::size_t>(half) * static_cast<std::size_t>(cuts);
         }
     };
-    /// Of the heights: room for every offset and a whole register.
+    /// Returns the halo of the heights: room for every offset and a whole register.
     static int halo(double cutoff, double spacing) { return Offsets(cutoff, spacing).half + 1; }
 
 private:
@@ -44,8 +45,8 @@ private:
     PairPotential potential_;
     ReachTable reach_;
     TileHeights heights_;
-    Field<std::int32_t> fixed_; ///< the same in fixed_quantum, where a sweep may be mixed
-    bool mixed_ = false;        ///< all sweeps are
+    Field<std::int32_t> fixed_; ///< heights in fixed_quantum, if a sweep may be mixed
+    bool mixed_ = false;        ///< all sweeps are mixed
     std::vector<std::int32_t> columns_;
     LatticeSubstrate view_;
 };

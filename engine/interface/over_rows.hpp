@@ -9,6 +9,7 @@
 
 namespace asperity {
 
+/// A substrate of any spacing.
 class OverRows {
 public:
     OverRows(const HeightMap& map, const Tile& tile, double spacing,
@@ -16,12 +17,12 @@ public:
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
-    /// Of this object's arrays.
+    /// Returns a view of this object's arrays.
     const RowSubstrate& view() const { return view_; }
     std::size_t bytes() const { return heights_.bytes() + reach_.bytes(); }
 
-    /// The atoms, so many across the box, that lie within the cutoff and the margin of a tile's
-    /// sites, and their halo: room for a register, and a row farther.
+    /// Returns the atoms, so many across the box, within the cutoff and the margin of a tile's
+    /// sites. Their halo has room for a register, and a row more.
     static Tile atoms_under(const Tile& tile, double spacing, int atoms, double cutoff);
     static constexpr int halo = interface_block;
 

@@ -11,13 +11,14 @@
 
 namespace asperity {
 
+/// A wall in place of atoms.
 class OverWall {
 public:
     OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law);
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
-    /// Brings a row of sites to rest, each under its own force.
+    /// Moves a row of sites to their equilibria, each under its own force.
     WallSums rest_row(const WallRow<double>& row, const WallRule& rule, int sites) const {
         return interface_kernels().wall.rest_double(law_, row, rule, sites);
     }
@@ -25,7 +26,7 @@ public:
         return interface_kernels().wall.rest_single(law_, row, rule, sites);
     }
 
-    /// Its height below each site of the tile, Å.
+    /// Returns the height of the wall below each site of the tile, Å.
     PlaneView<const double> height() const { return height_.plane(0); }
     std::size_t bytes() const { return height_.bytes(); }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/interface/potential_table.hpp"
 
+#include "engine/interface/cubic_spline.hpp"
 #include "kernels/pair_potential.hpp"
 
 #include <fmt/format.h>
@@ -15,104 +16,9 @@ namespace asperity {
 namespace {
 
 constexpr int intervals = 4096;
-
-/// Slope at x[at] of the cubic through the points first to first + 3.
-double end_slope(std::span<const double> x, std::span<const double> y, std::size_t first,
-                 std::size_t at) {
-    double slope = 0.0;
-    for (std::size_t i = first; i < first + 4; ++i) {
-        double weight = 0.0; // of y[i]: the derivative of Lagrange's polynomial
-        for (std::size_t j = first; j < first + 4; ++j) {
-            if (j == i) continue;
-            double product = 1.0 / (x[i] - x[j]);
-            for (std::size_t k = first; k < first + 4; ++k)
-                if (k != i && k != j) product *= (x[at] - x[k]) / (x[i] - x[k]);
-            weight += product;
-        }
-        slope += weight * y[i];
-    }
-    return slope;
-}
-
-/// The slopes of a cubic spline at its points (continuous second derivative), by elimination.
-std::vector<double> spline_slopes(std::span<const double> x, std::span<const double> y) {
-    const std::size_t n = x.size();
-    std::vector<double> slope(n), above(n, 0.0);
-    slope[0] = end_slope(x, y, 0, 0);
-    const double last = end_slope(x, y, n - 4, n - 1);
-    for (std::size_t i = 1; i + 1 < n; ++i) {
-        const double left = x[i] - x[i - 1], right = x[i + 1] - x[i];
-        const double mean =
-            3.0 * (right * (y[i] - y[i - 1]) / left + left * (y[i + 1] - y[i]) / right);
-        const double pivot = 2.0 * (left + right) - right * above[i - 1];
-        above[i] = left / pivot;
-        slope[i] = (mean - right * slope[i - 1]) / pivot;
-    }
-    slope[n - 1] = last;
-    for (std::size_t i = n - 1; i-- > 1;)
-        slope[i] -= above[i] * slope[i + 1];
-    return slope;
-}
-
-/// The cubic with these values and slopes at the ends of an interval, from its beginning on.
-struct Hermite {
-    double c[4];
-    Hermite(double length, double y0, double s0, double y1, double s1)
-        : c{y0, length * s0, 3.0 * (y1 - y0) - length * (2.0 * s0 + s1),
-            2.0 * (y0 - y1) + length * (s0 + s1)} {}
-    double value(double t) const { return c[0] + t * (c[1] + t * (c[2] + t * c[3])); }
-    double slope(double t) const { return c[1] + t * (2.0 * c[2] + 3.0 * t * c[3]); }
-};
-
-/// A cubic spline and its values anywhere between its points.
-struct Spline {
-    std::span<const double> x, y;
-    std::vector<double> slope;
-    Spline(std::span<const double> at, std::span<const double> values)
-        : x(at), y(values), slope(spline_slopes(at, values)) {}
-    double operator()(double r) const {
-        const auto above = std::upper_bound(x.begin() + 1, x.end() - 1, r);
-        const auto i = static_cast<std::size_t>(above - x.begin()) - 1;
-        const double length = x[i + 1] - x[i];
-        return Hermite(length, y[i], slope[i], y[i + 1], slope[i + 1]).value((r - x[i]) / length);
-    }
-};
-
-/// Of the spline through all rows where it is negative, relative to the depth of its well: what a
-/// spline without every second row misses there, over 16, for the error of a spline goes with the
-/// fourth power of the distance of its points.
-double spline_error(std::span<const double> x, std::span<const double> y, double depth) {
-    std::vector<double> half_x, half_y;
-    const std::size_t n = x.size();
-    for (std::size_t i = 0; i < n; ++i)
-        if (i % 2 == 0 || i == n - 1) half_x.push_back(x[i]), half_y.push_back(y[i]);
-    const Spline half(half_x, half_y);
-    double largest = 0.0;
-    for (std::size_t i = 1; i + 1 < n; i += 2)
-        if (y[i] <= 0.0) largest = std::max(largest, std::abs(half(x[i]) - y[i]) / depth);
-    return largest / 16.0;
-}
-
-/// Largest spline_error(). It is an upper bound where the repulsion is steep: the work of adhesion
-/// of Lennard-Jones and Morse tables is then right to 2 %, and with twice as many rows to 0.1 %.
-constexpr double largest_spline_error = 0.25;
-
-/// Throws where the curve between the rows is not what they say: where the spline through half of
-/// them tells so, or a well lies between them that no row has.
-void require_enough_rows(std::span<const double> x, std::span<const double> y, double depth,
-                         double deepest) {
-    const double error = spline_error(x, y, depth), rows = static_cast<double>(x.size());
-    const bool hidden = deepest > (1.0 + largest_spline_error) * depth;
-    if (error <= largest_spline_error && !hidden) return;
-    // The fourth root is that of a spline that resolves the potential, twice as many where it does
-    // not yet.
-    const double enough = 2.0 * rows * std::pow(std::max(1.0, error / largest_spline_error), 0.25);
-    throw std::invalid_argument(fmt::format(
-        "its {} rows are too far apart: the curve through them is {:.3g} eV deep, the lowest row "
-        "{:.3g} eV, and without every second row it differs by {:.2g} times that; about {:.0f} "
-        "rows with the same relative distances are enough",
-        x.size(), deepest, depth, 16.0 * error, std::max(64.0, std::ceil(enough))));
-}
+/// Repulsion beyond the well that counts, over the largest attraction: the default of
+/// drive.tolerance, below which forces are taken as none.
+constexpr double smallest_repulsion = 2.5e-4;
 
 /// Where f turns from positive to negative.
 template <class F>
@@ -154,7 +60,9 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
             "row; begin it at a smaller distance",
             distance[0], energy[0], -energy[least]));
 
-    const std::vector<double> slope = spline_slopes(distance, energy);
+    const CubicSpline spline(distance, energy);
+    const std::vector<double>& slope = spline.slopes();
+    rows_ = n;
     last_ = distance[n - 1];
     whole_.first = distance[0];
     whole_.step = (last_ - distance[0]) / intervals;
@@ -181,10 +89,6 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     whole_.cutoff = last_;
 
     const Pair<Tabulated> pair(whole_);
-    double lowest = energy[least];
-    for (std::size_t k = 0; k < cubics_.size(); k += 4)
-        lowest = std::min(lowest, cubics_[k]);
-    require_enough_rows(distance, energy, -energy[least], -lowest);
     Tabulated::Shape& shape = whole_.shape;
     const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
     shape.minimum = crossing(distance[least - 1], distance[least + 1], force);
@@ -201,6 +105,62 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
                                     const PairDerivatives d = pair.derivatives(r * r);
                                     return d.slope + r * r * d.bend;
                                 });
+    find_errors(distance, energy);
+}
+
+/// The errors at the ends of the intervals of equal length, and straight lines between.
+void PotentialTable::find_errors(std::span<const double> distance, std::span<const double> energy) {
+    std::vector<double> at(intervals + 1);
+    for (int k = 0; k <= intervals; ++k)
+        at[static_cast<std::size_t>(k)] = std::min(whole_.first + k * whole_.step, last_);
+    const auto keep = [&](std::span<const double> value, std::vector<double>& cubics) {
+        cubics.assign(4 * intervals, 0.0);
+        for (std::size_t k = 0; k < intervals; ++k) {
+            cubics[4 * k] = value[k];
+            cubics[4 * k + 1] = value[k + 1] - value[k];
+        }
+    };
+    keep(asperity::spline_error(distance, energy, at), spline_error_);
+    constexpr double deviations = 4.0; // errors of single rows may add up
+    const std::vector<double> rms = asperity::noise(distance, energy);
+    std::vector<double> between(at.size());
+    std::size_t row = 0;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        while (row + 2 < distance.size() && at[k] > distance[row + 1])
+            ++row;
+        const double part = (at[k] - distance[row]) / (distance[row + 1] - distance[row]);
+        between[k] = deviations * std::lerp(rms[row], rms[row + 1], std::clamp(part, 0.0, 1.0));
+    }
+    keep(between, noise_);
+}
+
+Tabulated PotentialTable::of_errors(const std::vector<double>& cubics, double cutoff) const {
+    Tabulated errors = whole_;
+    errors.cubics = cubics.data();
+    errors.cutoff = cutoff;
+    errors.shape.shift = 0.0;
+    // The shift at the cutoff is as wrong as the energy there.
+    errors.shape.shift = -Pair<Tabulated>(errors).unshifted(cutoff * cutoff);
+    return errors;
+}
+
+PotentialTable::Repulsion PotentialTable::repulsion(double cutoff) const {
+    const Pair<Tabulated> pair(whole_);
+    const auto force = [&](double r) { return -r * pair.derivatives(r * r).slope; };
+    const double attraction = -force(whole_.shape.inflection);
+    Repulsion found;
+    double lowest = pair.unshifted(cutoff * cutoff);
+    for (double r = cutoff; r > whole_.shape.minimum; r -= whole_.step) {
+        const double energy = pair.unshifted(r * r);
+        found.barrier = std::max(found.barrier, energy - lowest);
+        lowest = std::min(lowest, energy);
+        if (force(r) > smallest_repulsion * attraction) {
+            found.nearest = r;
+            if (!found.farthest) found.farthest = r;
+            found.noise = std::max(found.noise, Pair<Tabulated>(noise(cutoff)).unshifted(r * r));
+        }
+    }
+    return found;
 }
 
 Tabulated PotentialTable::potential(double cutoff) const {

@@ -10,6 +10,7 @@
 
 #include "kernels/tabulated.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,8 +19,8 @@ namespace asperity {
 class PotentialTable {
 public:
     /// Distances, Å, ascending, and energies, eV. Throws std::invalid_argument where they are no
-    /// potential: fewer than 8 points, distances that do not ascend, no well, a repulsion that does
-    /// not rise to ten times its depth, or rows too far apart for a spline.
+    /// potential: fewer than 8 points, distances that do not ascend, no well, or a repulsion that
+    /// does not rise to ten times its depth.
     PotentialTable(std::span<const double> distance, std::span<const double> energy);
     PotentialTable(const PotentialTable&) = delete; ///< potentials point into it
     PotentialTable& operator=(const PotentialTable&) = delete;
@@ -31,9 +32,33 @@ public:
     double last() const { return last_; }               ///< distance, Å
     double depth() const { return whole_.shape.depth; } ///< of the well, eV
     std::size_t numbers() const { return cubics_.size(); }
+    std::size_t rows() const { return rows_; }
+    /// Whether the potential reads this table.
+    bool is_of(const Tabulated& potential) const { return potential.cubics == cubics_.data(); }
+
+    // How wrong a pair's energy may be, eV, as potentials with this cutoff, so that what is summed
+    // over pairs is a bound of the error of the sum.
+
+    /// The spline's, if the rows are exact.
+    Tabulated spline_error(double cutoff) const { return of_errors(spline_error_, cutoff); }
+    /// Four times the noise of the rows.
+    Tabulated noise(double cutoff) const { return of_errors(noise_, cutoff); }
+
+    /// Where the potential repels again beyond its well, up to this cutoff, by more than 2.5e-4 of
+    /// its largest attraction.
+    struct Repulsion {
+        std::optional<double> nearest, farthest; ///< Å; empty: nowhere
+        double barrier = 0.0;                    ///< energy to climb on the way in, eV
+        double noise = 0.0;                      ///< noise() there, at most, eV
+    };
+    Repulsion repulsion(double cutoff) const;
 
 private:
-    std::vector<double> cubics_;
+    void find_errors(std::span<const double> distance, std::span<const double> energy);
+    Tabulated of_errors(const std::vector<double>& cubics, double cutoff) const;
+
+    std::vector<double> cubics_, spline_error_, noise_;
+    std::size_t rows_ = 0;
     double last_ = 0.0;
     Tabulated whole_; ///< without a cutoff
 };

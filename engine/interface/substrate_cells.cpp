@@ -35,15 +35,15 @@ std::size_t blocks_of(const Tile& tile) {
 struct SubstrateCells::Tree {
     struct Node {
         double low[3], high[3];
-        std::int32_t cell = -1;             ///< of a leaf
-        std::int32_t left = -1, right = -1; ///< of the others
+        std::int32_t cell = -1;             ///< cell of a leaf
+        std::int32_t left = -1, right = -1; ///< branches of the other nodes
     };
     const AtomPositions& atoms;
     double datum;
     std::vector<std::int64_t> order;      ///< atoms, cell by cell
     std::vector<std::int64_t> cell_begin; ///< in the order
     std::vector<Node> nodes;
-    std::vector<std::int32_t> roots; ///< of each type; -1: it has no atoms
+    std::vector<std::int32_t> roots; ///< root of each type; -1: the type has no atoms
 
     Tree(const AtomPositions& of, double over, std::size_t types)
         : atoms(of), datum(over), order(of.size()) {
@@ -73,8 +73,8 @@ struct SubstrateCells::Tree {
         return axis == 0 ? atoms.x[i] : axis == 1 ? atoms.y[i] : atoms.z[i] - datum;
     }
 
-    /// How many of a box's cells lie left of its middle along the longest edge, if they are about
-    /// as long as wide: whole slabs of cells, so that no long ones are left over.
+    /// Returns the number of a box's cells left of its middle along the longest edge, if they are
+    /// about as long as wide: whole slabs of cells, so that no long ones are left over.
     static std::int64_t left_cells(std::int64_t cells, double x, double y, double z) {
         double edge[3] = {x, y, z};
         std::sort(edge, edge + 3, std::greater<>());
@@ -116,7 +116,7 @@ struct SubstrateCells::Tree {
                          [&](std::int64_t a, std::int64_t b) {
                              return std::pair(at(longest, a), a) < std::pair(at(longest, b), b);
                          });
-        // What nth_element leaves on either side has no order that the standard fixes.
+        // The standard fixes no order of the two parts that nth_element leaves.
         std::sort(order.begin() + first, middle);
         std::sort(middle, order.begin() + last);
         const std::int32_t left = halve(first, first + half), right = halve(first + half, last);

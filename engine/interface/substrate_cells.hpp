@@ -4,11 +4,11 @@
 // Substrate atoms anywhere, in the cells that the sweep over cells reads
 // (kernels/substrates.hpp).
 //
-// Atoms of each type have cells of their own, so that the pairs of a cell have one potential. They
-// are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
-// cell_atoms or fewer are left: cells of any solid are compact and full. Ties go by the number of
-// the atom, so every rank makes the same cells in the same order. The substrate is rigid: cells and
-// the lists of cells near each block of sites are made once.
+// Atoms of each type have cells of their own, so that the pairs of a cell have one potential. The
+// atoms are halved along the longest edge of their bounds, at a multiple of cell_atoms, until
+// cell_atoms or fewer are left: cells of any solid are compact and full. Ties are decided by the
+// number of the atom, so every rank makes the same cells in the same order. The substrate is rigid:
+// cells and the lists of cells near each block of sites are made once.
 #pragma once
 
 #include "decomposition/tile.hpp"
@@ -21,22 +21,24 @@
 
 namespace asperity {
 
-/// What the cells are made for.
+/// Parameters of the cells.
 struct CellOptions {
-    double spacing = 2.6;                  ///< of the sites, Å
-    std::vector<double> cutoffs = {13.12}; ///< [type], Å, largest_cell_cutoff at most
+    double spacing = 2.6;                  ///< spacing of the sites, Å
+    std::vector<double> cutoffs = {13.12}; ///< [type], Å, at most largest_cell_cutoff
     double margin = 5.2;                   ///< sideways displacement that the lists allow for, Å
-    bool skip = true; ///< false: no block of sites is passed over (bitwise identical; for tests)
+    bool skip = true; ///< skip blocks of sites; false: none (bitwise identical; for tests)
 };
 
+/// Substrate atoms anywhere, in cells.
 class SubstrateCells {
 public:
-    /// For the sites of a tile; the box is tile.sites spacings wide. Throws std::invalid_argument
-    /// where an atom's type has no cutoff.
+    /// Makes the cells and lists for the sites of a tile; the box is tile.sites spacings wide.
+    /// Throws std::invalid_argument if an atom's type has no cutoff.
     SubstrateCells(AtomPositions atoms, const Tile& tile, const CellOptions& options);
 
-    /// What the sweep reads, and the reference; of this object's arrays.
+    /// Returns a view of this object's arrays for the sweep.
     CellSubstrate view() const;
+    /// Returns a view of this object's arrays for the reference loop.
     SubstrateAtoms atoms() const;
 
     std::size_t bytes() const;
@@ -46,7 +48,7 @@ private:
     void fill(const Tree& tree);
     void list(const Tree& tree, const Tile& tile, const CellOptions& options);
 
-    AtomPositions atoms_; ///< as given
+    AtomPositions atoms_; ///< atoms as given
     double edge_, datum_, margin_;
     std::vector<double> places_;
     std::vector<double> bounds_, block_highest_;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the tables of the interface's sweeps hold (kernels/substrates.hpp), in lengths.
+// Limits of the tables of the interface's sweeps (kernels/substrates.hpp), as lengths.
 #pragma once
 
 #include "kernels/substrates.hpp"
@@ -10,10 +10,10 @@
 
 namespace asperity {
 
-/// Sideways displacement of a site that the tables allow for, Å.
+/// Returns the sideways displacement of a site that the tables allow for, Å.
 inline double sideways_margin(double spacing) { return 2.0 * spacing; }
 
-/// The largest cutoff over a substrate of one layer, Å: by offsets between sites, which are
+/// Returns the largest cutoff over a substrate of one layer, Å: by offsets between sites, which are
 /// `spacing` apart, and by rows of atoms, `between_atoms` apart.
 inline double largest_cutoff(double spacing, double between_atoms) {
     return std::min((max_half_offsets - 2) * spacing, (max_rows - 3) * between_atoms) -

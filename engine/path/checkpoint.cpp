@@ -32,7 +32,7 @@ struct NumberList {
     std::vector<std::uint8_t> names;
     std::vector<T> values;
 };
-/// As they are written, and sent to other ranks.
+/// Numbers in the form in which they are written and sent to other ranks.
 struct NumberLists {
     NumberList<double> numbers;
     NumberList<std::int64_t> integers;
@@ -162,7 +162,7 @@ io::Hdf5File open_checkpoint(const io::FilePlace& place) {
     return file;
 }
 
-/// The keys, as section.key, in which two fingerprints differ.
+/// Returns the keys, as section.key, in which two fingerprints differ.
 std::string differing_keys(const io::Json& one, const io::Json& other) {
     std::set<std::string> keys;
     for (const auto& [a, b] : {std::pair{&one, &other}, std::pair{&other, &one}})

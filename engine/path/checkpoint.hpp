@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Checkpoints: the whole state of a run in one HDF5 file, from which it goes on, on any number of
-// ranks: a simulation or a quasi-static path as if it had never stopped, bit for bit; a relaxation
-// from the same state.
+// Checkpoints: the whole state of a run in one HDF5 file. A run resumes from it on any number of
+// ranks: a simulation or a quasi-static path bitwise as if it had never stopped, a relaxation from
+// the same state.
 //
 // A file holds the state's arrays (of a simulation: each level's displacements and half-step
-// velocities) as whole planes, so it does not know how the box was cut, and numbers by name. It
-// ends in a digest of all its bytes, without which it is not read. Which files a run keeps:
-// run_storage.hpp.
+// velocities) as whole planes, so it is independent of the cut of the box, and numbers by name. It
+// ends in a digest of all its bytes and is refused without it. run_storage.hpp describes the files
+// that a run keeps.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -24,32 +24,33 @@ namespace asperity {
 
 class Path;
 
-/// Writes arrays, each as whole planes, and numbers. Collective. fingerprint: of the scene; only
-/// the scene that wrote a checkpoint goes on from it.
+/// Writes arrays, each as whole planes, and numbers. fingerprint: of the scene; only the scene that
+/// wrote a checkpoint can resume from it. Collective. Throws io::FileError.
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint);
-/// Reads them back; halos are left to the caller. arrays: those to be read, which the numbers may
-/// decide. Collective. Throws io::FileError if the file is damaged or cannot be read,
-/// io::SceneError if it is of another scene.
 using ArraysOf = std::function<std::vector<StateArray>(const StateNumbers&)>;
+/// Reads the arrays and returns the numbers; the caller fills halos. arrays: returns the arrays to
+/// be read, which may depend on the numbers. Collective. Throws io::FileError if the file is
+/// damaged or cannot be read, io::SceneError if another scene wrote it.
 StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                              const ProcessGrid& grid, const ArraysOf& arrays,
                              const std::string& fingerprint);
-/// The numbers alone, of whatever scene. Not collective. Throws io::FileError.
+/// Reads the numbers alone, whatever scene wrote them. Not collective. Throws io::FileError.
 StateNumbers read_checkpoint_numbers(const io::FilePlace& place);
 
-/// Displacements and half-step velocities of each level.
+/// Returns the displacements and half-step velocities of each level.
 std::vector<StateArray> state_of(Block& block);
-/// One list behind another.
+/// Returns one list behind another.
 std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more);
 
-/// The last state known to be good, in memory, to be written when a guard stops the run.
+/// The last good state, in memory, to be written when a guard stops the run.
 class Snapshot {
 public:
+    /// Copies the state of the path.
     void take(Path& path);
     bool empty() const { return fields_.empty(); }
-    /// Puts the path back to the state taken.
+    /// Puts the path back to the copied state.
     void restore(Path& path) const;
 
 private:

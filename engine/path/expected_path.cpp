@@ -14,7 +14,7 @@ ExpectedPath expected_path(const Case& c, double start) {
     const BlockOptions& block = c.simulation.block;
     const double contact = c.flat.separation - start; // displacement of the top plane
     const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
-    const double yields = block.thickness * block.spacing / modulus;   // under a pressure
+    const double yields = block.thickness * block.spacing / modulus; // deformation under a pressure
     ExpectedPath path;
     path.time = c.simulation.drive.ramp * static_cast<double>(c.path.size() - 1); // turns
     double at = 0.0, pressure = 0.0;
@@ -52,7 +52,8 @@ double way_done(const Case& c, double start, std::size_t segment, double top) {
     const double ended = std::accumulate(
         path.ways.begin(), path.ways.begin() + static_cast<std::ptrdiff_t>(segment), 0.0);
     const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
-    const double depth = path.deepest + top; // of an approach still to come, of a pull-off done
+    // Depth of an approach still to come, of a pull-off done
+    const double depth = path.deepest + top;
     double here = 0.0;
     if (c.path[segment].kind == Segment::approach) here = path.ways[segment] - depth;
     if (c.path[segment].kind == Segment::pull_off) here = depth;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is led along a path, as far as it is known beforehand: for progress, and for `asperity
+// The expected course of a path, as far as it is known beforehand, for progress and for `asperity
 // plan`.
 #pragma once
 
@@ -11,16 +11,18 @@
 
 namespace asperity {
 
+/// Expected distances and times of a path.
 struct ExpectedPath {
-    /// Of each segment, Å: how far the top plane moves, or the block over the substrate.
+    /// Distance that the top plane moves, or the block over the substrate, in each segment, Å.
     std::vector<double> ways;
-    double deepest = 0.0; ///< below the start, Å
-    double time = 0.0;    ///< of a dynamic path, fs
+    double deepest = 0.0; ///< largest depth below the start, Å
+    double time = 0.0;    ///< duration of a dynamic path, fs
 };
-/// start: height of the lowest layer at the start, Å.
+/// Returns the expected path. start: height of the lowest layer at the start, Å.
 ExpectedPath expected_path(const Case& c, double start);
 
-/// Done of the whole way, 0 to 1, as far as the top plane's displacement in a segment tells.
+/// Returns the completed part of the whole path, 0 to 1, from the top plane's displacement in a
+/// segment.
 double way_done(const Case& c, double start, std::size_t segment, double top);
 
 } // namespace asperity

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <variant>
 
 namespace asperity {
 
@@ -24,6 +25,12 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
     if (!(std::abs(residual) <= largest_energy_error))
         return fmt::format("the energy balance is off by {} % at {}",
                            io::number(100.0 * residual, 1), place);
+    if (now.observed && -now.time_step_energy > std::max({now.kinetic_energy, now.elastic_energy,
+                                                          std::abs(now.interface_energy)}))
+        return fmt::format(
+            "the time step is too long for the motion at {}: {:.3g} eV of the energy "
+            "are of waves that it does not resolve",
+            place, -now.time_step_energy);
     if (now.mean_height < lowest_height)
         return fmt::format("the block has passed through the substrate at {}: its lowest layer is "
                            "at {:.4g} Å",
@@ -44,8 +51,14 @@ std::string fastest_site(const Simulation& simulation) {
 
 void guard(const Path& path, const std::function<std::string()>& kept) {
     const Case& c = path.scene_case();
-    const double lowest = path.surface().statistics.lowest - reach_of(c.simulation.interface);
     const StepRecord now = path.now();
+    double lowest = path.surface().statistics.lowest - reach_of(c.simulation.interface);
+    // A wall gives way: the mean gap is no less than that of flat surfaces under the same force.
+    if (const auto& wall = c.simulation.interface.wall) {
+        const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
+        const auto depth = [&](const auto& law) { return law.depth_under(now.force / sites); };
+        lowest -= 2.0 * std::visit(depth, *wall);
+    }
     const auto wrong =
         violation(now, lowest, fmt::format("{} {}", c.in_time ? "step" : "point", now.step));
     if (!wrong) return;

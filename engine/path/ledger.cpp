@@ -10,6 +10,7 @@ Works Works::operator-(const Works& earlier) const {
     between.lateral -= earlier.lateral;
     between.relaxed -= earlier.relaxed;
     between.lost -= earlier.lost;
+    if (between.stored) *between.stored -= earlier.stored.value_or(0.0);
     if (between.interface) *between.interface -= earlier.interface.value_or(0.0);
     return between;
 }
@@ -25,6 +26,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.work = per_area(works.on_solids);
     ended.lost = per_area(works.lost);
     if (case_.effects.branches) ended.relaxed = per_area(works.relaxed);
+    ended.stored = per_area(works.stored);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
     if (case_.scene.drive.temperature == 0.0) ended.kinetic = per_area(kinetic);
@@ -35,7 +37,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     relaxed_since_apart_ += works.relaxed;
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
-    // Of what moved before the cycle its losses have taken a part. Heat goes both ways.
+    // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
     if (results_.last(Segment::approach) && case_.scene.drive.temperature == 0.0)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
     if (results_.last(Segment::approach) && case_.effects.branches)

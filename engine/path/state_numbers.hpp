@@ -13,7 +13,7 @@
 //         v("jumps", jumps);   // a vector of these: "jumps.count", "jumps.0.energy",
 //         v("lost", lost);     // an optional of these: "lost.given", "lost"
 //         v("slide", slide);   // an array of these: "slide.0", "slide.1"
-//         if constexpr (Visitor::restores) ...; // what else follows from the new values
+//         if constexpr (Visitor::restores) ...; // values that follow from the new ones
 //     }
 //
 // Collecting takes const objects and changes nothing.
@@ -34,11 +34,11 @@
 
 namespace asperity {
 
-/// Integers are integers.
+/// Numbers by name; integers stay integers.
 using StateNumbers = std::map<std::string, std::variant<double, std::int64_t>>;
 
-/// Finds the numbers of what it is given; Self has number(name, double&) and
-/// integer(name, std::int64_t&, least, most).
+/// Visitor that finds the numbers of an object; Self has number(name, double&) and integer(name,
+/// std::int64_t&, least, most).
 template <class Self>
 class NumberVisitor {
 public:
@@ -95,6 +95,7 @@ private:
     std::string prefix_;
 };
 
+/// Visitor that collects the numbers of objects by name.
 class CollectNumbers : public NumberVisitor<CollectNumbers> {
 public:
     static constexpr bool restores = false;
@@ -106,8 +107,9 @@ public:
         NumberVisitor::operator()(name, const_cast<T&>(value));
     }
 
-    /// Throw std::logic_error where the name is taken.
+    /// Adds a number. Throws std::logic_error if the name is taken.
     void number(const std::string& name, double& value) { put(name, value); }
+    /// Adds an integer. Throws std::logic_error if the name is taken.
     void integer(const std::string& name, std::int64_t& value, std::int64_t, std::int64_t) {
         put(name, value);
     }
@@ -117,15 +119,18 @@ private:
     void put(const std::string& name, std::variant<double, std::int64_t> value);
 };
 
+/// Visitor that sets the numbers of objects by name.
 class RestoreNumbers : public NumberVisitor<RestoreNumbers> {
 public:
     static constexpr bool restores = true;
 
-    /// The numbers must outlive it.
+    /// Keeps a reference to the numbers.
     explicit RestoreNumbers(const StateNumbers& numbers) : numbers_(numbers) {}
 
-    /// Throw io::FileError where there is none of the name, or it is of the other kind.
+    /// Sets a number. Throws io::FileError if there is none of the name, or if it is an integer.
     void number(const std::string& name, double& value) const;
+    /// Sets an integer. Throws io::FileError if there is none of the name, or if it is no integer
+    /// between least and most.
     void integer(const std::string& name, std::int64_t& value, std::int64_t least,
                  std::int64_t most) const;
     std::int64_t longest_list() const { return static_cast<std::int64_t>(numbers_.size()); }

@@ -48,7 +48,7 @@ Path::Made StaticPath::advance(const Wish&) {
     at_end_ = outcome != QuasistaticPath::Outcome::point;
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Made::nothing;
-    results_.feel(case_.path[segment_], now());
+    results_.record_force(case_.path[segment_], now());
     return Made::step;
 }
 
@@ -59,7 +59,7 @@ std::optional<std::size_t> StaticPath::ended() const {
 
 std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = kind() != Segment::relax;
-    if (held) points_->put_back(); // as after a resume, bitwise identical
+    if (held) points_->put_back(); // the same state as after a resume, bitwise
     const std::optional<ZeroLoad> found = state_from_here(
         held ? 0.0 : case_.simulation.drive.load_force, !held && !std::exchange(resumed_, false));
     LayerAtRest state;
@@ -78,7 +78,8 @@ std::optional<LayerAtRest> StaticPath::find_state() {
 std::optional<ZeroLoad> StaticPath::state_from_here(double load, bool from_afar) {
     if (from_afar) {
         const double height = height_of_strongest_attraction(
-            block_, interface_, surface_.statistics.lowest, case_.scales.length);
+            block_, interface_, surface_.statistics.lowest, case_.scales.length,
+            case_.tolerance * surface_.sites * surface_.sites);
         block_.set_uniform(height - reference_height());
     }
     return find_zero_load(
@@ -93,6 +94,7 @@ void StaticPath::conclude() {
                     .lateral = slide ? points_->work() : 0.0,
                     .relaxed = points_->relaxed(),
                     .lost = points_->dissipation().in_segment,
+                    .stored = points_->stored(),
                     .interface = {},
                     .uncertainty = points_->uncertainty()};
         // A held mean height does not jump: the holder's force is that of the interface.
@@ -128,7 +130,7 @@ void StaticPath::restored() {
     if (points_)
         points_->resume();
     else
-        block_.apply_constraint(Constraint::top(top_restored_));
+        block_.hold(Constraint::top(top_restored_));
     if (points_) results_.dissipated = points_->dissipation();
     resumed_ = true;
 }
@@ -144,6 +146,22 @@ void StaticPath::begin_by_hand(Constraint::Of held, std::optional<bool> remember
         points_.reset();
         throw;
     }
+}
+
+StaticPath::KeptPoint StaticPath::keep_point() {
+    KeptPoint kept;
+    kept.fields.take(points_->states());
+    CollectNumbers collect;
+    collect("points", *points_);
+    kept.numbers = std::move(collect.numbers);
+    return kept;
+}
+
+void StaticPath::back_to(const KeptPoint& point) {
+    point.fields.restore(points_->states());
+    RestoreNumbers restore(point.numbers);
+    restore("points", *points_);
+    points_->resume();
 }
 
 bool StaticPath::lead_to(double at, const std::function<void()>& look) {

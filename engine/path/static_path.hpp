@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A path of states of force balance: the points of a quasi-static path
-// (quasistatic.hpp), segment by segment. A segment "relax" is one relaxation with the top plane
-// free: find_state() of it, after which the block stands there.
+// A path of states of force balance: the points of a quasi-static path (quasistatic.hpp), segment
+// by segment. A segment "relax" is one relaxation with the top plane free: find_state() leaves the
+// block in its state.
 //
-// By hand: the block is led to a place or a load that the caller names, in place of the scene's
-// segments.
+// By hand: the caller leads the block to a place or a load, in place of the scene's segments.
 #pragma once
 
 #include "engine/equilibrium/quasistatic.hpp"
@@ -16,13 +15,15 @@
 
 namespace asperity {
 
+/// A quasi-static path.
 class StaticPath : public Path {
 public:
-    /// Beyond the interaction range.
+    /// Places the block beyond the interaction range. Collective.
     StaticPath(const Case& c, const Surface& surface, const Communicator& ranks);
 
     bool done() const override { return segment_ == case_.path.size(); }
-    /// The first one of a path, and the first one from a state, is where the block is.
+    /// Makes the next point. The first point of a path, and the first one after a state, is the
+    /// present state of the block.
     Made advance(const Wish& wish) override;
     std::optional<std::size_t> ended() const override;
     bool at_end() const override { return at_end_; }
@@ -51,22 +52,35 @@ public:
     std::vector<StateArray> arrays() override;
     void restored() override;
 
-    // By hand.
+    // Functions of a path led by hand.
 
-    /// The points, if a path of them has begun.
+    /// Returns the points, nullptr before a path of points has begun.
     const QuasistaticPath* points() const { return points_ ? &*points_ : nullptr; }
-    /// Begins a path by hand, of what is held: where the block is (works count from there), relaxed
-    /// or with what its branches remember; without either, beyond the interaction range.
+    /// Begins a path by hand with this held quantity. remembers: the path begins with the block as
+    /// it is (works count from there), with the memory of its branches (true) or relaxed (false);
+    /// empty: beyond the interaction range.
     void begin_by_hand(Constraint::Of held, std::optional<bool> remembers);
-    /// Leads it to a displacement of what is held, Å, or along a segment (amounts as in
-    /// QuasistaticPath::begin()), point by point. False: the watch asked for an end; the same call
-    /// goes on. After each point `look` is called.
+    /// Leads the block to a displacement of the held quantity, Å, point by point, and calls look
+    /// after each point. Returns false if the watch stopped a relaxation; the same call goes on.
     bool lead_to(double at, const std::function<void()>& look);
+    /// Leads the block along a segment (amounts as in QuasistaticPath::begin()), point by point,
+    /// and calls look after each point. Returns false if the watch stopped a relaxation; the same
+    /// call goes on.
     bool lead(const Segment& segment, const std::function<void()>& look);
-    /// The path of points has ended: the block is where the caller puts it.
+    /// The last point of a path by hand, to come back to.
+    struct KeptPoint {
+        StateCopy fields;
+        StateNumbers numbers;
+    };
+    /// Returns the last point.
+    KeptPoint keep_point();
+    /// Brings block and path back to a point.
+    void back_to(const KeptPoint& point);
+    /// Ends the path of points: the caller may now move the block.
     void end_points() { points_.reset(); }
-    /// The state that the sites come to from where they are (from_afar: from the height of the
-    /// strongest attraction) under a load, eV/Å. The block stands there afterwards.
+    /// Relaxes the sites from their present places (from_afar: from the height of the strongest
+    /// attraction) under a load, eV/Å. The block is in the found state afterwards. Returns nothing
+    /// if the watch stopped the relaxation.
     std::optional<ZeroLoad> state_from_here(double load, bool from_afar);
 
 private:
@@ -96,10 +110,10 @@ private:
     Interface interface_;
     SpectralBlock block_;
     std::optional<QuasistaticPath> points_;
-    StepRecord nowhere_;      ///< before there is a point
-    std::size_t segment_ = 0; ///< number of the one under way
-    bool begun_ = false;      ///< it has
-    bool at_end_ = false;     ///< it has come to its end and is to be concluded
+    StepRecord nowhere_;      ///< record before the first point
+    std::size_t segment_ = 0; ///< number of the current segment
+    bool begun_ = false;      ///< the current segment has begun
+    bool at_end_ = false;     ///< the current segment has ended and is to be concluded
     bool resumed_ = false;    ///< the block is where a relaxation was interrupted
     double top_restored_ = 0.0;
 };

@@ -34,15 +34,16 @@ Path::Made TimePath::advance(const Wish& wish) {
             for (int y = 0; y < to->ny; ++y)
                 for (int x = 0; x < to->nx; ++x)
                     (*to)(x, y) = 0.5 * ((*to)(x, y) + (*from)(x, y));
+        simulation_.take_to_step(v);
     }
     if (now.step == 0) {
-        const BlockOptions& block = case_.simulation.block;
-        const double v = case_.simulation.drive.velocity, sites = block.sites;
-        // What the block has that starts at full speed; of one that starts at rest, by its mass.
+        const double v = case_.simulation.drive.velocity;
+        // The energy of a block that starts at full speed is that of the first step, unless noise
+        // is part of it.
+        const bool as_seen =
+            simulation_.drive().velocity(0.0) != 0.0 && case_.scene.drive.temperature == 0.0;
         kinetic_at_full_speed_ =
-            simulation_.drive().velocity(0.0) != 0.0
-                ? now.kinetic_energy
-                : 0.5 * block.atom_mass * sites * sites * block.thickness * v * v;
+            as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
         // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
@@ -54,8 +55,8 @@ Path::Made TimePath::advance(const Wish& wish) {
     return Made::step;
 }
 
-/// Before a step: after it the block is at the next one, while the interface and what was summed up
-/// are at this one.
+/// Copies layers before a step: after it the block is at the next step, while the interface and the
+/// sums are at this one.
 void TimePath::keep(const Wish& wish) {
     const Tile tile = grid().tile(0);
     if (wish.layer) {
@@ -69,17 +70,20 @@ void TimePath::keep(const Wish& wish) {
     }
 }
 
-/// The segment that ended with this step, if one did.
+/// Returns the segment that ended with this step, if one did.
 std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     Drive& drive = simulation_.drive();
     if (drive.done()) return std::nullopt;
     const std::size_t number = drive.segment();
     const Segment& segment = case_.path[number];
-    results_.feel(segment, now);
+    results_.record_force(segment, now);
     if (drive.by_hand()) return std::nullopt;
-    const bool gone = beyond_range(now.top, now.force, results_.strongest, start_.force);
-    if (!drive.observe({now.time, now.force, now.top, gone})) return std::nullopt;
+    const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
+    if (!drive.observe({now.time, now.force, now.top, apart})) return std::nullopt;
     end_ = now;
+    scatter_.reset();
+    if (const auto average = drive.averaged())
+        end_.force = average->mean(), scatter_ = average->scatter();
     interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) results_.contact_made = now.time;
     return number;
@@ -93,7 +97,7 @@ std::optional<LayerAtRest> TimePath::find_state() {
 }
 
 LayerAtRest TimePath::state_from_here() {
-    const std::array<double, 2> place = simulation_.place(); // of the sites as they are now
+    const std::array<double, 2> place = simulation_.place(); // the present place of the sites
     simulation_.interface().slide_to(place[0], place[1]);
     return state_at(place);
 }
@@ -112,7 +116,7 @@ void TimePath::conclude() {
     Works end = so_far();
     std::optional<double> kinetic;
     if (segment.kind == Segment::pull_off) {
-        // It ends apart: the drive stops the block after the last step.
+        // The path ends apart: the drive stops the block after the last step.
         const double bound = now.interface_energy, moving = kinetic_as_top(now.time);
         end.interface = simulation_.balance().interface; // to where it is bound so much
         end = at_rest_apart(end, bound, moving);
@@ -124,29 +128,31 @@ void TimePath::conclude() {
     }
     end_.in_contact = now.in_contact; // counted a step later, where it is observed
     ledger_.conclude(number, end_, end - segment_start_, kinetic);
+    results_.segments.back().scatter = scatter_;
     segment_start_ = end;
 }
 
-/// What the simulation has summed up since the start of the path.
+/// Returns the sums of the simulation since the start of the path.
 Works TimePath::so_far() const {
     const EnergyBalance& balance = simulation_.balance();
     return {.on_solids = balance.drive(),
             .lateral = balance.lateral,
             .relaxed = 0.0,
             .lost = balance.net_damped(),
+            .stored = {},
             .interface = interface_work_,
             .uncertainty = {}};
 }
 
-/// The same, if the block were brought to rest and beyond the interaction range from there as a
-/// rigid body: bound, moving: its energies, eV.
+/// Returns the works for a block that is then brought to rest and beyond the interaction range as a
+/// rigid body. bound, moving: its energies, eV.
 Works TimePath::at_rest_apart(Works works, double bound, double moving) {
     works.on_solids -= bound + moving;
     *works.interface += bound;
     return works;
 }
 
-/// Of the block moving as the top plane does at that time, eV.
+/// Returns the kinetic energy of a block moving with the top plane at that time, eV.
 double TimePath::kinetic_as_top(double time) const {
     const double part = simulation_.drive().velocity(time) / case_.simulation.drive.velocity;
     return kinetic_at_full_speed_ * part * part;
@@ -154,7 +160,7 @@ double TimePath::kinetic_as_top(double time) const {
 
 std::string TimePath::position() const { return fmt::format("step {}", steps()); }
 
-/// A list is for both ways: what is written to it counts after restored().
+/// Returns a list for reading and writing: written values count after restored().
 std::vector<StateArray> TimePath::arrays() {
     return state_of(const_cast<Block&>(std::as_const(simulation_).block()));
 }

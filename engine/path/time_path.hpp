@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A dynamic path: a simulation, whose drive is told after each step what the step met, and the
-// works of the segments.
+// A dynamic path: a simulation, its drive, which observes each step, and the works of the segments.
 #pragma once
 
 #include "engine/dynamics/approach_start.hpp"
@@ -14,10 +13,11 @@
 
 namespace asperity {
 
+/// A dynamic path.
 class TimePath : public Path {
 public:
-    /// The undeformed block where the path starts. A warm block starts beyond the interaction
-    /// range: the way down is what warms it.
+    /// Places the undeformed block at the start of the path. With a temperature the path starts
+    /// beyond the interaction range, so that the thermostat warms the block on its way down.
     TimePath(const Case& c, const Surface& surface, const Communicator& ranks);
 
     bool done() const override { return !ended_ && !concluding_ && simulation_.drive().done(); }
@@ -25,10 +25,10 @@ public:
     std::optional<std::size_t> ended() const override { return concluding_; }
     bool at_end() const override { return ended_.has_value(); }
     bool about_to_conclude() const override { return at_end(); }
-    /// A copy of the lowest layer is relaxed under no load; the block is not touched.
+    /// Relaxes a copy of the lowest layer under no load; the block is not changed.
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
-    /// The state at zero load that the sites come to from where they are: a copy is relaxed.
+    /// Relaxes a copy of the lowest layer from its present place at zero load.
     LayerAtRest state_from_here();
 
     const StepRecord& now() const override { return simulation_.now(); }
@@ -61,6 +61,7 @@ private:
         v("simulation", simulation_);
         v("segment", segment_);
         v("end", end_);
+        v("scatter", scatter_);
         v("ended", ended_);
         v("concluding", concluding_);
         v("start", start_);
@@ -80,13 +81,15 @@ private:
     Simulation simulation_;
     ApproachStart start_;
     std::size_t segment_ = 0;
-    double kinetic_at_full_speed_ = 0.0;     ///< of the whole block at the drive's velocity, eV
-    Works segment_start_;                    ///< since the start, where the segment began
-    double interface_work_ = 0.0;            ///< int F dz to where the last segment ended, eV
-    StepRecord end_;                         ///< the step that ended the last segment
-    std::optional<std::size_t> ended_;       ///< the segment that the last step ended
-    std::optional<std::size_t> concluding_;  ///< the segment that ended the step before
-    VectorField<double> layer_, velocities_; ///< at now(), once they were wanted
+    /// Kinetic energy of the whole block at the drive's velocity, eV
+    double kinetic_at_full_speed_ = 0.0;
+    Works segment_start_;              ///< works since the start at the beginning of the segment
+    double interface_work_ = 0.0;      ///< int F dz up to the end of the last segment, eV
+    StepRecord end_;                   ///< the step that ended the last segment
+    std::optional<double> scatter_;    ///< SegmentResults::scatter of the last segment, eV/Å
+    std::optional<std::size_t> ended_; ///< the segment that the last step ended
+    std::optional<std::size_t> concluding_;  ///< the segment that ended in the step before
+    VectorField<double> layer_, velocities_; ///< at now(), if they were wished for
 };
 
 } // namespace asperity

@@ -41,7 +41,7 @@ std::string memory_text(double bytes) {
 
 constexpr double one_day = 86400.0; ///< s
 
-/// Of growing width; the last is the largest that there is time for.
+/// Returns pieces of growing width; the last is the largest that the time allows.
 std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double atoms) {
     // The box of a piece is twice the cutoff at least.
     const double reach = 2.0 * c.simulation.interface.pairs().cutoff / c.scene.surface.spacing;
@@ -63,7 +63,7 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
     return pieces;
 }
 
-/// Of a part on one rank of the case.
+/// Returns the bytes of a part on one rank of the case.
 double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
     const Tile tile = c.grid(rank).tile(0);
     const double one = std::pow(piece.sites, 2), h = 2.0 * halo_width;
@@ -82,7 +82,7 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     return bytes * here + tables * piece.table * (whole - here);
 }
 
-/// What the tolerance is a fraction of.
+/// Prints the scale of the tolerance.
 void print_scales(std::FILE* to, const Case& c, double height) {
     fmt::print(to,
                "forces      {:.3g} eV/Å on a site decides the state: {};\n"

@@ -17,7 +17,7 @@
 #include <malloc.h>
 #include <omp.h>
 
-/// There where a sanitizer has replaced malloc().
+/// Returns the allocated bytes; defined if a sanitizer has replaced malloc().
 extern "C" [[gnu::weak]] std::size_t __sanitizer_get_current_allocated_bytes();
 
 namespace asperity {
@@ -27,13 +27,13 @@ namespace {
 /// Layers of a dynamic piece; of a plain lattice, each takes as much as all coarse levels together.
 constexpr int most_layers = 128, most_layers_of_lattice = 48;
 
-/// Of this thread, s: what else runs on the machine does not count.
+/// Returns the processor time of this thread, s: other load of the machine does not count.
 double now() {
     std::timespec t{};
     ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
     return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-/// The shortest of a few done.
+/// Returns the shortest time of a few calls.
 double shortest(const auto& work) {
     double best = HUGE_VAL;
     for (int n = 0; n < 5; ++n) {
@@ -44,7 +44,7 @@ double shortest(const auto& work) {
     return best;
 }
 
-/// Allocated by this process and not freed, bytes.
+/// Returns the bytes that this process has allocated and not freed.
 double allocated() {
     const auto kept = static_cast<double>(kept_arrays());
     if (__sanitizer_get_current_allocated_bytes)
@@ -53,7 +53,7 @@ double allocated() {
     return static_cast<double>(all.uordblks + all.hblkhd) - kept;
 }
 
-/// The case on fewer sites, on one rank and on the processor.
+/// Returns the case on fewer sites, on one rank and on the processor.
 Case piece_of(const Case& c, int sites) {
     Case piece = c;
     piece.ranks = 1;
@@ -80,7 +80,7 @@ Case piece_of(const Case& c, int sites) {
     return piece;
 }
 
-/// In place of one from a file: a rough surface, or as many atoms in flat layers.
+/// Returns a surface in place of one from a file: a rough one, or as many atoms in flat layers.
 Surface stand_in(Case piece, double rms, int atoms) {
     Scene::Surface& s = piece.scene.surface;
     if (s.kind == SurfaceKind::file) {
@@ -102,8 +102,8 @@ Surface stand_in(Case piece, double rms, int atoms) {
     return surface_from_atoms(options, std::move(at));
 }
 
-/// All segments of a quasi-static path, as a run follows them; relax: to the state under a load.
-/// Whether it came to its end.
+/// Follows all segments of a quasi-static path, as a run does. relax: leads to the state under a
+/// load. Returns true if the path came to its end.
 bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto& stop) {
     for (std::size_t n = 0; n < c.path.size(); ++n) {
         if (c.path[n].kind == Segment::relax) {
@@ -159,7 +159,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     done.nodes = nodes_of(piece.levels);
     done.table = static_cast<double>(waves->table_bytes());
 
-    // Where a slow approach comes to rest.
+    // Height of the state of a slow approach.
     const double lowest = *std::min_element(heights.height.begin(), heights.height.end());
     const double height =
         height_of_strongest_attraction(*waves, *below, lowest, piece.scales.length);
@@ -191,7 +191,8 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
             simulation->start(start);
             simulation->step(true);
         });
-        done.bytes[Piece::block] -= done.bytes[Piece::interface]; // it has one of its own
+        // The block has an interface of its own
+        done.bytes[Piece::block] -= done.bytes[Piece::interface];
         const auto step = [&] { simulation->step(false); };
         if (timed) done.far_step = shortest(step);
         simulation->start(height);
@@ -206,7 +207,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
                 path.emplace(*waves, *below, path_options(piece, *below, stop));
                 path->start();
                 path->advance();
-                most = 0.0; // what a point needs belongs to Piece::rest
+                most = 0.0; // the memory of a point belongs to Piece::rest
             });
         begun = now();
         if (piece.effects.relaxation) part(Piece::rest, [&] { done.ended = come_to_rest(); });

@@ -15,7 +15,7 @@ namespace asperity {
 
 namespace {
 
-/// The largest attraction of a running mean over 2 ps, eV/Å; nothing if rows are too rare for one.
+/// Returns the largest attraction of a running mean over 2 ps, eV/Å; nothing if rows are too rare.
 std::optional<double> attraction_averaged(const PathSeries& path, std::size_t from,
                                           std::size_t to) {
     constexpr double window = 2.0; // ps
@@ -38,7 +38,7 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 
 void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
                      const Scene& scene, io::Result& result) {
-    if (!result.number("work_of_drive.pull_off")) return; // not to its end
+    if (!result.number("work_of_drive.pull_off")) return; // the pull-off did not come to its end
     /// Rows of the last segment of a kind, from the first to behind the last.
     const auto rows_of = [&](Segment::Kind kind) {
         double number = -1.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the series of run.h5 say about a path, as numbers for result.json.
+// Numbers of result.json that follow from the series of run.h5.
 #pragma once
 
 #include "engine/scene/scene.hpp"
@@ -12,14 +12,14 @@
 
 namespace asperity {
 
-/// The series of a run, a value a row.
+/// The series of a run, one value a row.
 struct PathSeries {
-    std::vector<double> segment; ///< number of it
+    std::vector<double> segment; ///< number of the segment
     std::vector<double> time;    ///< ps; empty for a quasi-static path
     std::vector<double> force;   ///< eV/Å, positive pushes
     std::vector<double> contact_fraction;
 };
-/// What the last approach and pull-off of a whole path over a sphere add to a result:
+/// Adds the numbers of the last approach and pull-off of a whole path over a sphere to a result:
 /// jkr.approach_averaged, jkr.pull_off_averaged and contact_radius.pull_off.
 void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
                      const Scene& scene, io::Result& result);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Why a run may be interrupted between two steps, points or iterations, and when it is time to
-// look.
+// Reasons to interrupt a run between two steps, points or iterations, and the times at which to
+// look for them.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -12,29 +12,30 @@
 
 namespace asperity {
 
-/// Of several the last one counts.
+/// Reasons to interrupt a run. If there are several, the last one counts.
 enum class Interruption { none, checkpoint, wall_limit, signal };
 
+/// Interruptions of a run.
 class Interruptions {
 public:
-    /// checkpoint: seconds between two of them; HUGE_VAL: none are asked for.
+    /// Starts the clock. checkpoint: seconds between two checkpoints; HUGE_VAL: none.
     Interruptions(const RunOptions& options, double checkpoint, const Communicator& ranks)
         : options_(options), checkpoint_(checkpoint), ranks_(ranks) {}
 
-    /// The same on all ranks. Collective.
+    /// Returns the reason to interrupt now, the same on all ranks. Collective.
     Interruption now() const;
-    /// Whether it is time to ask, about every half second (more often where checkpoints are): for
-    /// steps too short to ask at each. Collective.
+    /// Returns true about every half second (more often with frequent checkpoints), when it is time
+    /// to call now(), for steps too short to call it at each. Collective.
     bool look_is_due();
     void looked() { last_look_ = seconds(); }
     void checkpoint_written() { last_checkpoint_ = seconds(); }
-    /// Since the start.
+    /// Returns the seconds since the start.
     double seconds() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
 private:
-    /// As far as this rank knows.
+    /// Returns the reason that this rank knows.
     Interruption here() const;
 
     const RunOptions& options_;

@@ -6,6 +6,7 @@
 #include "engine/path/guard.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/run/summary.hpp"
+#include "io/result_directory.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
@@ -33,7 +34,7 @@ void LastGood::look(Path& path) {
 std::string LastGood::write(Path& path) {
     if (snapshot_.empty()) return "no earlier state was kept";
     snapshot_.restore(path);
-    const char* file = "last-good.h5";
+    const char* file = io::run_file::last_good;
     try {
         session_.write_state(session_.file(file), path, of_session_);
         return fmt::format("the last good state, {}, is in {}", path.position(), file);
@@ -53,8 +54,7 @@ void Guard::look(Path& path) {
 bool row_is_due(const Path& path) {
     const Case& c = path.scene_case();
     if (!c.in_time || path.about_to_conclude()) return true;
-    const bool last = c.scene.drive.max_steps > 0 && path.steps() + 1 >= c.scene.drive.max_steps;
-    return last || path.steps() % c.scene.output.series == 0;
+    return path.steps() % c.scene.output.series == 0;
 }
 
 Path::Wish Rows::wish(const Path& path) const {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The observers of a run but the maps (path_maps.hpp).
+// The observers of a run except the maps (path_maps.hpp).
 #pragma once
 
 #include "engine/path/checkpoint.hpp"
@@ -14,13 +14,13 @@ namespace asperity {
 
 class RunSession;
 
-/// In time the last good state is kept in memory, to be written as a checkpoint, last-good.h5,
-/// where the guard ends the run. Looks after the rows.
+/// Copy of the last good state of a dynamic run, in memory, to be written as the checkpoint
+/// last-good.h5 when the guard ends the run. Looks after the rows.
 class LastGood : public Observer {
 public:
     explicit LastGood(RunSession& session) : session_(session) {}
     void look(Path& path) override;
-    /// Puts the path back and writes it; what there is to go on from, in words.
+    /// Puts the path back and writes it. Returns a sentence on the state to resume from.
     std::string write(Path& path);
 
 private:
@@ -29,12 +29,13 @@ private:
     CollectNumbers of_session_;
 };
 
-/// Ends a run whose numbers are no physics. Looks first.
+/// Guard that ends the run if the energy balance or a coordinate is no longer physical. Must be the
+/// first observer.
 class Guard : public Observer {
 public:
     explicit Guard(LastGood& last_good) : last_good_(last_good) {}
     void look(Path& path) override;
-    /// The step or point that ended the run, if one did: the path may have been put back.
+    /// Returns the step or point that ended the run, if one did: the path may have been put back.
     const std::optional<StepRecord>& failed() const { return failed_; }
 
 private:
@@ -42,10 +43,10 @@ private:
     std::optional<StepRecord> failed_;
 };
 
-/// Whether the next step makes a row of the series.
+/// Returns true if the next step makes a row of the series.
 bool row_is_due(const Path& path);
 
-/// Rows of the series: of each observed step or point.
+/// Rows of the series, one for each observed step or point.
 class Rows : public Observer {
 public:
     explicit Rows(RunSession& session) : session_(session) {}
@@ -73,7 +74,7 @@ class ProgressLine : public Observer {
 public:
     explicit ProgressLine(RunSession& session) : session_(session) {}
     void look(Path& path) override;
-    /// Within a relaxation, of which the path knows no point yet.
+    /// Shows an iteration of a relaxation, for which the path has no point yet.
     void look_within(const Path& path, long long iteration, double residual);
 
 private:

@@ -18,7 +18,7 @@ PathMaps::PathMaps(RunSession& session) : session_(session), times_(session.scen
 
 bool PathMaps::is_due(long long step) const { return times_.every && step % *times_.every == 0; }
 
-/// From the step after the end of the approach on.
+/// Returns true from the step after the end of the approach on, at the times of the scene.
 bool PathMaps::delayed_is_due(const Path& path, double time) const { // fs
     const std::optional<double>& contact = path.results().contact_made;
     if (delayed_written_ == times_.after_approach.size() || !contact || time <= *contact)
@@ -28,7 +28,7 @@ bool PathMaps::delayed_is_due(const Path& path, double time) const { // fs
 
 Path::Wish PathMaps::wish(const Path& path) const {
     const double next = static_cast<double>(path.steps()) * session_.scene_case().simulation.dt;
-    // Of a segment's end it is known only after the step.
+    // The end of a segment is known only after the step.
     return {.layer = times_.segments || (times_.pull_off && row_is_due(path)) ||
                      is_due(path.steps()) || delayed_is_due(path, next)};
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Maps along a path (output.fields). Those of every so many steps or points, of the ends of
-// segments, of states and of times after the approach are written at once; those of the largest
+// Maps along a path (output.fields). Maps at every so many steps or points, at the ends of
+// segments, of states and at times after the approach are written at once; those at the largest
 // attraction of the last pull-off are kept until the run ends.
 #pragma once
 
@@ -18,6 +18,7 @@ namespace asperity {
 
 class RunSession;
 
+/// Observer that writes maps along a path.
 class PathMaps : public Observer {
 public:
     explicit PathMaps(RunSession& session);
@@ -28,7 +29,7 @@ public:
     void look_at_state(Path& path, const LayerAtRest& state) override;
     void finish(Path& path) override;
 
-    /// For checkpoints: numbers, and the layer that is kept.
+    /// Passes the numbers to a visitor, for checkpoints; arrays() lists the kept layer.
     template <class Visitor>
     void visit(Visitor& v) {
         v("attraction", attraction_);
@@ -46,12 +47,12 @@ private:
 
     RunSession& session_;
     const MapTimes& times_;
-    std::size_t delayed_written_ = 0; ///< of times_.after_approach, the first
-    // The lowest layer where the pull-off attracted most.
+    std::size_t delayed_written_ = 0; ///< number of times_.after_approach that have been written
+    // The lowest layer at the largest attraction of the pull-off.
     double attraction_ = 0.0, reference_height_ = 0.0; ///< eV/Å, Å
-    std::array<double, 2> place_{};                    ///< of the block over the substrate, Å
-    bool kept_ = false;                                ///< there is something to be written
-    VectorField<double> layer_;                        ///< only if the scene asks for these maps
+    std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
+    bool kept_ = false;             ///< the kept layer is to be written
+    VectorField<double> layer_;     ///< only if the scene asks for these maps
 };
 
 } // namespace asperity

@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-/// A tile's map as the whole box's, on the root.
+/// Gathers a tile's map to that of the whole box, on the root.
 std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
                           const std::vector<double>& tile_map) {
     const Tile tile = grid.tile(0);
@@ -57,13 +57,14 @@ std::string get_text(io::PayloadReader& record) {
     return {text.begin(), text.end()};
 }
 
-/// numbered: the group gets a number where there is one of its name already.
+/// Adds a group to a record. numbered: the group gets a number if its name exists already.
 void put_group(io::PayloadWriter& record, const std::string& group, bool numbered) {
     put_text(record, group);
     record.put<std::uint64_t>(numbered);
 }
 
-/// unit: of a growing one; the others have theirs from io/quantities.hpp.
+/// Adds a data set to a record. unit: of a growing one; the others have theirs in
+/// io/quantities.hpp.
 template <class T>
 void put_member(io::PayloadWriter& record, MemberKind kind, const std::string& name,
                 const io::Hdf5File::Shape& shape, std::span<const T> values,
@@ -94,7 +95,7 @@ void write_member(io::Hdf5File& file, MemberKind kind, const std::string& group,
     file.append<T>(path, values);
 }
 
-/// A record of a group into run.h5.
+/// Writes the record of a group into run.h5.
 void write_group(io::Hdf5File& file, io::PayloadReader record) {
     const std::string first = get_text(record);
     const bool numbered = record.get<std::uint64_t>() != 0;
@@ -145,11 +146,12 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
     io::write_described(file, "/substrate/spectrum_target", {q.size()}, target);
 }
 
-/// P(u), normalised to one: 200 bins from the least to the greatest gap.
+/// Adds P(u), normalised to one: 200 bins from the least to the greatest gap.
 void put_gap_density(io::PayloadWriter& record, const std::vector<double>& gap) {
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     constexpr std::size_t bins = 200;
-    const double width = std::max((*greatest - *least) / bins, 1e-12);
+    const double size = std::max(std::abs(*least), std::abs(*greatest));
+    const double width = std::max((*greatest - *least) / bins, size > 0.0 ? 1e-12 * size : 1.0);
     std::vector<double> density(bins, 0.0), edge(bins + 1);
     for (std::size_t i = 0; i <= bins; ++i)
         edge[i] = *least + width * static_cast<double>(i);
@@ -211,7 +213,7 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface, double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    free_kept_arrays(); // of relaxations: what follows is as much again
+    free_kept_arrays(); // arrays of relaxations: the following needs as much again
     const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
     io::PayloadWriter record;
     ranks.on_root([&] {
@@ -338,11 +340,11 @@ void Recorder::write_if_cheap() {
     });
 }
 
-/// run.h5 anew, from all records. Root only.
+/// Writes run.h5 anew, from all records. Root only.
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
     free_kept_arrays();
-    io::Hdf5File file({directory_, "run.h5"}, io::Hdf5File::Mode::create);
+    io::Hdf5File file({directory_, io::run_file::series}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {

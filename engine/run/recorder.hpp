@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a run records along its way: rows of the series, maps of states, frames of the trajectory
-// (collective; the root writes).
+// The records of a run: rows of the series, maps of states, frames of the trajectory (collective;
+// the root writes).
 //
-// Records are appended to run.journal (io/journal.hpp), which a checkpoint refers to. run.h5 is
-// made of them: at the start, at the end, and at checkpoints as long as that takes less than a
+// Records are appended to run.journal (io/journal.hpp), to which a checkpoint refers. run.h5 is
+// made from them: at the start, at the end, and at checkpoints as long as that takes less than a
 // small fraction of the time. It is always whole.
 #pragma once
 
@@ -25,9 +25,10 @@
 
 namespace asperity {
 
+/// Recorder of a run.
 class Recorder {
 public:
-    /// How much was recorded at some moment.
+    /// Amount recorded at some moment.
     struct Position {
         std::uint64_t rows = 0;
         io::Journal::Mark mark; ///< on the root
@@ -39,47 +40,48 @@ public:
         }
     };
 
-    /// What else goes into run.h5, when the records are in it.
+    /// Writes further contents of run.h5 after the records.
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
-    /// A new journal, or one that goes on from a position which it holds (Journal::holds). The
-    /// surface must outlive the recorder. columns: of the series.
+    /// Makes a new journal, or continues one from a position that it holds (Journal::holds). The
+    /// surface must outlive the recorder. columns: those of the series.
     Recorder(const io::Directory& directory, const Surface& surface,
              const Communicator& communicator, std::vector<const SeriesColumn*> columns,
              const std::optional<Position>& resume, AddToFile add);
 
-    /// One row: an observed step, or a point of a quasi-static path (which has no time, no kinetic
-    /// energy and no damping, and no columns for them), made with wish_of_row().
+    /// Appends one row: an observed step, or a point of a quasi-static path (without time, kinetic
+    /// energy, damping and their columns), made with wish_of_row().
     void row(const Path& path);
     Path::Wish wish_of_row() const;
     std::uint64_t rows() const { return rows_; }
-    /// Maps of a state: gap, pressure, contact, displacement; and the distribution of gaps P(u).
-    /// Once for each name.
+    /// Appends maps of a state: gap, pressure, contact, displacement; and the distribution of gaps
+    /// P(u). Must be called once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, double reference_height);
-    /// What that appends to the journal, on the root. Collective.
+    /// Returns the record that fields() appends to the journal, on the root. Collective.
     static io::PayloadWriter record_of_fields(const std::string& state,
                                               const VectorPlane<const double>& layer,
                                               const Communicator& ranks, const ProcessGrid& grid,
                                               const Interface& interface, double reference_height);
-    /// A frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities where
-    /// they are wanted.
+    /// Appends a frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities
+    /// if they are wanted.
     void frame(const Path& path, bool velocities);
 
-    /// Everything recorded so far, in the journal.
+    /// Writes all rows to the journal and returns its position.
     Position position();
     /// Brings the journal to the disk.
     void synchronize();
     /// Writes run.h5.
     void write();
-    /// At a checkpoint: writes it if that takes less than largest_share of the time since the last.
+    /// Writes run.h5 at a checkpoint if that takes less than largest_share of the time since the
+    /// last.
     void write_if_cheap();
 
     // Root only.
     void write_on_root();
-    /// The series so far: a column by its name in run.h5, a value a row.
+    /// Returns the columns of the series so far by their names in run.h5, one value a row.
     std::map<std::string, std::vector<double>> series() const;
-    void remove_journal(); ///< the run is over
+    void remove_journal(); ///< removes the journal after the run
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -95,7 +97,7 @@ private:
     std::optional<io::Journal> journal_; ///< root only
     std::vector<double> waiting_;        ///< rows that are not in the journal yet; root only
     std::uint64_t rows_ = 0;
-    double build_seconds_ = 0.0; ///< of the last run.h5
+    double build_seconds_ = 0.0; ///< time to write the last run.h5, s
     Clock::time_point built_ = Clock::now();
 };
 

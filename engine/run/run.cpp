@@ -18,7 +18,7 @@ namespace {
 
 using Observers = std::vector<Observer*>;
 
-/// What a segment has come to. False: the run is to stop on the way to its state.
+/// Concludes a segment. Returns false if the run stops on the way to its state.
 bool conclude(Path& path, RunSession& session, const Observers& observers) {
     const Case& c = path.scene_case();
     const std::size_t number = *path.ended();
@@ -43,7 +43,7 @@ bool conclude(Path& path, RunSession& session, const Observers& observers) {
     return true;
 }
 
-/// The loop of a run, to the end of the path or to where it is to stop.
+/// Runs the loop to the end of the path or to the point at which the run stops.
 void follow(Path& path, RunSession& session, const Observers& observers) {
     for (;;) {
         while (path.ended())
@@ -68,7 +68,7 @@ void follow(Path& path, RunSession& session, const Observers& observers) {
 int run(const Case& c, const RunOptions& options, const Communicator& communicator) {
     c.require_runnable();
     RunSession session(c, options, communicator);
-    free_kept_arrays(); // of the surface
+    free_kept_arrays(); // arrays of the surface
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);
     LastGood last_good(session);
     Guard guard(last_good);

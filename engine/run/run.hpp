@@ -12,6 +12,7 @@
 
 namespace asperity {
 
+/// Options of `asperity run`.
 struct RunOptions {
     std::string out;                  ///< --out; empty: results/<scene>
     std::string resume;               ///< --resume: "", "auto", or a checkpoint file
@@ -22,8 +23,8 @@ struct RunOptions {
     bool resuming() const { return !resume.empty(); }
 };
 
-/// Runs the case on all ranks of the communicator, which are as many as it was made for. Returns
-/// the exit code; errors are thrown (io::Error) and printed by main. Prints the summary on rank 0.
+/// Runs the case on all ranks of the communicator, as many as the case was made for, and prints the
+/// summary on rank 0. Returns the exit code. Collective. Throws io::Error, which main prints.
 int run(const Case& c, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

@@ -75,6 +75,11 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (in) result.set("dissipated_in_block.approach", in->relaxed);
     if (out) result.set("dissipated_in_block.pull_off", out->relaxed);
     result.set("dissipated_in_block.cycle", results.relaxed_in_cycle);
+    if (in && in->relaxed) result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
+    if (out && out->relaxed)
+        result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
+    if (in) result.set("stored.approach", in->stored);
+    if (out) result.set("stored.pull_off", out->stored);
     if (!radius) return;
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
@@ -84,7 +89,7 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (out) result.set("jkr.pull_off", as_work(out->attraction));
 }
 
-/// Of a curved scene at zero load: the radius of the contact, and the binding energy by JKR.
+/// Adds the results of a curved scene at zero load: contact radius, and binding energy by JKR.
 void add_sphere(const Case& c, io::Result& result) {
     const Scene& scene = c.scene;
     if (!scene.surface.radius) return;
@@ -114,12 +119,19 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
         given("segments[].dissipated_in_block", s.relaxed);
+        given("segments[].stored", s.stored);
         given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
         given("segments[].friction", s.lateral_mean);
         given("segments[].largest_friction", s.lateral_most);
         result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
+        if (s.scatter) {
+            result.set("segments[].pressure_scatter", i,
+                       *s.scatter / (c.area() * units::megapascal));
+            result.set("segments[].pressure_averaged_over", i,
+                       c.simulation.drive.average_over / units::picosecond);
+        }
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
@@ -176,6 +188,7 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (c.table_digest)
         result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
+    if (c.table_error) result.set("interface.table_error", *c.table_error);
     return result;
 }
 
@@ -206,7 +219,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
         if (all.contains(section)) part[section] = all[section];
     part["drive"]["max_steps"] = 0;
     part["output"]["fields"] = c.maps.pull_off; // keeps a layer in the checkpoint
-    // What resumes is taken as written where its time is past.
+    // A resumed run takes maps whose time is past as written.
     part["output"]["delayed"] = io::Json::array();
     for (const auto& [delay, name] : c.maps.after_approach)
         part["output"]["delayed"].push_back(name);
@@ -230,6 +243,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
         result.set("energy.kinetic", now.kinetic_energy);
         result.set("energy.elastic", now.elastic_energy);
         result.set("energy.interface", now.interface_energy);
+        if (c.effects.temperature) result.set("energy.time_step", now.time_step_energy);
         result.set("energy.damped", now.damped);
         if (c.effects.branches) {
             result.set("energy.branches", now.branch_energy);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// From what a run computed to result.json: each number is named here, where it is collected, and
-// described in io/quantities.hpp. And what a checkpoint keeps of its scene.
+// The result of a run: each number of result.json is named here, where it is collected, and
+// described in io/quantities.hpp. Also the part of a scene that a checkpoint keeps.
 #pragma once
 
 #include "engine/path/path.hpp"
@@ -13,19 +13,19 @@
 
 namespace asperity {
 
-/// A result with the scene's name, keys and their units.
+/// Returns a result with the scene's name, keys and their units.
 io::Result scene_result(const Scene& scene);
-/// The same with the statistics of the surface.
+/// Returns the same with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
-/// What dynamic runs and without it have in common: the scene, its surface, its effects, the
-/// results, theory, ranks and threads.
+/// Returns the common part of the results of dynamic and quasi-static runs: the scene, its surface,
+/// its effects, the results, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 
-/// What may not change between a checkpoint and its resumption: keys, and the map or the atoms of a
-/// file.
+/// Returns the part of a case that may not change between a checkpoint and its resumption: keys,
+/// and the map or the atoms of a file.
 std::string physics_of(const Case& c, const Surface& surface);
 
-/// Steps and energies of a path; failed: the step or point that a guard ended it at.
+/// Adds steps and energies of a path. failed: the step or point at which a guard ended the path.
 void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result);
 void add_phases(const Phases& phases, io::Result& result);
 

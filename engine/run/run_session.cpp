@@ -37,7 +37,7 @@ void print_unless_closed(const Print& print) {
 
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
     : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
-      grid_(c.grid(ranks.rank())), storage_(options, c.scene.name, ranks),
+      grid_(c.grid(ranks.rank())), storage_(options, c, ranks),
       interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
       progress_(options.progress, !ranks.root()), maps_(*this),
       fingerprint_(physics_of(c, surface_)) {
@@ -103,7 +103,7 @@ const char* RunSession::name(Stopped stopped) {
     return "";
 }
 
-/// On the way, of all ranks together.
+/// Returns the interruption of all ranks together, between two steps or points.
 Interruption RunSession::ask() {
     const Interruption now = interruptions_.now();
     if (now == Interruption::wall_limit) stopped_ = Stopped::wall_limit;
@@ -231,7 +231,7 @@ void RunSession::write_failure(const Path& path, const Failure& failure,
     if (!recorder_ && failure.code != io::exit_code::physics) return;
     try {
         if (recorder_) recorder_->write_on_root();
-    } catch (const std::exception&) { // what run.h5 held before must do
+    } catch (const std::exception&) { // the earlier run.h5 must do
     }
     try {
         write_result(path, &failure, add_to);
@@ -247,7 +247,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
     result.set("run.processor_seconds", processor_seconds());
     add_phases(phases_, result);
     if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
-    if (const auto digest = io::sealed_digest(storage_.directory(), "run.h5"))
+    if (const auto digest = io::sealed_digest(storage_.directory(), io::run_file::series))
         result.set("run.file_digest", fmt::format("crc32:{:08x}", *digest));
     if (failure) {
         result.set("failure.exit_code", failure->code);
@@ -256,7 +256,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
     if (recorder_ && case_.scene.surface.radius) {
         auto series = recorder_->series();
         add_sphere_path({.segment = series["segment"],
-                         // Of a quasi-static path there are no vibrations to average.
+                         // A quasi-static path has no vibrations to average.
                          .time = case_.in_time ? series["time"] : std::vector<double>(),
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a run has beside its path: the surface, the result directory (run_storage.hpp) and what is
-// recorded in it (recorder.hpp), checkpoints, reasons to stop (interruptions.hpp), and the result.
+// The session of a run beside its path: the surface, the result directory (run_storage.hpp) and its
+// records (recorder.hpp), checkpoints, reasons to stop (interruptions.hpp), and the result.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -22,9 +22,10 @@
 
 namespace asperity {
 
+/// Session of a run.
 class RunSession {
 public:
-    /// Takes the result directory and makes the surface. Collective, like every member function.
+    /// Takes the result directory and makes the surface. Collective, as all member functions.
     RunSession(const Case& c, const RunOptions& options, const Communicator& ranks);
     RunSession(const RunSession&) = delete;
     RunSession& operator=(const RunSession&) = delete;
@@ -33,51 +34,52 @@ public:
     const Surface& surface() const { return surface_; }
     const ProcessGrid& grid() const { return grid_; }
     io::Progress& progress() { return progress_; }
-    Phases& phases() { return phases_; } ///< relaxations, checkpoints, output
+    Phases& phases() { return phases_; } ///< returns the clocks of relaxations, checkpoints, output
     PathMaps& maps() { return maps_; }
     Recorder& recorder() { return *recorder_; }
 
-    // The run as a whole.
+    // Run as a whole.
 
     /// Adds steps and energies to the result. Called on the root.
     using AddToResult = std::function<void(io::Result&)>;
-    /// Prints the opening, does the work, writes the result (also of a failure, which is thrown on)
+    /// Prints the opening, calls work(), writes the result (also of a failure, which is rethrown)
     /// and prints the summary. Returns the exit code.
     int carry_out(Path& path, const std::function<void()>& work, const AddToResult& add_to);
-    /// Before the first step: goes on from a checkpoint, if one was asked for and is there.
+    /// Resumes from a checkpoint before the first step, if one was asked for and is there.
     void begin(Path& path);
 
     // Reasons to stop.
 
-    /// Between two steps or points: writes a checkpoint if it is time or the run must end; then
-    /// true. Throws io::FileError where the result directory was moved or removed.
+    /// Writes a checkpoint between two steps or points if it is time or the run must end. Returns
+    /// true if the run must end. Throws io::FileError if the result directory was moved or removed.
     bool stop_here(Path& path);
-    /// Between two iterations: whether the relaxation must end, and the run after stop_now(). A
-    /// checkpoint that is due is written where the path can go on from within.
+    /// Returns true between two iterations if the relaxation must end, and after it, by stop_now(),
+    /// the run. Writes a checkpoint that is due if the path can be resumed within the relaxation.
     bool stop_within(Path& path);
-    /// With a checkpoint.
+    /// Writes a checkpoint for a run that ends.
     void stop_now(Path& path);
 
     // Checkpoints.
 
-    /// Before what may take long: only if the scene has checkpoints.
+    /// Writes a checkpoint before a long part of the run, only if the scene has checkpoints.
     void save_if_on(Path& path);
-    /// The numbers of what this class holds (records, maps), as "run.*".
+    /// Collects the numbers of the session (records, maps) as "run.*".
     void collect(CollectNumbers& numbers);
-    /// Path, maps and these numbers. Throws io::FileError.
+    /// Writes path, maps and these numbers. Throws io::FileError.
     void write_state(const io::FilePlace& place, Path& path, const CollectNumbers& of_session);
-    /// A file in the result directory.
+    /// Returns the place of a file in the result directory.
     io::FilePlace file(const std::string& name) const;
 
 private:
-    /// Why the run ends early.
+    /// Reason of an early end of the run.
     enum class Stopped { no, max_steps, wall_limit, signal };
     static const char* name(Stopped stopped);
     Interruption ask();
     void save(Path& path);
     void restore(RestoreNumbers& numbers);
     void open_recorder();
-    /// Of this rank with all its threads, from the first start of the run on.
+    /// Returns the processor time of this rank with all its threads, from the first start of the
+    /// run, s.
     double processor_seconds() const;
     void print_notes();
     struct Failure {
@@ -85,7 +87,7 @@ private:
         std::string reason;
     };
     void write_failure(const Path& path, const Failure& failure, const AddToResult& add_to);
-    /// failure: why the run failed, or null. Root only.
+    /// Writes the result on the root and returns it. failure: why the run failed, or null.
     io::Result write_result(const Path& path, const Failure* failure, const AddToResult& add_to);
 
     const Case& case_;
@@ -98,12 +100,13 @@ private:
     io::Progress progress_;
     Phases phases_;
     PathMaps maps_;
-    /// What may not change between a checkpoint and its resumption: the physics, as text.
+    /// Physics as text, which may not change between a checkpoint and its resumption.
     const std::string fingerprint_;
     std::optional<Recorder> recorder_;
     std::optional<Recorder::Position> resumed_at_;
     Stopped stopped_ = Stopped::no;
-    double processor_before_ = 0.0; ///< s, before the checkpoint that the run was resumed from
+    /// Processor time before the checkpoint that the run was resumed from, s
+    double processor_before_ = 0.0;
 };
 
 } // namespace asperity

@@ -26,7 +26,7 @@ std::string folder_of(const std::string& file) {
     return folder.empty() ? "." : folder;
 }
 
-/// "auto", or a checkpoint of the directory itself.
+/// Returns true for "auto", or a checkpoint of the directory itself.
 bool goes_on_in(const RunOptions& options) {
     if (!options.resuming()) return false;
     std::error_code error;
@@ -34,8 +34,13 @@ bool goes_on_in(const RunOptions& options) {
            fs::equivalent(folder_of(options.resume), options.out, error);
 }
 
-io::ResultRequest request(const RunOptions& options, const std::string& name) {
-    io::ResultRequest request{options.out, name, goes_on_in(options), options.restart};
+io::ResultRequest request(const RunOptions& options, const Case& c) {
+    io::ResultRequest request{options.out,
+                              c.scene.name,
+                              goes_on_in(options),
+                              options.restart,
+                              {io::run_file::all.begin(), io::run_file::all.end()},
+                              c.inputs()};
     if (options.out.empty() && options.resuming() && options.resume != "auto")
         request.asked = folder_of(options.resume);
     return request;
@@ -50,18 +55,11 @@ Recorder::Position position_in(const StateNumbers& numbers) {
     return position;
 }
 
-RunStorage::RunStorage(const RunOptions& options, const std::string& name,
-                       const Communicator& ranks)
+RunStorage::RunStorage(const RunOptions& options, const Case& c, const Communicator& ranks)
     : options_(options), ranks_(ranks) {
     ranks_.on_root([&] {
-        owner_ = std::make_unique<io::ResultDirectory>(request(options, name));
+        owner_ = std::make_unique<io::ResultDirectory>(request(options, c));
         notes_ = owner_->notes();
-        const auto there = [&](const char* file) { return directory().exists(file); };
-        if (options.resume == "auto" && there("result.json") && !there(checkpoint) &&
-            !there(checkpoint_before) && !there(journal))
-            throw io::SceneError({"--resume auto", path() + " holds a result and no checkpoint",
-                                  "the run in it has ended",
-                                  "nothing is left to do; for a new run give another --out"});
     });
 }
 
@@ -103,7 +101,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
         damaged.push_back(what);
         notes_.push_back(what);
         if (name == std::string(checkpoint) && directory().exists(checkpoint_before))
-            directory().rename(checkpoint, "checkpoint-damaged.h5");
+            directory().rename(checkpoint, io::run_file::checkpoint_damaged);
     }
     if (!damaged.empty())
         throw io::FileError(path(), "has no checkpoint to go on from",
@@ -113,7 +111,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
     return std::nullopt;
 }
 
-/// A checkpoint of another directory brings its records along.
+/// Returns the named checkpoint; one of another directory brings its records along.
 std::optional<io::FilePlace> RunStorage::named() {
     const io::FilePlace place(options_.resume);
     const Recorder::Position position = position_in(read_checkpoint_numbers(place));
@@ -128,7 +126,7 @@ std::optional<io::FilePlace> RunStorage::named() {
 
 void RunStorage::save(const std::function<void(const io::FilePlace&)>& write_state) {
     // Whole and on the disk before the others move; what a kill leaves of it is removed later.
-    const std::string next = std::string("checkpoint-next") + io::OutputFile::suffix;
+    const char* next = io::run_file::checkpoint_next;
     write_state(ranks_.root() ? file(next) : io::FilePlace(next));
     ranks_.on_root([&] {
         if (directory().exists(checkpoint)) directory().rename(checkpoint, checkpoint_before);
@@ -138,7 +136,7 @@ void RunStorage::save(const std::function<void(const io::FilePlace&)>& write_sta
 }
 
 void RunStorage::remove_checkpoints() {
-    for (const char* name : {checkpoint, checkpoint_before, "checkpoint-damaged.h5"})
+    for (const char* name : {checkpoint, checkpoint_before, io::run_file::checkpoint_damaged})
         directory().remove(name);
 }
 

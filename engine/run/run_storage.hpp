@@ -4,11 +4,11 @@
 // The result directory of a run: who owns it, and its checkpoints.
 //
 //     run.lock               while a run uses the directory (io/result_directory.hpp)
-//     run.journal            what was recorded; until the run is over
+//     run.journal            records; until the run is over
 //     run.h5                 the same as HDF5 (recorder.hpp)
 //     checkpoint.h5          the newest state, and the one before; until the run is over
 //     checkpoint-before.h5
-//     result.json            how it ended
+//     result.json            the result
 //
 // Everything is written by io::OutputFile: whole, or not at all. The root does all of it; the
 // member functions are not collective unless they say so.
@@ -28,28 +28,29 @@
 
 namespace asperity {
 
+/// The result directory of a run.
 class RunStorage {
 public:
     /// Takes the directory. Collective.
-    RunStorage(const RunOptions& options, const std::string& name, const Communicator& ranks);
+    RunStorage(const RunOptions& options, const Case& c, const Communicator& ranks);
 
-    // Root only, like all that follows.
+    // Functions for the root only.
     const std::string& path() const { return directory().path(); }
     io::FilePlace file(const std::string& name) const { return {directory(), name}; }
     const io::Directory& directory() const { return owner_->directory(); }
     void require_in_place() const { owner_->require_in_place(); }
-    /// What the user should know, once.
+    /// Returns notes for the user and forgets them.
     std::vector<std::string> take_notes();
 
-    /// The newest checkpoint that is whole and whose records the journal holds, if the run was
-    /// asked to go on and there is one. A damaged one is set aside (checkpoint-damaged.h5) and
-    /// noted. Throws io::FileError where there are only damaged ones. Collective; empty on other
-    /// ranks means the same as on the root.
+    /// Returns the newest checkpoint that is whole and whose records the journal holds, if the run
+    /// was asked to resume and there is one. A damaged one is set aside (checkpoint-damaged.h5) and
+    /// noted. An empty result on other ranks means the same as on the root. Collective. Throws
+    /// io::FileError if all checkpoints are damaged.
     std::optional<io::FilePlace> checkpoint_to_resume();
-    /// Has write_state(place) write a checkpoint; the last one is kept as the one before.
+    /// Calls write_state(place) to write a checkpoint and keeps the last one as the one before.
     /// Collective.
     void save(const std::function<void(const io::FilePlace&)>& write_state);
-    /// The run is over: what only serves to go on is removed.
+    /// Removes the files that only serve to resume, after the run.
     void remove_checkpoints();
 
 private:
@@ -62,7 +63,7 @@ private:
     std::vector<std::string> notes_;
 };
 
-/// How much was recorded when a checkpoint was written. Throws io::FileError where it is missing.
+/// Returns the amount recorded at a checkpoint. Throws io::FileError if the numbers lack it.
 Recorder::Position position_in(const StateNumbers& numbers);
 
 } // namespace asperity

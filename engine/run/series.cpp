@@ -57,6 +57,10 @@ constexpr SeriesColumn columns[] = {
     {SeriesColumn::dynamic,
      {"series/kinetic_energy", "eV", io::per::block, "kinetic energy"},
      [](const Path& p) { return p.now().kinetic_energy; }},
+    {SeriesColumn::thermal,
+     {"series/time_step_energy", "eV", io::per::block,
+      "at a temperature: -(dt²/8) Σ F²/m, part of the energy balance"},
+     [](const Path& p) { return p.now().time_step_energy; }},
     {SeriesColumn::both,
      {"series/work", "eV", io::per::block,
       "work of the drive on the solids since they were at rest apart, as energy.work"},
@@ -110,6 +114,7 @@ std::vector<io::Quantity> series_quantities() {
 bool SeriesColumn::is_in(bool in_time, const Effects& effects) const {
     if (in == sliding) return effects.sliding;
     if (in == relaxing) return effects.branches;
+    if (in == thermal) return effects.temperature;
     if (in == time) return in_time || effects.branches;
     return in == both || (in == dynamic) == in_time;
 }

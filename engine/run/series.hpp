@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The observables of a run: what of each observed step or point is recorded, a column each, with
-// name, unit, meaning and how it is found. /series of run.h5, docs/reference/result.md and Python's
+// The observables of a run: one column for each number recorded of an observed step or point, with
+// name, unit, meaning and its function. /series of run.h5, docs/reference/result.md and Python's
 // result.series follow from this table.
 #pragma once
 
@@ -15,18 +15,20 @@
 
 namespace asperity {
 
+/// A column of the series.
 struct SeriesColumn {
-    /// time: where it passes; sliding: where the path slides; relaxing: where the block does.
-    enum In { both, dynamic, quasistatic, time, sliding, relaxing };
+    /// Runs that have the column. time: dynamic runs and blocks that relax in time; sliding: paths
+    /// that slide; relaxing: blocks that relax; thermal: scenes with a temperature.
+    enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal };
     In in;
-    io::Quantity quantity; ///< its name is that of the data set, "series/force"
-    /// At path.now(). Collective: the same on all ranks.
+    io::Quantity quantity; ///< the name is that of the data set, "series/force"
+    /// Returns the value at path.now(), the same on all ranks. Collective.
     double (*value)(const Path& path);
-    /// The value is found from the sites, path.layer(): it is wanted in each row.
+    /// The value is computed from the sites, path.layer(), which is then needed in each row.
     bool of_sites = false;
 
     bool is_in(bool in_time, const Effects& effects) const;
-    /// "force"
+    /// Returns the name of the column, "force".
     std::string name() const {
         return std::string(quantity.name.substr(quantity.name.find('/') + 1));
     }

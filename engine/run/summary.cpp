@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace asperity {
 
@@ -51,7 +52,8 @@ struct Numbers {
 
 std::string number(Number value, int digits) { return value ? io::number(*value, digits) : "-"; }
 
-/// With the unit behind it, as people print it; of energies over an area both units of energies().
+/// Returns a name with its unit as people print it; energies over an area have both units of
+/// energies().
 std::string named(const std::string& name, io::Key key) {
     std::string unit(io::unit_of(key));
     if (unit == "1") return name;
@@ -60,32 +62,46 @@ std::string named(const std::string& name, io::Key key) {
     return name + ", " + unit;
 }
 
-/// "55.60 (891)": meV/Å² and mJ/m².
+/// Returns an energy over an area in meV/Å² and mJ/m²: "55.60 (891)".
 std::string energies(Number value, int digits = 2) {
     if (!value) return "-";
     return fmt::format("{} ({})", io::number(*value, digits),
                        io::cell(*value * units::millijoule_per_square_metre, 3));
 }
 
-/// "55.60 meV/Å² (891 mJ/m²)".
+/// Returns an energy over an area with its units: "55.60 meV/Å² (891 mJ/m²)".
 std::string with_units(double value) {
     return fmt::format("{} meV/Å² ({} mJ/m²)", io::number(value, 2),
                        io::cell(value * units::millijoule_per_square_metre, 3));
 }
 
-/// Works and losses of a whole path.
-void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
+/// Returns the works of the drive of all segments of the last cycle, meV/Å^2.
+double works_in_cycle(const PathResults& results) {
+    double sum = 0.0;
+    bool ended = false;
+    for (auto s = results.segments.rbegin(); s != results.segments.rend(); ++s) {
+        if (s->kind == Segment::pull_off && std::exchange(ended, true)) break;
+        if (ended) sum += s->work;
+    }
+    return sum;
+}
+
+/// Prints works and losses of a whole path.
+void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
+                 double flat) {
     const Scene& scene = c.scene;
     if (scene.drive.temperature > 0.0) {
         fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
     if (const Number relaxed = of("dissipated_in_block.cycle")) {
+        const double lost = of("lost.cycle").value_or(0.0);
         fmt::print(
             to,
-            "  From the approach to the end of the pull-off {} are dissipated in the block,\n"
-            "  which relaxes, and {} are lost at instabilities.\n",
-            with_units(*relaxed), with_units(of("lost.cycle").value_or(0.0)));
+            "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
+            "  {} are dissipated in the block, which relaxes,\n"
+            "  and {} are lost at instabilities.\n",
+            with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,
@@ -118,10 +134,10 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
             "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
             "{}.\n",
             with_units(lost),
-            c.in_time ? "damped, or still moves at the end" : "lost at instabilities");
+            c.in_time ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && scene.drive.load == 0.0)
         fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-                   c.in_time ? "energy lost + energy that still moves" : "energy lost there",
+                   c.in_time ? "energy lost + energy left in motion" : "energy lost there",
                    c.in_time ? "" : "\n  = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.in_time)
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
@@ -132,22 +148,25 @@ void print_cycle(std::FILE* to, const Case& c, const Numbers& of, double flat) {
                        "(block.thickness) less so.\n");
 }
 
-/// The segments of a path that does more than to approach and to pull off.
+/// Prints the segments of a path that has others than approach and pull-off.
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     const bool slides = c.effects.sliding;
     std::vector<std::string> head = {"segment",
                                      named("work of the drive", "segments[].work_of_drive"),
-                                     named("lost", "segments[].lost"),
-                                     named("ends at", "segments[].pressure"),
-                                     named("mean height", "segments[].mean_height"),
-                                     "contact"};
+                                     named("lost", "segments[].lost")};
+    if (c.effects.branches)
+        head.push_back(named("dissipated in the block", "segments[].dissipated_in_block"));
+    if (!c.in_time) head.push_back(named("stored", "segments[].stored"));
+    head.insert(head.end(), {named("ends at", "segments[].pressure"),
+                             named("mean height", "segments[].mean_height"), "contact"});
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
     for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {
-            c.path[s.number].text,    energies(s.work),
-            energies(s.lost),         number(s.force / (c.area() * units::megapascal), 1),
-            number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)};
+        std::vector<std::string> row = {c.path[s.number].text, energies(s.work), energies(s.lost)};
+        if (c.effects.branches) row.push_back(energies(s.relaxed));
+        if (!c.in_time) row.push_back(energies(s.stored));
+        row.insert(row.end(), {number(s.force / (c.area() * units::megapascal), 1),
+                               number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)});
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
     }
@@ -264,7 +283,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy lost", "lost.approach", of("lost.approach"), of("lost.pull_off"));
         row("dissipated in the block", "dissipated_in_block.approach",
             of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"));
-        row("energy that still moves", "kinetic.approach", of("kinetic.approach"),
+        if (c.effects.branches)
+            row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
+        row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
             table.row({"convergence of the above, meV/Å²",
@@ -302,16 +323,17 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
                    "sphere what follows\n  from it, are about {:.3g} times too large.\n",
                    *pinning);
-    if (drive_in && drive_out) print_cycle(to, c, of, flat);
+    if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,
                    "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
-                   "energy {},\n  to {:.1e} of the largest so far.\n",
-                   of("dissipated.energy") ? "dissipated" : "damped", std::abs(*residual));
+                   "energy {}{},\n  to {:.1e} of the largest so far.\n",
+                   of("dissipated.energy") ? "dissipated" : "damped",
+                   of("energy.time_step") ? " + energy of the time step" : "", std::abs(*residual));
     if (state || drive_in)
-        fmt::print(to,
-                   "  Convergence is what the solver leaves. Cutoff, spacing, thickness, width, "
-                   "velocity and the choice of the\n  surface are not in it: asperity estimate.\n");
+        fmt::print(
+            to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
+                "velocity and the choice of the\n  surface are not included: asperity estimate.\n");
     fmt::print(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

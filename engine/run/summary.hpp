@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a run prints at its beginning and at its end.
+// Output of a run at its beginning and at its end.
 #pragma once
 
 #include "engine/path/path_results.hpp"
@@ -13,16 +13,16 @@
 
 namespace asperity {
 
-/// What is going to be simulated, in a few lines.
+/// Prints the effects and sizes of the simulation, in a few lines.
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory);
 
-/// What a run does, for its progress: "approach, -12.3 MPa, contact 0.012, height 3.11 Å". In
-/// contact: sites.
+/// Returns the state of a run for its line of progress: "approach, -12.3 MPa, contact 0.012, height
+/// 3.11 Å". in_contact: number of sites.
 std::string progress_phase(const Case& c, const std::string& segment, double force,
                            long long in_contact, double mean_height);
 
-/// The numbers of result.json side by side, and how to read them. states: where all were asked for.
+/// Prints the numbers of result.json side by side, and how to read them. directory: of the result.
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const PathResults& results, const std::string& directory);
 

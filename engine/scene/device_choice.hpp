@@ -4,7 +4,7 @@
 
 namespace asperity {
 
-/// What makes the steps of a dynamic path (numerics.device).
+/// Device that makes the steps of a dynamic path (numerics.device).
 struct DeviceChoice {
     enum class Kind {
         none,      ///< the processor
@@ -13,7 +13,7 @@ struct DeviceChoice {
         cuda       ///< the CUDA device `index`
     };
     Kind kind = Kind::none;
-    int index = 0; ///< of CUDA
+    int index = 0; ///< index of the CUDA device
 
     explicit operator bool() const { return kind != Kind::none; }
     bool operator==(const DeviceChoice&) const = default;

@@ -47,7 +47,7 @@ MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::
     for (const double v : h)
         square.add((v - height.value()) * (v - height.value()));
     const auto at = [&](std::size_t x, std::size_t y) { return h[(y % ny) * nx + x % nx]; };
-    // Of a map that does not repeat, slopes lack the last row and column, curvatures both edges.
+    // Slopes of a map that does not repeat lack the last row and column, curvatures both edges.
     const std::size_t edge = periodic ? 0 : 1;
     for (std::size_t y = 0; y + edge < ny; ++y)
         for (std::size_t x = 0; x + edge < nx; ++x) {
@@ -83,7 +83,7 @@ LineStatistics line_statistics(const std::vector<double>& h, int n, double lengt
     }
     for (int i = 1; i <= n / 2; ++i) {
         double sum = 0.0;
-        for (int k = 1; k <= n / 2; ++k) { // both signs of q; Nyquist's is one wave
+        for (int k = 1; k <= n / 2; ++k) { // two signs of q; Nyquist's is one wave
             const double waves = 2 * k == n ? 1.0 : 2.0;
             const double phase =
                 2.0 * std::numbers::pi * static_cast<double>((1ll * k * i) % n) / n;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is told of a map of heights, named and normalized as by contact.engineering and its library
+// Statistics of a map of heights, named and normalized as by contact.engineering and its library
 // SurfaceTopography (Jacobs, Junge, Pastewka, Surf. Topogr. 5, 013001, 2017). Heights lie row by
 // row, h[y * nx + x].
 //
@@ -19,22 +19,23 @@
 
 namespace asperity {
 
-/// Of a map as it lies there, by finite differences. Points that are NaN are left out.
+/// Statistics of a map in its own grid, by finite differences. Points that are NaN are left out.
 struct MapStatistics {
     double rms_height = 0.0;            ///< Å
     double rms_slope = 0.0;             ///< sqrt(<hx^2 + hy^2>), differences of neighbours
     double rms_curvature = 0.0;         ///< sqrt(<(hxx + hyy)^2>) / 2, second differences, 1/Å
     double lowest = 0.0, highest = 0.0; ///< Å
 };
-/// dx, dy: pixel, Å. periodic: differences across the edges too; else only within the map.
+/// Returns the statistics. dx, dy: size of a pixel, Å; periodic: take differences across the edges
+/// too, otherwise only within the map.
 MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::size_t ny,
                              double dx, double dy, bool periodic);
 
-/// Of lines along x of a periodic map of n x n points, averaged over the lines.
+/// Statistics of lines along x of a periodic map of n x n points, averaged over the lines.
 struct LineStatistics {
     std::vector<double> q, c1d; ///< 1/Å, Å^3; q from 2 pi / L to Nyquist
     std::vector<double> r, acf; ///< Å, Å^2; r from a pixel to L / 2
-    std::vector<double> slope;  ///< scale-dependent, at r
+    std::vector<double> slope;  ///< scale-dependent slope at r
 };
 LineStatistics line_statistics(const std::vector<double>& h, int n, double length);
 

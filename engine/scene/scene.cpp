@@ -28,7 +28,7 @@ void each_potential(EachPotential& all, Visit visit) {
     std::apply([&](auto&... p) { (visit(p), ...); }, all);
 }
 
-/// epsilon and r0; of the others with their name before: morse_D.
+/// Binds the parameters: epsilon and r0; others with the potential's name before: morse_D.
 template <class P>
 std::string key_of(const char* parameter) {
     if (std::is_same_v<P, LennardJones>) return parameter;
@@ -43,7 +43,7 @@ void bind_potential(io::Schema& schema, P& potential) {
                   });
 }
 
-/// Sites and layers that the scene gives as lengths.
+/// Computes the sites and layers that the scene gives as lengths.
 void make_counts(Scene& scene, io::Problems& problems) {
     const auto count = [&](const char* key, const std::optional<double>& length, int low, int high,
                            int& into) {
@@ -145,6 +145,13 @@ io::Schema bind(Scene& scene) {
     schema.choice<MapCrop>("file_crop", surface.file_crop,
                            {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
                            "a map that is not square: refused, or its middle taken");
+    schema.choice<LineNoise>("line_noise", surface.line_noise,
+                             {{"keep", LineNoise::keep},
+                              {"align-rows", LineNoise::align_rows},
+                              {"isotropic", LineNoise::isotropic}},
+                             "noise of a scan from line to line: kept; the median steps between "
+                             "lines taken off; the waves across the lines scaled down to the "
+                             "spectrum along them");
     schema.choice<Resample>("resample", surface.resample,
                             {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
                             "how a map that has not N x N values is brought onto the lattice");

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The scene: everything a user may choose, as a plain struct in the units of the scene file.
+// The scene: all choices of a user, as a plain struct in the units of the scene file.
 //
 // Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
-// documentation; that list is the only place where keys are named, and the reader, `asperity
+// documentation; that list is the only place with the names of keys, and the reader, `asperity
 // defaults`, result.json and docs/reference/scene.md all follow from it. Names and defaults do not
-// change from release to release: tests/engine/scene_test.cpp has them all. What a scene means, and
-// what is wrong with it, is found by resolve() (engine/setup/case.hpp).
+// change from release to release: tests/engine/scene_test.cpp has them all. resolve()
+// (engine/setup/case.hpp) derives the meaning of a scene and finds its mistakes.
 #pragma once
 
 #include "engine/scene/device_choice.hpp"
@@ -29,28 +29,29 @@ enum class Detrend { none, plane, periodic };
 enum class MapMissing { refuse, fill };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
-/// How the block is resolved on a dynamic path. On quasi-static paths it is the waves of the
+/// Resolution of the block on a dynamic path. On quasi-static paths the block is the waves of the
 /// lattice.
 enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential };
-/// Of rows of sites that hold the edge of a contact.
+/// Treatment of rows of sites that hold the edge of a contact.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
-/// What a quasi-static path moves from point to point.
+/// Quantity that a quasi-static path moves from point to point.
 enum class Control { top, mean_height };
 using theory::AreaFactor;
 enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
-/// One of each kind of PairPotential.
+/// Returns a tuple with one of each kind of PairPotential (never called).
 template <class... P>
 std::tuple<P...> one_of_each(const std::variant<P...>&);
 using EachPotential = decltype(one_of_each(PairPotential()));
 
-/// Of output.fields: "after-approach:140", 140 ps after the approach has ended.
+/// Prefix of an entry of output.fields: "after-approach:140", 140 ps after the end of the approach.
 inline constexpr std::string_view after_approach = "after-approach:";
 
+/// A scene, with one struct for each section.
 struct Scene {
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
@@ -64,13 +65,14 @@ struct Scene {
         Amplitudes amplitudes = Amplitudes::gaussian;
         long long seed = 1;
         std::optional<double> radius;    ///< Å; empty: not curved
-        std::string file = "heights.h5"; ///< as the scene gives it
-        std::optional<double>
-            file_size; ///< edge of the map, Å; empty: what the file says, else the box
-        std::string file_unit = "auto"; ///< of the heights; "auto": what the file says, else Å
+        std::string file = "heights.h5"; ///< file as the scene gives it
+        /// Edge of the map, Å; empty: that of the file, else of the box.
+        std::optional<double> file_size;
+        std::string file_unit = "auto"; ///< unit of the heights; "auto": that of the file, else Å
         MapMissing file_missing = MapMissing::refuse;
         MapCrop file_crop = MapCrop::none;
         Detrend detrend = Detrend::none;
+        LineNoise line_noise = LineNoise::keep;
         Resample resample = Resample::none;
 
         bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
@@ -84,23 +86,24 @@ struct Scene {
         int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
         int layers_per_level = 4;
         Strain strain = Strain::linear;
-        io::Schema::Pairs prony; ///< of each branch: modulus over young, relaxation time, ps
+        io::Schema::Pairs prony; ///< branches: modulus over young, relaxation time, ps
     } block;
 
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
-        int potential = 0;               ///< which of PairPotential
-        EachPotential potentials;        ///< with their keys; cutoffs come from the one below
-        std::string table = "table.txt"; ///< of potential = "table", as the scene gives it
-        std::optional<double> cutoff;    ///< Å; empty: 4 r0, r0 where the potential is zero
-        std::vector<std::string> pairs;  ///< of atoms from a file, by type
+        int potential = 0; ///< index of a kind of PairPotential
+        /// Parameters of all kinds, by their keys; cutoffs come from the one below
+        EachPotential potentials;
+        std::string table = "table.txt"; ///< file of potential = "table", as the scene gives it
+        std::optional<double> cutoff;    ///< Å; empty: 4 r0; r0 is the zero of the potential
+        std::vector<std::string> pairs;  ///< potentials of atoms from a file, by type
         bool tail = false;
-        bool frictionless = false;                  ///< normal displacements only; after reading:
-                                                    ///< true over a wall
-        WallLawKind law = WallLawKind::exponential; ///< of a wall
+        /// Normal displacements only; after reading: true over a wall.
+        bool frictionless = false;
+        WallLawKind law = WallLawKind::exponential; ///< law of a wall
         double adhesion = 100.0;                    ///< meV/Å^2, exponential
         double range = 1.0;                         ///< Å, exponential
-        std::optional<double> stiffness;            ///< GPa/Å, exponential; empty: by the block
+        std::optional<double> stiffness; ///< GPa/Å, exponential; empty: derived from the block
         EdgePinning edge_pinning = EdgePinning::refuse;
 
         std::string potential_name() const;
@@ -111,16 +114,16 @@ struct Scene {
         std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
         double velocity = 5.0;                                    ///< m/s
         double displacement_step = 0.25;                          ///< Å
-        Control control = Control::top;                           ///< of a quasi-static path
-        double timestep = 10.0;                                   ///< fs
-        double damping = 0.05;                                    ///< 1/ps
-        double damping_from = 0.0;  ///< fraction of the thickness above which damping acts
-        std::optional<double> ramp; ///< ps; empty: one sound transit of the block
-        double load = 0.0;          ///< MPa
-        double temperature = 0.0;   ///< K
-        long long seed = 1;         ///< of the thermal noise
-        long long max_steps = 0;    ///< 0 ("none"): no limit
-        double tolerance = 2.5e-4;  ///< of the smallest force that decides the state
+        Control control = Control::top; ///< held quantity of a quasi-static path
+        double timestep = 10.0;         ///< fs
+        double damping = 0.05;          ///< 1/ps
+        double damping_from = 0.0;      ///< fraction of the thickness above which damping acts
+        std::optional<double> ramp;     ///< ps; empty: one sound transit of the block
+        double load = 0.0;              ///< MPa
+        double temperature = 0.0;       ///< K
+        long long seed = 1;             ///< seed of the thermal noise
+        long long max_steps = 0;        ///< 0 ("none"): no limit
+        double tolerance = 2.5e-4;      ///< fraction of the smallest force that decides the state
     } drive;
 
     struct Theory {
@@ -138,7 +141,7 @@ struct Scene {
 
     struct Output {
         std::optional<long long> trajectory; ///< steps between frames; empty: none
-        bool velocities = false;             ///< in the frames too
+        bool velocities = false;             ///< velocities in the frames too
         std::vector<std::string> fields = {"relaxed"};
         long long series = 100;    ///< steps between rows
         double checkpoint = 600.0; ///< s of wall time; 0 ("none"): none
@@ -146,43 +149,45 @@ struct Scene {
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
 
-    /// surface.sites and block.thickness where they are given as lengths, Å; reading makes counts
-    /// of them.
+    /// surface.sites and block.thickness if they are given as lengths, Å; reading derives the
+    /// numbers from them.
     std::optional<double> width, height;
 
-    // Where it came from.
-    std::string file;           ///< as given on the command line
+    // Origin of the scene.
+    std::string file;           ///< file as given on the command line
     std::string name = "scene"; ///< the file's name without folder and ending
     io::Positions positions;
 
-    double edge() const { return surface.sites * surface.spacing; } ///< of the box, Å
-    /// An empty list of problems that knows this scene's positions.
+    /// Returns the edge of the box, Å
+    double edge() const { return surface.sites * surface.spacing; }
+    /// Returns an empty list of problems with this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
-    /// The scene itself says so: only then is a map scaled.
+    /// Returns true if the scene itself sets surface.rms: only then is a map scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
 
-/// The keys of the parameters of potentials, each with the potential's name.
+/// Returns the keys of the parameters of potentials, each with the potential's name.
 std::vector<std::pair<std::string, std::string>> keys_of_potentials();
 
-/// Every key, bound to the fields of this scene (which must outlive the schema).
+/// Returns every key, bound to the fields of this scene (which must outlive the schema).
 io::Schema bind(Scene& scene);
 
-/// Reads the keys; throws io::SceneError with all that is wrong with single ones. What they mean
-/// together is for resolve() (engine/setup/case.hpp). Overrides are "section.key=value".
+/// Reads the keys of a scene. Overrides are "section.key=value". Throws io::SceneError with the
+/// mistakes in single keys; resolve() (engine/setup/case.hpp) checks the keys together.
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
-/// The same from a text in memory; file is the name shown in messages.
+/// Reads a scene from a text in memory. file: name shown in messages. Throws io::SceneError.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
-/// The same; what is wrong is added to the list, and those keys have their defaults.
+/// Reads a scene from a text in memory and adds its mistakes to problems; wrong keys have their
+/// defaults.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides, io::Problems& problems);
 
 std::string scene_toml(const Scene& scene, bool with_docs = true);
 nlohmann::ordered_json scene_json(const Scene& scene);
-/// The unit of each value there.
+/// Returns the unit of each value of scene_json().
 nlohmann::ordered_json scene_units(const Scene& scene);
-/// docs/reference/scene.md
+/// Returns the page docs/reference/scene.md.
 std::string scene_markdown();
 
 } // namespace asperity

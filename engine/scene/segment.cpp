@@ -16,7 +16,7 @@ namespace {
 struct Word {
     Segment::Kind kind;
     const char* name;
-    const char* unit; ///< of its amount; empty: it has none
+    const char* unit; ///< unit of the amount; empty: there is no amount
     const char* example;
 };
 constexpr std::array<Word, Segment::kinds> words = {{
@@ -36,7 +36,7 @@ std::string examples() {
     return list;
 }
 
-/// Text of a member after its first word, without the spaces between.
+/// Returns the text of a member after its first word, without the spaces between.
 std::string rest_of(const std::string& text, std::size_t from) {
     const std::size_t first = text.find_first_not_of(' ', from);
     return first == std::string::npos ? std::string() : text.substr(first);

@@ -26,17 +26,17 @@ using Complex = std::complex<double>;
 
 std::size_t cells(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); }
 
-/// Index k of a transform of n points as a signed wavenumber; n/2 stays positive.
+/// Returns index k of a transform of n points as a signed wavenumber; n/2 stays positive.
 int signed_wave(int k, int n) { return 2 * k > n ? k - n : k; }
 
 void require(bool holds, const std::string& message) {
     if (!holds) throw std::invalid_argument("surface: " + message);
 }
 
-/// Largest wavevector of the grid's spectrum, in q_L.
+/// Returns the largest wavevector of the grid's spectrum, in q_L.
 double clipped_cutoff(const SurfaceOptions& o) { return std::min(o.cutoff, 0.5 * o.sites); }
 
-/// C(q) up to a factor: flat to the roll-off, then q^(-2(1+H)); q in q_L.
+/// Returns C(q) up to a factor: flat to the roll-off, then q^(-2(1+H)); q in q_L.
 double shape(const SurfaceOptions& o, double q) {
     // The small allowance keeps the waves that lie on a border whatever the rounding.
     if (q < 1.0 - 1e-9 || q > clipped_cutoff(o) * (1.0 + 1e-12)) return 0.0;
@@ -48,7 +48,8 @@ double uniform(std::uint32_t high, std::uint32_t low) {
     return (static_cast<double>(bits) + 0.5) * 0x1p-53; // in (0, 1)
 }
 
-/// The random factor of wave (kx, ky): unit mean square, hermitian: that of -k is the conjugate.
+/// Returns the random factor of wave (kx, ky), of unit mean square and hermitian: that of -k is the
+/// conjugate.
 Complex random_factor(const SurfaceOptions& o, int kx, int ky, bool own_mirror) {
     const bool mirrored = ky < 0 || (ky == 0 && kx < 0);
     const r123::Philox4x32::ctr_type counter = {{static_cast<std::uint32_t>(mirrored ? -kx : kx),
@@ -67,7 +68,7 @@ Complex random_factor(const SurfaceOptions& o, int kx, int ky, bool own_mirror) 
     return std::polar(amplitude, mirrored ? -phase : phase);
 }
 
-/// Slope and spectrum of the roughness, from its Fourier coefficients.
+/// Measures slope and spectrum of the roughness from its Fourier coefficients.
 void measure(const SurfaceOptions& o, Surface& s) {
     SurfaceStatistics& stat = s.statistics;
     stat.rms = heights::rms_of(s.height);
@@ -105,7 +106,7 @@ void measure(const SurfaceOptions& o, Surface& s) {
     }
 }
 
-/// Statistics of the roughness, then the cap, then the extremes.
+/// Computes the statistics of the roughness, then adds the cap, then finds the extremes.
 Surface finish(const SurfaceOptions& o, Surface s) {
     measure(o, s);
     if (o.radius > 0.0) {
@@ -216,6 +217,10 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     Surface s;
     s.sites = o.sites;
     s.length = o.length;
+    if (nx == ny) {
+        const double edge = o.map_edge > 0.0 ? o.map_edge : o.length;
+        s.doubts = treat_line_noise(h, nx, edge / nx, std::min(nx, sites_of_map(o)), o.line_noise);
+    }
     if (o.detrend) {
         heights::remove_plane(h, nx, ny);
         s.notes.push_back("mean plane removed from the height map");

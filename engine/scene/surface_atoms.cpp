@@ -22,7 +22,8 @@ namespace {
 /// No two atoms of a solid are as close, Å.
 constexpr double least_distance = 0.5;
 
-/// Periodic images count: an atom on the box's edge may have been written on both sides.
+/// Refuses coinciding atoms. Periodic images count: an atom on the box's edge may have been written
+/// on both sides.
 void refuse_coinciding(const AtomPositions& atoms, double edge) {
     struct Place {
         double row, x, y, z; ///< row: of least_distance along y

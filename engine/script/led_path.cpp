@@ -30,7 +30,7 @@ const char* name(Constraint::Of held) {
     return held == Constraint::Of::top ? "the top plane" : "the mean height";
 }
 
-/// The same solids, quasi-static.
+/// Returns the case of the same solids, quasi-static.
 Case quasistatic(const Case& c) {
     if (c.ranks != 1)
         refuse("Statics", fmt::format("on {} ranks", c.ranks),
@@ -79,7 +79,7 @@ void LedPath::set_hold(double time) {
     target_ = {.hold = time * units::picosecond};
 }
 
-/// Work that is given up where look throws, and then rethrows it: the path is at its last point.
+/// Calls work, gives up when look throws, and then rethrows: the path is at its last point.
 template <class Work>
 auto LedPath::while_looking(const Look& look, const Work& work) {
     LookNowAndThen now_and_then(look);
@@ -105,14 +105,16 @@ LedPath::Point LedPath::relax(const Look& look) {
         if (target_.hold) target_.hold = until - path_.now().time;
         guard(path_);
     };
+    const StaticPath::KeptPoint from = path_.keep_point();
     try { // a target is kept where look throws
         while_looking(look, [&] {
             if (target_.at) return path_.lead_to(*target_.at, at_point);
             if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
             return path_.lead({Segment::load, *target_.load}, at_point);
         });
-    } catch (const io::PhysicsError&) { // it cannot be reached
+    } catch (const io::PhysicsError&) { // the target cannot be reached: the last point is restored
         target_ = {};
+        path_.back_to(from);
         throw;
     }
     target_ = {};
@@ -187,7 +189,7 @@ void LedPath::restore(const State& state) {
     place(state);
 }
 
-/// The block there; a new path is to begin.
+/// Puts the block into a state; a new path is to begin.
 void LedPath::place(const State& state) {
     before_ = now();
     path_.end_points();
@@ -207,7 +209,7 @@ void LedPath::place(const State& state) {
                     for (int x = 0; x < plane.nx; ++x)
                         plane(x, y) = state.branches.empty() ? 0.0 : *extension++;
             }
-    path_.block().apply_constraint(Constraint::top(state.top));
+    path_.block().hold(Constraint::top(state.top));
 }
 
 void LedPath::hold(Held held) {
@@ -218,7 +220,7 @@ void LedPath::hold(Held held) {
     held_ = held;
 }
 
-/// The path, if it has not begun.
+/// Begins the path unless it has begun.
 void LedPath::begin() {
     if (path_.points()) return;
     hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));

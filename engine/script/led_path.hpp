@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A quasi-static path (engine/path/static_path.hpp) by hand (asperity.Statics of Python): its
-// solids in force balance, where they are led. What is found depends on the way there, as on a path
-// of a run; what is lost on it is counted. It starts beyond the interaction range.
+// A quasi-static path (engine/path/static_path.hpp) led by hand (asperity.Statics of Python): the
+// caller leads the solids, which are in force balance. The state found depends on the way there, as
+// on the path of a run; energy lost on the way is counted. The path starts beyond the interaction
+// range.
 //
-// The mean height is held, or the top plane; the first one that is set decides, or a load, which
-// then holds what drive.control says. Of a dynamic scene the same solids are taken, as if
-// drive.mode were "quasistatic".
+// The mean height is held, or the top plane: the first one that is set decides; a load holds the
+// quantity of drive.control. A dynamic scene is treated as if drive.mode were "quasistatic".
 #pragma once
 
 #include "engine/path/static_path.hpp"
@@ -19,56 +19,57 @@
 
 namespace asperity {
 
+/// A quasi-static path led by hand.
 class LedPath {
 public:
     explicit LedPath(const Case& c);
     const Case& scene_case() const { return case_; }
     const Surface& surface() const { return surface_; }
 
-    // Where the next relax() goes. Throw io::SceneError where the other one is held.
+    // Goal of the next relax(). The setters throw io::SceneError if the other quantity is held.
 
-    void set_mean_height(double z); ///< Å above the substrate's zero
-    void set_top(double z);         ///< displacement since the start, Å
-    /// MPa; positive presses. Reached where the force comes to it, from below on the way in, from
-    /// above on the way out.
+    void set_mean_height(double z); ///< sets the mean height above the substrate's zero, Å
+    void set_top(double z);         ///< sets the displacement of the top plane since the start, Å
+    /// Sets the load, MPa; positive presses. It is reached when the force comes to it, from below
+    /// on the way in, from above on the way out.
     void set_load(double pressure);
-    /// Stays where it is for so many ps; of a block that relaxes.
+    /// Holds the present position for a time, ps, of a block that relaxes.
     void set_hold(double time);
 
-    /// Force balance at what is held. Work, damped (dissipated at instabilities), instabilities and
-    /// step (points) count from where the path began: beyond the interaction range, or the last
+    /// A point in force balance. Work, damped (dissipated at instabilities), instabilities and step
+    /// (points) count from the beginning of the path: beyond the interaction range, or the last
     /// restore() or release().
     struct Point : StepRecord {
         long long instabilities = 0;
         double contact_fraction = 0.0, repulsive_fraction = 0.0;
         double energy() const { return interface_energy + elastic_energy; }
     };
-    /// Goes there, point by point; without a target: where it is. After what look throws, the same
-    /// call goes on. Throws io::PhysicsError where no equilibrium is found, or where the solids
-    /// part before a pull is reached.
+    /// Leads the block to the goal, point by point; without a goal it relaxes in place. If look
+    /// throws, the same call goes on. Throws io::PhysicsError if no equilibrium is found, or if the
+    /// solids part before a pull is reached; the path is then at its last point, without a goal.
     Point relax(const Look& look);
-    Point now() const; ///< of the last relax()
+    Point now() const; ///< returns the point of the last relax()
     InterfaceMaps maps() const;
 
-    /// The state that the sites come to from where they are with nothing held but drive.load; from
-    /// beyond the interaction range the one that the segment "relax" of a run leads to. The next
-    /// relax() begins a new path there. Where none is found (io::PhysicsError), or look throws, the
-    /// sites stay where they were.
+    /// Relaxes the sites from their present places under drive.load, with nothing held; from beyond
+    /// the interaction range the result is the state of the segment "relax" of a run. The next
+    /// relax() begins a new path there. If no state is found (io::PhysicsError), or look throws,
+    /// the sites stay in place.
     RestState release(const Look& look);
 
-    /// All that a state depends on.
+    /// All numbers that determine a state.
     struct State {
-        int sites = 0;         ///< across
+        int sites = 0;         ///< number of sites across
         std::vector<double> u; ///< displacements of the lowest layer, [component][y][x], Å
         double top = 0.0;      ///< displacement of the top plane, Å
-        /// Of a block that relaxes, extensions of the branches' springs, [branch][moving
+        /// Extensions of the branches' springs of a block that relaxes, [branch][moving
         /// component][y][x], Å; empty: the block has relaxed there.
         std::vector<double> branches{};
     };
     State copy() const;
-    /// Puts the sites, a held top plane and the branches there; the next relax() begins a new path
-    /// there, at the mean height that they have where that is held. Throws io::SceneError for
-    /// another number of sites and for values that are no numbers.
+    /// Puts the sites, a held top plane and the branches into a state. The next relax() begins a
+    /// new path there, at the state's mean height if that is held. Throws io::SceneError for
+    /// another number of sites and for values that are not finite.
     void restore(const State& state);
 
 private:
@@ -84,14 +85,14 @@ private:
     const Surface surface_;
     StaticPath path_;
     std::optional<Held> held_;
-    /// It begins where the block is, not beyond the interaction range: relaxed, or with what
-    /// branches remember.
+    /// Beginning of the next path: with the memory of the branches (true), relaxed in place
+    /// (false), or beyond the interaction range (empty).
     std::optional<bool> remembers_;
-    Point before_; ///< the last of the path before
+    Point before_; ///< last point of the path before
     struct Goal {
         std::optional<double> at{}, load{}, hold{}; ///< Å, eV/Å, fs
     };
-    Goal target_; ///< where the next relaxation leads it
+    Goal target_; ///< goal of the next relaxation
 };
 
 } // namespace asperity

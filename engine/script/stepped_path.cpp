@@ -51,7 +51,7 @@ Surface checked_surface(const Case& c, const Communicator& ranks) {
     return surface_of(c, ranks);
 }
 
-/// Of a file that save() wrote.
+/// Returns the scene in a file that save() wrote.
 SceneText saved_scene(const std::string& file) {
     const io::Hdf5File saved(io::FilePlace(file), io::Hdf5File::Mode::read);
     const std::optional<std::string> text = saved.text_attribute("/", "scene");
@@ -66,7 +66,7 @@ SceneText saved_scene(const std::string& file) {
             (*scene)["overrides"].get<std::vector<std::string>>()};
 }
 
-/// What save() may write over: nothing but a file of its own. A link is not followed.
+/// Refuses to write over anything but a file of save(). A link is not followed.
 void require_own_place(const std::string& file) {
     std::error_code error;
     const fs::file_type type = fs::symlink_status(file, error).type();
@@ -117,7 +117,7 @@ std::shared_ptr<SteppedPath> SteppedPath::resume(const std::string& file,
                                                  const Communicator& ranks) {
     SceneText source = saved_scene(file);
     Case c = source.read(ranks.size());
-    // It starts as a new one: of the height that it starts at a file has only the path's numbers.
+    // The path starts as a new one: a file has only the path's numbers, without its start height.
     auto path = std::make_shared<SteppedPath>(std::move(c), std::move(source), ranks);
     path->restore(file);
     return path;
@@ -207,12 +207,12 @@ double SteppedPath::top_velocity() const {
 
 void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
-    path_.simulation().drive().take_over(v ? std::optional(*v * units::metre_per_second)
-                                           : std::nullopt);
+    path_.simulation().drive().set_velocity(v ? std::optional(*v * units::metre_per_second)
+                                              : std::nullopt);
 }
 
 SteppedPath::View SteppedPath::view_to_write(VectorField<double> Block::Level::*field) {
-    if (!viewed_) take_copies(); // of what the device has, if it is newer
+    if (!viewed_) take_copies(); // copies of the device's fields, if they are newer
     viewed_ = true;
     return const_cast<VectorField<double>&>(lowest_level().*field).plane(0);
 }
@@ -229,7 +229,8 @@ std::shared_ptr<const void> SteppedPath::lease() {
     return held;
 }
 
-/// Positions are of the next step: so is the place of the block over the substrate.
+/// Returns maps. Positions are those of the next step: so is the place of the block over the
+/// substrate.
 InterfaceMaps SteppedPath::maps() {
     const std::array<double, 2>& place = simulation().place();
     path_.interface().slide_to(place[0], place[1]);
@@ -272,7 +273,7 @@ RestState SteppedPath::relax(const Look& look) {
                "take the field away before (external = None)");
     take_in_writes();
     LookNowAndThen now_and_then(look);
-    const auto told = [&](long long, double) { // what it throws ends the search
+    const auto told = [&](long long, double) { // an exception ends the search
         now_and_then();
         return false;
     };
@@ -297,12 +298,12 @@ void SteppedPath::take_copies() {
     v_.take(lowest_level().v.view()[0]);
 }
 
-/// After steps: views show the fields as they are now.
+/// Brings views up to date after steps.
 void SteppedPath::bring_up_views() {
     if (std::exchange(moved_, false) && viewed_) take_copies();
 }
 
-/// Before steps: what was written through views becomes the state. Collective.
+/// Makes values written through views part of the state, before steps. Collective.
 void SteppedPath::take_in_writes() {
     enum { as_it_was, written, wrong };
     int found = as_it_was;
@@ -310,7 +311,7 @@ void SteppedPath::take_in_writes() {
     try {
         if (external_) require_finite("external", std::as_const(*external_).plane(0));
         if (viewed_) {
-            // As the views have it: the device's copy is not newer, for it was brought up.
+            // The views' values: the device's copy is not newer, because it was brought up.
             const Block::Level& level = lowest_level();
             if (!u_.same(level.u.view()[0]) || !v_.same(level.v.view()[0])) {
                 found = written;
@@ -356,7 +357,7 @@ struct SteppedPath::Saved {
         v("top.by_hand", by_hand);
         v("top.velocity", velocity);
         if constexpr (Visitor::restores)
-            drive.take_over(by_hand ? std::optional(velocity) : std::nullopt);
+            drive.set_velocity(by_hand ? std::optional(velocity) : std::nullopt);
         ExternalWork work{simulation};
         v("external", work);
         bool pushed = all.external_ != nullptr;
@@ -375,7 +376,8 @@ std::vector<StateArray> SteppedPath::own_arrays() {
     return list;
 }
 
-/// What the numbers of a file belong to: the scene as it was given, and what was in its files.
+/// Returns the scene that the numbers of a file belong to, as it was given, and the contents of its
+/// files.
 std::string SteppedPath::description() const {
     io::Json scene = {{"text", source_.text},
                       {"file", fs::absolute(source_.file).string()},
@@ -402,7 +404,7 @@ void SteppedPath::restore(const std::string& file) {
         RestoreNumbers numbers(all);
         path_.restore(numbers);
         Saved saved{*this};
-        numbers("program", saved); // whether there is a field to be read
+        numbers("program", saved); // decides if there is a field to be read
         return joined(path_.arrays(), own_arrays());
     };
     read_checkpoint(io::FilePlace(file), ranks_, path_.grid(), arrays, description());

@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A dynamic path (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
-// Python): it is stepped, observed, led by hand, pushed and saved. It is the one that a run drives.
+// Python): it is stepped, observed, led by hand, pushed and saved. It is the same path as that of a
+// run.
 //
-// All ranks of the communicator make the same calls with the same arguments, but for what is
-// written to the sites of their own tiles.
+// All ranks of the communicator make the same calls with the same arguments; each writes to the
+// sites of its own tile.
 #pragma once
 
 #include "engine/path/time_path.hpp"
@@ -21,16 +22,17 @@
 
 namespace asperity {
 
-/// A scene as it was given: what a saved path holds of it.
+/// A scene as it was given, which a saved path holds.
 struct SceneText {
-    std::string text, file; ///< the file's name is shown in messages
+    std::string text, file; ///< text, and the file's name shown in messages
     std::vector<std::string> overrides;
     Case read(int ranks) const { return read_case_text(text, file, overrides, ranks); }
 };
 
-/// Called about twenty times a second between steps or iterations. What it throws ends the call
+/// Called about twenty times a second between steps or iterations. An exception ends the call
 /// there; the state is whole.
 using Look = std::function<void()>;
+/// Caller of a Look at most twenty times a second.
 class LookNowAndThen {
 public:
     explicit LookNowAndThen(const Look& look) : look_(look) {}
@@ -47,12 +49,12 @@ private:
     Clock::time_point next_ = Clock::now() + pause;
 };
 
-/// A state of force balance under a load, and its maps.
+/// State of force balance under a load, with its maps.
 struct RestState : ZeroLoad {
     InterfaceMaps maps;
 };
 
-/// The owned nodes of a layer, to see whether they were written to.
+/// Copy of the owned nodes of a layer, to detect writes.
 class LayerCopy {
 public:
     bool same(const VectorPlane<const double>& layer) const;
@@ -62,31 +64,33 @@ private:
     std::vector<double> values_;
 };
 
+/// A dynamic path in a loop of the caller's own.
 class SteppedPath : public std::enable_shared_from_this<SteppedPath> {
 public:
-    /// At its start. Throws io::SceneError for a quasi-static scene, or that a run would refuse.
+    /// Places the path at its start. Throws io::SceneError for a quasi-static scene and for a scene
+    /// that a run would refuse.
     SteppedPath(Case c, SceneText source, const Communicator& ranks);
-    /// Of a file of save(): it goes on bitwise identically.
+    /// Resumes from a file of save(), bitwise identically.
     static std::shared_ptr<SteppedPath> resume(const std::string& file, const Communicator& ranks);
 
-    /// n steps, or fewer: none are made past the end of the path. Returns how many were. The last
-    /// one is observed, as are those of output.series and of observers. Throws io::PhysicsError
-    /// where the physics fails a guard: then this path has ended.
+    /// Makes n steps, or fewer at the end of the path, and returns their number. The last one is
+    /// observed, as are those of output.series and of observers. Throws io::PhysicsError if a guard
+    /// stops the path, which has then ended.
     long long step(long long n, const Look& look);
-    /// f is called after each step whose number divides by n, which is observed. Observers look and
-    /// write as the program does between two steps, but do not step.
+    /// Calls f after each step whose number divides by n, which is observed. Observers may read and
+    /// write between two steps, as the program may, but not step.
     void every(long long n, std::function<void()> f);
-    /// The path has come to its end. Never while the top is led by hand.
+    /// Returns true if the path has come to its end; never while the top is led by hand.
     bool done() const { return path_.done(); }
-    std::string segment() const; ///< as the scene has it; "done" after the last
-    /// That of the last step, from 0; -1 while the top is led by hand.
+    std::string segment() const; ///< returns the segment as the scene has it; "done" after the last
+    /// Returns the number of the last step's segment, from 0; -1 while the top is led by hand.
     int segment_number() const;
 
     const Case& scene_case() const { return case_; }
     const Simulation& simulation() const { return path_.simulation(); }
     const Surface& surface() const { return surface_; }
     const PathResults& results() const { return path_.results(); }
-    /// The last step; zero before the first one.
+    /// Returns the record of the last step; zeros before the first one.
     const StepRecord& now() const { return path_.now(); }
 
     // The top plane: displacement since the start, Å, and velocity in the next step, m/s.
@@ -94,33 +98,33 @@ public:
     double top_position() const { return simulation().block().top(); }
     void set_top_position(double z);
     double top_velocity() const;
-    /// None: back to the scene's drive, where that was.
+    /// Sets the velocity of the top plane, m/s; without a value the scene's drive resumes.
     void set_top_velocity(std::optional<double> v);
 
-    // Of the lowest layer, not copied, current until the next step and again after step(). What is
-    // written to u or v is felt by the next step, and the energy balance then starts anew. Who
-    // keeps a view keeps the lease with it, which keeps this object.
+    // Fields of the lowest layer, not copied, current until the next step and again after step().
+    // The next step uses values written to u or v, and the energy balance then starts anew. The
+    // holder of a view keeps its lease, which keeps this object.
 
     using View = VectorPlane<double>;
     View u() { return view_to_write(&Block::Level::u); }
     View v() { return view_to_write(&Block::Level::v); }
-    /// Forces of the last step, to be read. Not on a device.
+    /// Returns the forces of the last step, for reading. Not available on a device.
     View f();
     std::shared_ptr<const void> lease();
     Tile tile() const { return path_.grid().tile(0); }
-    InterfaceMaps maps(); ///< of the sites as they are now
+    InterfaceMaps maps(); ///< returns maps of the sites as they are now
 
-    /// Forces on the sites beside the substrate's, eV/Å, from the next step on; they are copied.
+    /// Copies forces on the sites, eV/Å, which act beside the substrate's from the next step on.
     void set_external(const VectorPlane<const double>& field);
     void clear_external();
-    /// The field that acts, to be changed in place; none where none does.
+    /// Returns the field of external forces, to be changed in place; nothing if none acts.
     std::optional<View> external();
 
-    /// The state at zero load that the sites come to from where they are. A copy is relaxed.
+    /// Relaxes a copy of the sites from their present places at zero load.
     RestState relax(const Look& look);
 
-    /// Everything but the observers, in one file (HDF5). Throws io::SceneError where something else
-    /// than a checkpoint is there.
+    /// Saves everything except the observers in one file (HDF5). Throws io::SceneError if the file
+    /// exists and is no checkpoint.
     void save(const std::string& file);
 
 private:
@@ -148,14 +152,14 @@ private:
     TimePath path_;
     std::vector<Observer> observers_;
     bool stepping_ = false;
-    std::string failure_; ///< why no step can follow; empty: one can
+    std::string failure_; ///< reason why no step can follow; empty: one can
     std::unique_ptr<VectorField<double>> external_;
     std::vector<std::unique_ptr<VectorField<double>>> dropped_; ///< fields that may be viewed
 
-    /// Held by all views. Views of u and v were given away, and may be held: what they showed last.
+    /// Lease of all views; expired if no view of u or v is held.
     std::weak_ptr<const void> lease_;
     bool viewed_ = false;
-    bool moved_ = false; ///< since they were brought up to date
+    bool moved_ = false; ///< the sites have moved since the views were brought up to date
     LayerCopy u_, v_;
 };
 

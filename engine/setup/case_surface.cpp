@@ -31,7 +31,7 @@ std::string shown(const std::string& type) {
     return type.size() <= 20 ? type : type.substr(0, 20) + "...";
 }
 
-/// "2 types: Au (300 atoms), C (255)".
+/// Returns the types of a file in words: "2 types: Au (300 atoms), C (255)".
 std::string types_of(const io::AtomsFile& file) {
     std::vector<std::size_t> count(file.types.size(), 0);
     for (const std::int32_t type : file.type)
@@ -43,7 +43,7 @@ std::string types_of(const io::AtomsFile& file) {
     return text;
 }
 
-/// For each type of the file its row of interface.pairs.
+/// Returns the row of interface.pairs of each type of the file.
 std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
     std::vector<std::int32_t> rows;
     for (const std::string& type : file.types) {
@@ -64,7 +64,7 @@ std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
     return rows;
 }
 
-/// The atoms of the scene's file, whose periodic box must be the block's.
+/// Returns the atoms of the scene's file, whose periodic box must be the block's.
 Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     const auto& s = c.scene.surface;
     io::AtomsFile file = io::read_atoms_file(c.file);
@@ -105,17 +105,18 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     return surface;
 }
 
-/// The map of the scene's file, on every rank. The root alone reads it.
+/// Returns the map of the scene's file on every rank. The root alone reads it.
 io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     const auto& s = c.scene.surface;
     io::HeightMap map;
     std::string head;
     ranks.on_root([&] {
         map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
-                                           s.file_crop == MapCrop::middle});
+                                           s.file_crop == MapCrop::middle, s.file_size});
         if (ranks.size() == 1) return;
         io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
         json["notes"] = map.notes;
+        json["doubts"] = map.doubts;
         if (map.width) json["width"] = *map.width;
         head = io::json_text(json);
     });
@@ -131,6 +132,7 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
     map.unit = json["unit"];
     map.origin = json["origin"];
     map.notes = json["notes"].get<std::vector<std::string>>();
+    map.doubts = json["doubts"].get<std::vector<std::string>>();
     if (json.contains("width")) map.width = json["width"].get<double>();
     return map;
 }
@@ -139,8 +141,8 @@ io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
 
 namespace {
 
-/// Before anything is allocated: the heights, and the waves that they are made from and measured by
-/// (make_surface(), measure()). Throws io::SceneError.
+/// Checks the memory before anything is allocated: for the heights, and for the waves that
+/// make_surface() and measure() need. Throws io::SceneError.
 void require_memory_for_heights(const Case& c) {
     const double n = c.substrate();
     const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
@@ -177,7 +179,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
         if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
         if (s.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = map_of_file(c, world);
-        options.map_edge = s.file_size.value_or(map.width.value_or(0.0));
+        options.map_edge = map.width.value_or(0.0);
         const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
         if (points != covered && s.resample == Resample::none)
             throw std::invalid_argument(fmt::format(
@@ -191,6 +193,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
                                32.0 * covered * static_cast<double>(covered));
         options.rms = scene.gives_rms() ? s.rms : 0.0;
         options.detrend = s.detrend != Detrend::none;
+        options.line_noise = s.line_noise;
         options.periodic = s.detrend == Detrend::periodic;
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
         if (options.map_edge <= 0.0)
@@ -202,6 +205,8 @@ Surface surface_of(const Case& c, const Communicator& world) {
             io::digest_of(std::as_bytes(std::span(&width, 1)),
                           io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
         Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
+        surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
+        surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
         surface.origin = std::move(map.origin);
         surface.file_digest = digest;
         surface.notes.insert(
@@ -210,6 +215,11 @@ Surface surface_of(const Case& c, const Communicator& world) {
                         std::filesystem::path(s.file).filename().string(), points, points,
                         edge / points, edge, map.unit));
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+        if (surface.statistics.rms > surface.length)
+            throw std::invalid_argument(fmt::format(
+                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; "
+                "correct the unit of the file (surface.file_unit), or its size",
+                surface.statistics.rms, map.unit, surface.length));
         for (std::string& note : notes_on_roughness(surface.statistics.rms,
                                                     surface.statistics.rms_slope, surface.length))
             surface.notes.push_back(std::move(note));

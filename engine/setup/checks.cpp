@@ -22,7 +22,7 @@ namespace asperity {
 
 namespace {
 
-/// Whether the segments of the path can follow one another.
+/// Checks that the segments of the path can follow one another.
 void check_path(const Case& c, io::Problems& problems) {
     if (c.scene.drive.path.empty())
         problems.add("drive.path", "is empty", "there would be nothing to do",
@@ -87,7 +87,7 @@ void check_path(const Case& c, io::Problems& problems) {
     }
 }
 
-/// What a substrate of atoms anywhere cannot be combined with.
+/// Checks the keys that cannot be combined with a substrate of atoms anywhere.
 void check_atoms(const Scene& scene, io::Problems& problems) {
     const auto& [surface, interface] = std::tie(scene.surface, scene.interface);
     const auto refuse = [&](const char* key, const std::string& value, const char* why,
@@ -127,6 +127,10 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
     if (surface.detrend != Detrend::none)
         refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
                as_they_are, "leave it out");
+    if (surface.line_noise != LineNoise::keep)
+        refuse("surface.line_noise",
+               surface.line_noise == LineNoise::isotropic ? "\"isotropic\"" : "\"align-rows\"",
+               as_they_are, "leave it out");
     if (surface.resample != Resample::none)
         refuse("surface.resample", "\"band-limited\"", as_they_are, "leave it out");
 }
@@ -143,7 +147,7 @@ void check_keys(const Case& c, io::Problems& problems) {
     const double half = scene.edge() / 2.0;
     const double cutoff = interface.cutoff.value_or(cutoff_of(potential));
     if (cutoff > half && !wall)
-        // Where the cutoff is the default, the box is what the scene chose.
+        // If the cutoff is the default, the box is the choice of the scene.
         problems.add(io::Problem{
             scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
                                                                              : "surface.sites"),
@@ -337,7 +341,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
-        double reach = 0.0; // what the levels above that halving can carry at layers_per_level each
+        double reach = 0.0; // layers above that halving, at layers_per_level each
         for (int level = 0; level <= halvings; ++level)
             reach += std::ldexp(scene.block.layers_per_level, level);
         if (2.0 * reach < scene.block.thickness)
@@ -360,7 +364,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount));
     const double poisson = scene.block.poisson;
     const double strain = 1e-3 * load * (1.0 + poisson) * (1.0 - 2.0 * poisson) /
-                          (scene.block.young * (1.0 - poisson)); // of a block that cannot widen
+                          // Modulus of a block that cannot widen
+                          (scene.block.young * (1.0 - poisson));
     if (strain > 0.05 && scene.block.strain == Strain::linear)
         list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
                                    "block.strain = \"linear\" describes small strains",
@@ -398,7 +403,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     if (c.path.size() == 1 && c.starts_with(Segment::relax))
         idle("drive.control", "drive.path relaxes with nothing held");
     if (!c.in_time) {
-        std::vector<std::string> timed; // of a scene that was dynamic, many: one note
+        std::vector<std::string> timed; // a scene that was dynamic has many: one note
         for (const char* key :
              {"drive.velocity", "drive.temperature", "drive.seed", "drive.timestep",
               "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
@@ -428,8 +433,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     if (!surface.reads_file())
         idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
     if (surface.kind != SurfaceKind::file)
-        for (const char* key :
-             {"surface.detrend", "surface.resample", "surface.file_size", "surface.file_unit"})
+        for (const char* key : {"surface.detrend", "surface.line_noise", "surface.resample",
+                                "surface.file_size", "surface.file_unit"})
             idle(key, "surface.kind is not \"file\"");
     if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
     if (surface.kind == SurfaceKind::atoms)

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a scene calls for, decided once, by resolve(), from the scene alone (and, for
-// numerics.device = "auto", from what devices there are). Code asks `c.effects.sliding`; `asperity
-// plan` prints all with the keys that decide, and result.json lists them (run.effects). An effect
-// that is off makes no call (tests/engine/effects_test.cpp).
+// The effects of a scene, decided once, by resolve(), from the scene alone (and, for
+// numerics.device = "auto", from the devices of the machine). Code asks `c.effects.sliding`;
+// `asperity plan` prints all with the keys that decide, and result.json lists them (run.effects).
+// An effect that is off makes no call (tests/engine/effects_test.cpp).
 //
 // A new effect is a member here, a row of list() and its rule in effects_of().
 #pragma once
@@ -17,36 +17,38 @@ namespace asperity {
 
 struct Case;
 
+/// One effect, on or off.
 struct Effect {
     bool on = false;
     std::string why; ///< the key that decides, with its value
     operator bool() const { return on; }
 };
 
+/// All effects of a scene.
 struct Effects {
     Effect inertia,    ///< velocities, time steps
         lateral,       ///< displacements along x and y
-        damping,       ///< against a medium that moves with the top plane
+        damping,       ///< damping against a medium that moves with the top plane
         temperature,   ///< thermal noise
         finite_strain, ///< geometrically exact springs
         coarse_levels, ///< a block that gets coarser with depth
         skipping,      ///< sites beyond the interaction range are left out of the sweep
-        sliding,       ///< of the block over the substrate
+        sliding,       ///< slides of the block over the substrate
         tail,          ///< continuum correction beyond the cutoff
         curvature,     ///< a spherical cap under the roughness
-        branches,      ///< of a block that relaxes: their memory
+        branches,      ///< memory of a block that relaxes
         relaxation,    ///< states of equilibrium
         observation,   ///< energies, contacts and the energy balance: a row of the series
-        maps,          ///< of the states that the scene asks for
+        maps,          ///< maps of the states that the scene asks for
         trajectory,    ///< frames of the lowest layer
         checkpoints,   ///< states from which a run can be resumed
         theory,        ///< Persson's theory for the same scene
         device;        ///< time steps on a device in place of the processor
 
-    /// All of them, as `asperity plan` and result.json call them.
+    /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
 };
-/// Of a case whose scene, path and maps are known.
+/// Returns the effects of a case whose scene, path and maps are known.
 Effects effects_of(const Case& c);
 
 } // namespace asperity

@@ -8,7 +8,7 @@
 #include "engine/setup/resolving.hpp"
 
 #include "io/files.hpp"
-#include "io/scene_file.hpp"
+#include "io/table_file.hpp"
 #include "io/units.hpp"
 #include "kernels/substrates.hpp"
 
@@ -36,47 +36,50 @@ std::vector<std::string> names_of(const EachPotential& all) {
     return std::apply([](const auto&... p) { return std::vector<std::string>{p.name...}; }, all);
 }
 
-/// What is wrong with a table, in the words of its reader.
-struct BadTable : std::runtime_error {
-    using std::runtime_error::runtime_error;
+constexpr const char* table_format = "a table has distances in Å, which ascend, and energies in eV";
+
+/// Error of a table, in the words of its reader; `what` ends the sentence of a key.
+struct BadTable {
+    std::string what, why, fix;
 };
 
 /// Reads it, once for each file. Throws BadTable.
 const PotentialTable& table_of(Case& c, const std::string& file) {
     const std::string found = find_beside_scene(c.scene, file, "interface.table");
-    if (found.empty()) throw BadTable("there is no such file");
+    if (found.empty())
+        throw BadTable{"there is no such file", table_format,
+                       "give the path of such a file, relative to the scene or to the working "
+                       "directory"};
     auto& tables = c.simulation.interface.tables;
     const auto known = std::find(c.table_files.begin(), c.table_files.end(), found);
     if (known != c.table_files.end())
         return *tables[static_cast<std::size_t>(known - c.table_files.begin())];
     try {
-        const auto columns = io::read_two_columns(found);
-        tables.push_back(std::make_shared<PotentialTable>(columns[0], columns[1]));
+        const io::TableColumns read = io::read_table_columns(found);
+        tables.push_back(std::make_shared<PotentialTable>(read.distance, read.energy));
+        c.notes.insert(c.notes.end(), read.notes.begin(), read.notes.end());
         std::uint32_t digest = 0;
-        for (const auto& column : columns)
-            digest = io::digest_of(std::as_bytes(std::span(column)), digest);
+        for (const auto* column : {&read.distance, &read.energy})
+            digest = io::digest_of(std::as_bytes(std::span(*column)), digest);
         c.table_digest = c.table_digest.value_or(0) * 31 + digest;
     } catch (const io::SceneError& error) {
         const io::Problem& p = error.problems().front();
-        throw BadTable(p.where + " " + p.what);
+        throw BadTable{p.where + " " + p.what, p.why, p.fix};
     } catch (const std::invalid_argument& error) {
-        throw BadTable(error.what());
+        throw BadTable{error.what(), table_format, "correct the table"};
     }
     c.table_files.push_back(found);
     return *tables.back();
 }
 
-constexpr const char* table_format =
-    "a table has two columns, distances in Å, which ascend, and energies in eV";
-
-/// "4 r0", Å.
+/// Returns the cutoff "4 r0", Å.
 double usual_cutoff(const auto& potential) { return 4.0 * potential.zero(); }
 
 double cutoff_over(const PotentialTable& table, const Scene::Interface& keys) {
     return keys.cutoff.value_or(usual_cutoff(table.potential(table.last())));
 }
 
-/// interface.potential with its keys.
+/// Fills in the potential of interface.potential with its keys.
 void find_potential(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
     const bool wall = keys.kind == InterfaceKind::wall;
@@ -100,11 +103,13 @@ void find_potential(Case& c, io::Problems& problems) {
                                  fmt::format("= {:.6g} Å is beyond the table", *keys.cutoff),
                                  fmt::format("its last distance is {:.6g} Å", table.last()),
                                  fmt::format("take {:.6g} Å or less", table.last()));
-            } catch (const std::exception& error) {
-                problems.add("interface.table",
-                             fmt::format("= \"{}\": {}", keys.table, error.what()), table_format,
-                             "give the path of such a file, relative to the scene or to the "
-                             "working directory");
+            } catch (const BadTable& bad) {
+                problems.add("interface.table", fmt::format("= \"{}\": {}", keys.table, bad.what),
+                             bad.why, bad.fix);
+                return;
+            } catch (const std::invalid_argument& error) { // of the cutoff
+                problems.add("interface.cutoff", fmt::format(": {}", error.what()), table_format,
+                             "take a cutoff beyond the well; 4 r0 is usual");
                 return;
             }
         } else {
@@ -137,7 +142,7 @@ struct Entry {
     }
 };
 
-/// "Au D a r0", of a potential's parameters.
+/// Returns the form of an entry, "Au D a r0", from a potential's parameters.
 template <class P>
 std::string form_of(P p) {
     std::string form = p.name == LennardJones::name ? "type" : fmt::format("type {}", p.name);
@@ -206,7 +211,11 @@ void find_pairs(Case& c, io::Problems& problems) {
                     if (entry.quantities.empty())
                         p.cutoff = std::min(cutoff_over(numbers, scene.interface), numbers.last());
                     p = numbers.potential(p.cutoff);
-                } catch (const std::exception& error) {
+                } catch (const BadTable& bad) {
+                    fix = bad.fix;
+                    return refuse(bad.what, bad.why);
+                } catch (const std::invalid_argument& error) {
+                    fix = "take a cutoff beyond the well; 4 r0 is usual";
                     return refuse(error.what(), table_format);
                 }
             }

@@ -23,8 +23,8 @@ namespace asperity {
 
 namespace {
 
-/// Beside the scene, then in the working directory (the other way round if it was named on the
-/// command line).
+/// Returns the places of a file: beside the scene, then in the working directory (in reverse order
+/// if it was named on the command line).
 std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::string& file,
                                                const std::string& key) {
     namespace fs = std::filesystem;
@@ -33,7 +33,7 @@ std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::st
     return places;
 }
 
-/// The file of kind = "file" or "atoms".
+/// Returns the file of kind = "file" or "atoms".
 std::string file_of(const Scene& scene, io::Problems& problems) {
     if (!scene.surface.reads_file()) return {};
     const bool atoms = scene.surface.kind == SurfaceKind::atoms;
@@ -58,7 +58,7 @@ std::string file_of(const Scene& scene, io::Problems& problems) {
     return {};
 }
 
-/// output.fields; members that the reader has let pass.
+/// Parses output.fields, whose members the reader has accepted.
 MapTimes maps_of(const Scene& scene, io::Problems& problems) {
     MapTimes maps;
     std::vector<std::string> kinds;
@@ -107,7 +107,7 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     return block;
 }
 
-/// Why numerics.precision = "mixed" does not apply; empty where it does.
+/// Returns the reason why numerics.precision = "mixed" does not apply; empty if it does.
 std::string why_in_double(const Case& c) {
     const Scene& scene = c.scene;
     if (scene.interface.kind == InterfaceKind::wall) return "over a wall";
@@ -118,7 +118,7 @@ std::string why_in_double(const Case& c) {
     return {};
 }
 
-/// What is not its potentials.
+/// Fills in the interface except its potentials.
 void fill_interface(Case& c) {
     const Scene& scene = c.scene;
     const Scene::Interface& i = scene.interface;
@@ -130,7 +130,7 @@ void fill_interface(Case& c) {
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
         c.notes.push_back("numerics.precision has no effect: pairs are in double precision " +
                           in_double);
-    options.rough_too = !c.in_time;
+    options.mixed_on_request = !c.in_time;
     if (i.kind == InterfaceKind::atoms) return;
     if (i.law == WallLawKind::smeared) {
         std::visit(
@@ -151,7 +151,7 @@ void fill_interface(Case& c) {
     options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
 }
 
-/// Flat on flat, and of flat layers of each type of atoms what is largest.
+/// Fills in flat on flat, and the bounds over flat layers of each type of atoms.
 void fill_flat_reference(Case& c, io::Problems& problems) {
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
@@ -163,7 +163,10 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     try {
         c.flat = flat_reference(interface, block.spacing, block.sites, c.substrate());
     } catch (const std::invalid_argument& e) {
-        problems.add("interface.potential", std::string(": ") + e.what());
+        problems.add("interface.potential", std::string(": ") + e.what(),
+                     "the lattices are too wide or too narrow for it, or it ends before it binds",
+                     "take a potential that is zero at about surface.spacing (interface.r0), and a "
+                     "cutoff of 1.5 times that at least; 4 r0 is usual");
     }
     const double area = block.spacing * block.spacing;
     c.scales.stiffness = c.flat.stiffness * area;
@@ -185,7 +188,7 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
     find_scales(c, std::min(smallest_tension, c.largest_tension));
 }
 
-/// Forces that the tolerance lets pass, in the block's longest wave, beside the work of adhesion.
+/// Notes a tolerance whose forces, in the block's longest wave, matter beside the work of adhesion.
 void note_coarse_tolerance(Case& c) {
     if (c.in_time) return;
     constexpr double coarse = 0.01;
@@ -203,7 +206,7 @@ void note_coarse_tolerance(Case& c) {
         c.scene.drive.tolerance * std::sqrt(coarse / fraction)));
 }
 
-/// No step may jump over the potential, and no pull can be larger than what binds most.
+/// Limits steps: no step may jump over the potential, and no pull can exceed the strongest binding.
 void limit_steps(Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     // The width of the potential: its depth over its largest force.
@@ -241,7 +244,7 @@ void limit_steps(Case& c, io::Problems& refused) {
     }
 }
 
-/// Of a scene whose steps a device takes.
+/// Returns the device of a scene whose steps a device takes.
 DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
     const DeviceChoice& asked = scene.numerics.device;
     if (asked.kind == DeviceChoice::Kind::emulated) return asked;
@@ -257,7 +260,7 @@ DeviceChoice device_of(const Scene& scene, io::Problems& refused) {
     return {DeviceChoice::Kind::cuda, asked.index};
 }
 
-/// How the block is driven, and its steps.
+/// Fills in the drive of the block and its steps.
 void fill_motion(Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const BlockOptions& block = c.simulation.block;
@@ -267,6 +270,15 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
+    if (c.effects.temperature)
+        drive.average_over = c.scales.length > 0.0
+                                 ? std::min(crossing, 0.1 * c.scales.length / drive.velocity)
+                                 : crossing;
+    if (c.effects.temperature && c.in_time)
+        c.notes.push_back(fmt::format(
+            "the force of a warm block fluctuates: an approach or a load ends by its average over "
+            "{:.3g} ps (segments[].pressure, with pressure_scatter)",
+            drive.average_over / units::picosecond));
     drive.path = c.path;
     for (Segment& segment : drive.path) {
         if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
@@ -283,7 +295,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
     c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
-    const double period = std::numbers::pi * c.longest_timestep; // of the fastest vibration
+    const double period = std::numbers::pi * c.longest_timestep; // period of the fastest vibration
     if (c.effects.inertia && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
@@ -297,7 +309,7 @@ void fill_motion(Case& c, io::Problems& refused) {
                         0.1 * period));
 }
 
-/// Whether the ranks can share the box, and how evenly.
+/// Checks that the ranks can share the box, and how evenly.
 void look_at_ranks(Case& c, io::Problems& refused) {
     try {
         const ProcessGrid grid = c.grid(0);
@@ -312,19 +324,22 @@ void look_at_ranks(Case& c, io::Problems& refused) {
     }
 }
 
-/// All that follows from keys that do not contradict each other.
+/// Derives all consequences of keys that do not contradict each other.
 void derive(Case& c, io::Problems& problems) {
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
     c.edge_pinning = edge_pinning(c.scene);
     refuse_pinned_edge(c, refused);
-    c.notes = notes_on_keys(c);
+    for (std::string& note : notes_on_keys(c))
+        c.notes.push_back(std::move(note));
     fill_interface(c);
+    if (!check_tables(c, problems)) return;
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
+    refuse_out_of_proportion(c, refused);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
     look_at_ranks(c, refused);
@@ -344,6 +359,12 @@ std::string find_beside_scene(const Scene& scene, const std::string& file, const
 ProcessGrid Case::grid(int rank) const {
     if (!in_time) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
     return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
+}
+
+std::vector<std::string> Case::inputs() const {
+    std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
+    files.insert(files.end(), table_files.begin(), table_files.end());
+    return files;
 }
 
 bool Case::has(Segment::Kind kind) const {

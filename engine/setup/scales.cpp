@@ -10,6 +10,9 @@
 //   that energy which it lets pass: at its default 3e-5 W;
 // - without an attraction, the smallest load on a site that the path asks for; without a load, that
 //   which displaces the block's longest wave by drive.displacement_step.
+//
+// A path and a state under a load that presses with more than this on each site take a site's part
+// of that load in its place (equilibrium/quasistatic.hpp).
 #include "engine/setup/resolving.hpp"
 
 #include "engine/units.hpp"

@@ -14,9 +14,9 @@ namespace asperity {
 
 namespace {
 
-/// Where an exponential wall attracts beside the edge of a contact.
+/// Attraction of an exponential wall beside the edge of a contact.
 struct ContactEdge {
-    double strip = 0.0;   ///< how far, Å
+    double strip = 0.0;   ///< width of the strip, Å
     double pinning = 1.0; ///< Case::edge_pinning
     std::string remedy;   ///< a range or a spacing that resolves it
 };
@@ -78,7 +78,7 @@ double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surf
     const double a = block.spacing;
     const double modulus = block.young / (1.0 - block.poisson * block.poisson);
     const CellElasticity elasticity = block.elasticity(0);
-    constexpr int directions = 5; // from an axis to a diagonal of the lattice
+    constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
     double lattice = 0.0, continuum = 0.0;
     for (const SpectrumBin& bin : surface.spectrum) {
         if (!(bin.q > 0.0) || bin.q * a > std::numbers::pi) continue;

@@ -20,9 +20,9 @@ constexpr double highest = 0.1;  ///< rms height over the edge of the box
 constexpr double fastest = 50.0; ///< m/s
 constexpr double one_state =
     0.5; ///< rms slope up to which a slow approach ends in the relaxed state
-constexpr double usable_part = 0.545; ///< of the stability limit of a flat contact
+constexpr double usable_part = 0.545; ///< usable part of the stability limit of a flat contact
 
-/// rms slope of the spectrum that a self-affine surface is made from.
+/// Returns the rms slope of the spectrum of a self-affine surface.
 double slope_of_spectrum(const Scene::Surface& s, double edge) {
     const double nyquist = 0.5 * s.sites;
     const double end = std::min(s.q_max.value_or(nyquist), nyquist);

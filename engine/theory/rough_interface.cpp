@@ -34,7 +34,7 @@ WaveStiffness wave_stiffness(const CellElasticity& elasticity, double spacing, i
             std::abs(c * m.xz + s * m.yz) / area, 1.0 / inverse(m).zz / area};
 }
 
-/// Up to Nyquist, averaged over directions.
+/// Returns the stiffness of waves up to Nyquist, averaged over directions.
 Json lattice_stiffness(const Case& c) {
     const BlockOptions& block = c.simulation.block;
     const CellElasticity elasticity = block.elasticity(0);
@@ -60,7 +60,7 @@ Json lattice_stiffness(const Case& c) {
     return table;
 }
 
-constexpr int points = 400; ///< of a table of the interaction
+constexpr int points = 400; ///< number of points in a table of the interaction
 
 Json table_of_pairs(const Case& c) {
     const theory::FlatInterface flat = flat_interface(c);
@@ -92,7 +92,7 @@ Json table_of_wall(const Case& c, const Law& law) {
                          "\"smeared\" or atoms"}};
     const double area = c.simulation.block.spacing * c.simulation.block.spacing;
     const double separation = c.flat.separation;
-    // As far inwards as the repulsion is about twice the largest tension.
+    // Inwards to a repulsion of about twice the largest tension.
     const double closest = separation - 2.0 * (law.contact_gap() - separation);
     const double reach = reach_of(c.simulation.interface);
     Json at, energy;

@@ -20,7 +20,7 @@ namespace {
 
 using theory::Spectrum;
 
-/// What theory/ refuses is wrong with the scene.
+/// Calls f and turns errors of theory/ into errors of the scene.
 template <class F>
 auto with_scene_errors(const F& work) {
     try {
@@ -34,7 +34,7 @@ auto with_scene_errors(const F& work) {
     }
 }
 
-/// The power law of the scene, from q_L up to q1 or to what the grid holds of it.
+/// Returns the power law of the scene, from q_L up to q1 or to the limit of the grid.
 Spectrum target_of(const Scene& scene, TheoryCase& out) {
     const auto& s = scene.surface;
     const double q_L = 2.0 * std::numbers::pi / scene.edge();
@@ -58,9 +58,9 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
         {.q_L = q_L, .q0 = rolloff * q_L, .q1 = cutoff * q_L, .hurst = s.hurst, .h_rms = s.rms});
 }
 
-/// Ring averages of the map: bin k holds the waves between (k - 1/2) and (k + 1/2) q_L. The first
-/// ring starts at q_L, the longest wave there is, and the last ends at Nyquist; C is such that each
-/// ring has the variance of its waves.
+/// Returns ring averages of the map: bin k holds the waves between (k - 1/2) and (k + 1/2) q_L. The
+/// first ring starts at q_L, the longest wave there is, and the last ends at Nyquist; each ring has
+/// a C with the variance of its waves.
 Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out) {
     out.origin = surface.origin;
     const auto& bins = surface.statistics.spectrum;

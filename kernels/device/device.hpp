@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What a device is asked for: memory, copies, and the launches of a step. Two tables of functions
-// of this shape exist: that of CUDA (cuda.cu, where its compiler was found) and that of the
-// emulated device (emulated.cpp, always). Both compile the same kernels (passes.hpp).
+// Functions of a device: memory, copies, and the launches of a step. Two tables of functions of
+// this shape exist: that of CUDA (cuda.cu, if its compiler was found) and that of the emulated
+// device (emulated.cpp, always). Both compile the same kernels (passes.hpp).
 //
 // A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
 //   follow   constrained planes are interpolated from the coarse planes; the top plane is set
@@ -16,7 +16,7 @@
 // Launches are carried out in order, on one stream. copy() returns when all launches before it and
 // the copy itself are done.
 //
-// Every function returns nullptr, or a text that says what went wrong.
+// Every function returns nullptr, or a text with the error.
 #pragma once
 
 #include "kernels/elastic_level.hpp"
@@ -29,28 +29,28 @@
 
 namespace asperity {
 
-/// Levels of a block at most: each halves a box of fewer than 2^24 sites.
+/// Largest number of levels of a block: each halves a box of fewer than 2^24 sites.
 inline constexpr int most_levels = 24;
 
 /// One level on the device; all views are of device memory.
 struct DeviceLevel {
     int nx = 0, ny = 0, cells = 0;
-    int number = 0, x0 = 0, y0 = 0; ///< which level; the tile's first node
-    VectorVolume<double> u[2];      ///< displacement at the present step and the next, alternating
+    int number = 0, x0 = 0, y0 = 0; ///< number of the level; the tile's first node
+    VectorVolume<double> u[2];      ///< displacements at the present step and the next, alternating
     VectorVolume<double> v;
     VectorPlane<double> transferred, upper_force;
     Stencil lower{}, inner{}, upper{};
     LevelCell cell;
-    LevelSeam seam;       ///< to the coarser level
-    bool in_line = false; ///< transferred forces are restricted from the level below where needed
-    bool counted = false; ///< in global sums
+    LevelSeam seam;                        ///< seam to the coarser level
+    bool in_line = false;                  ///< advance restricts the forces of the level below
+    bool counted = false;                  ///< global sums include this level
     bool wraps_x = false, wraps_y = false; ///< periodic images lie in this tile
 };
 
 /// Nodes of several levels, counted through.
 struct NodeRanges {
     int levels = 0;
-    long long first[most_levels + 1] = {}; ///< of each level; behind the last: the end
+    long long first[most_levels + 1] = {}; ///< first node of each level; behind the last: the end
     void add_level(long long nodes) {
         first[levels + 1] = first[levels] + nodes;
         ++levels;
@@ -59,32 +59,33 @@ struct NodeRanges {
 
 /// Sums of one launch over its nodes.
 struct PassSums {
-    static constexpr int sums = 5;
+    static constexpr int sums = 6;
     ExactSum sum[sums];
     double count[2] = {0.0, 0.0};
     double least = no_pair;
 };
-/// What they are.
+/// Indices of the sums of the launch `forces` in PassSums.
 struct ForceSum {
     enum { interface_z, interface_energy, lowest_z, top_z };
     enum { in_contact, repulsive };
 };
+/// Indices of the sums of the launch `advance` in PassSums.
 struct AdvanceSum {
-    enum { kinetic, dissipated, dragged, elastic, heat };
+    enum { kinetic, of_step, dissipated, dragged, elastic, heat };
 };
 
-/// What every launch is handed, by value.
+/// Arguments of every launch, passed by value.
 struct DeviceStep {
     const DeviceLevel* levels = nullptr; ///< in device memory
-    const LevelKicks* kicks = nullptr;   ///< likewise, of each level
+    const LevelKicks* kicks = nullptr;   ///< kicks of each level, in device memory
     NodeRanges moving;                   ///< nodes that move
     NodeRanges faces;                    ///< nodes of upper planes and one beyond
     NodeRanges constrained;              ///< nodes of upper planes and their halo
-    int now = 0;                         ///< which displacement array is that of the present step
+    int now = 0;                         ///< index of the displacement array of the present step
     bool observe = false;
-    bool damped = false; ///< some nodes are
+    bool damped = false; ///< some nodes are damped
     double dt = 0.0;     ///< fs
-    double top = 0.0;    ///< of the top plane, Å
+    double top = 0.0;    ///< displacement of the top plane, Å
     bool noisy = false;  ///< thermal noise acts on damped nodes
     ThermalNoise noise;
 
@@ -94,27 +95,28 @@ struct DeviceStep {
     double tail_density = 0.0; ///< atoms per Å^2
     PlaneView<const double> mean_height;
 
-    PassSums* sums = nullptr; ///< in device memory: of forces, of advance
+    PassSums* sums = nullptr; ///< sums of the launches forces and advance, in device memory
 };
 
-/// A strip of halo traded with the two neighbours along an axis.
+/// A strip of halo exchanged with the two neighbours along an axis.
 struct DeviceHalo {
     bool along_x = true;
     NodeRanges strip; ///< doubles of one side's message, level by level
-    /// In device memory: to or from the neighbour before; behind it, the neighbour after.
+    /// Messages to or from the neighbour before, then the neighbour after, in device memory.
     double* messages = nullptr;
-    int buffer = 0; ///< which displacement array
+    int buffer = 0; ///< index of the displacement array
 };
 
+/// Functions of one kind of device.
 struct DeviceFunctions {
-    /// Device memory; this device is the one that all calls from then on refer to.
+    /// Allocates device memory; all later calls refer to this device.
     const char* (*allocate)(int index, std::size_t bytes, std::byte** memory);
     void (*release)(std::byte* memory);
-    /// Between host and device, in either direction.
+    /// Copies between host and device, in either direction.
     const char* (*copy)(void* to, const void* from, std::size_t bytes);
 
     const char* (*follow)(const DeviceStep& step);
-    /// The numbers of a tabulated potential are in device memory.
+    /// Computes the forces; the numbers of a tabulated potential are in device memory.
     const char* (*forces)(const DeviceStep& step, const PairPotential& potential);
     const char* (*restrict_to_shared)(const DeviceStep& step, int coarse, Patch nodes);
     const char* (*advance)(const DeviceStep& step);
@@ -123,18 +125,19 @@ struct DeviceFunctions {
 };
 
 const DeviceFunctions& emulated_device();
-/// Null where the program was built without CUDA.
+/// Returns the functions of CUDA, nullptr if the program was built without it.
 const DeviceFunctions* cuda_device();
-/// Devices that CUDA finds here, and what they are called.
+/// Returns the number of devices that CUDA finds.
 int cuda_device_count();
+/// Returns the name of a device.
 std::string cuda_device_name(int index);
 
-/// How the emulated device behaves; for tests.
+/// Behaviour of the emulated device, for tests.
 struct EmulatedSettings {
-    /// Nodes of a launch run one after the other: in their order (0), or in one of many others. If
-    /// a result depends on the order, two threads access the same number.
+    /// Order of the nodes of a launch, which run one after the other: their own (0), or one of many
+    /// others. If a result depends on the order, two threads access the same number.
     unsigned order = 0;
-    std::size_t memory = 0;    ///< bytes that it has; 0: the machine's
+    std::size_t memory = 0;    ///< memory of the device, bytes; 0: that of the machine
     long long lost_after = -1; ///< number of launches after which calls fail; negative: none
 };
 EmulatedSettings& emulated_settings();

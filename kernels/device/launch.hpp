@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// launch(): body(i, sums) for every i in [0, count), a thread each; with sums, theirs are added
-// into *total, which is exact in any order (exact_sum.hpp).
+// launch(): calls body(i, sums) for every i in [0, count), one thread each; if sums are asked for,
+// they are added into *total, which is exact in any order (exact_sum.hpp).
 //
 // The emulated device runs the bodies one after the other, in the host's process. Its memory is
-// pages of its own that can be read and written during a launch or a copy only: a host that reads
+// pages of its own that can be read and written only during a launch or a copy: a host that reads
 // device memory stops with a segmentation fault, as with CUDA.
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace asperity {
 
-/// What can be copied byte by byte and has the same members for the compilers of host and device.
+/// True if a type can be copied byte by byte and has the same members for the compilers of host and
+/// device.
 template <class T>
 inline constexpr bool goes_to_a_device =
     std::is_trivially_copyable_v<T>&& std::is_standard_layout_v<T>;
@@ -39,8 +40,8 @@ namespace asperity::cuda {
 
 inline constexpr int threads_per_block = 128;
 
-/// All threads of a block; adds up within warps, then over the block, then once to the total
-/// (behind a carry, as exact_sum.hpp asks for: merge() ends with one).
+/// Adds up the sums of a block: within warps, then over the block, then once to the total (behind a
+/// carry, as exact_sum.hpp asks for: merge() ends with one).
 __device__ inline void reduce(PassSums& mine, PassSums* total) {
     constexpr int warps = threads_per_block / 32;
     __shared__ PassSums of_warp[warps];
@@ -65,7 +66,7 @@ __device__ inline void reduce(PassSums& mine, PassSums* total) {
                 atomicAdd(&total->sum[k].bin[bin], mine.sum[k].bin[bin]);
     for (int k = 0; k < 2; ++k)
         if (mine.count[k] != 0.0) atomicAdd(&total->count[k], mine.count[k]);
-    // Of positive numbers the order is that of their bits.
+    // Positive numbers have the order of their bits.
     if (mine.least < no_pair)
         atomicMin(reinterpret_cast<unsigned long long*>(&total->least),
                   static_cast<unsigned long long>(__double_as_longlong(mine.least)));
@@ -80,7 +81,7 @@ __global__ void __launch_bounds__(threads_per_block)
     if constexpr (with_sums) reduce(mine, total);
 }
 
-/// Null, or what the runtime says.
+/// Returns the runtime's text of an error; nullptr if there is none.
 inline const char* text_of(cudaError_t error) {
     return error == cudaSuccess ? nullptr : cudaGetErrorString(error);
 }
@@ -102,11 +103,11 @@ const char* launch(const Body& body, long long count, PassSums* total) {
 
 namespace asperity::emulated {
 
-/// Lets the host read and write the device's memory, or not.
+/// Allows or forbids the host to read and write the device's memory.
 void open_memory(bool open);
-/// Null, or that the device is lost (EmulatedSettings::lost_after).
+/// Counts a launch. Returns nullptr, or that the device is lost (EmulatedSettings::lost_after).
 const char* count_launch();
-/// Node number k of a launch over count of them, in the order asked for.
+/// Returns the k-th node of a launch over count nodes, in the order asked for.
 long long node_in_order(long long k, long long count);
 
 inline constexpr long long nodes_per_block = 4096;

@@ -20,7 +20,7 @@ namespace asperity::ASPERITY_VARIANT {
 
 using Number = Lane<double>;
 
-/// The level of node i of the ranges, and the node's number in it.
+/// Returns the level of node i of the ranges, and sets i to the node's number in it.
 ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
     int level = 0;
     while (level + 1 < ranges.levels && i >= ranges.first[level + 1])
@@ -29,7 +29,7 @@ ASPERITY_INLINE int locate(const NodeRanges& ranges, long long& i) {
     return level;
 }
 
-/// Constrained planes, halo included, and the top plane.
+/// Interpolation of the constrained planes, halo included, and motion of the top plane.
 struct Follow {
     DeviceStep s;
     ASPERITY_HOST_DEVICE void operator()(long long i, PassSums&) const {
@@ -58,7 +58,7 @@ struct Follow {
     }
 };
 
-/// Force on the node at element `at`, small strain.
+/// Returns the force on the node at element `at`, small strain.
 template <Face face>
 ASPERITY_INLINE Triple<Number> small_force(const VectorVolume<const double>& u, std::ptrdiff_t at,
                                            const Stencil& stencil) {
@@ -74,7 +74,7 @@ ASPERITY_INLINE Triple<Number> small_force(const VectorVolume<const double>& u, 
     return {force(0), force(1), force(2)};
 }
 
-/// The force on node i of the upper faces.
+/// Computes the force on node i of the upper faces.
 ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums) {
     const int l = locate(s.faces, i);
     const DeviceLevel& level = s.levels[l];
@@ -90,7 +90,7 @@ ASPERITY_INLINE void upper_face(const DeviceStep& s, long long i, PassSums& sums
     if (l + 1 == s.faces.levels && level.counted && inside) sums.sum[ForceSum::top_z].add(f.z.r);
 }
 
-/// Sites of the interface, then upper faces.
+/// Forces of the interface's sites, then of the upper faces.
 template <class P, bool observe>
 struct Forces {
     DeviceStep s;
@@ -172,7 +172,7 @@ private:
     }
 };
 
-/// What coarse node (x, y) gets from the upper face of the finer level.
+/// Returns the force on coarse node (x, y) from the upper face of the finer level.
 ASPERITY_INLINE Triple<Number> restricted_force(const DeviceLevel& fine, int x, int y) {
     const LevelSeam& seam = fine.seam;
     const int fx = 2 * (seam.coarse_x0 + x) - seam.fine_x0;
@@ -183,7 +183,7 @@ ASPERITY_INLINE Triple<Number> restricted_force(const DeviceLevel& fine, int x, 
     return {sum(fine.upper_force.x), sum(fine.upper_force.y), sum(fine.upper_force.z)};
 }
 
-/// Into the transferred forces of a level that every rank holds.
+/// Restriction into the transferred forces of a level that every rank holds.
 struct RestrictToShared {
     DeviceStep s;
     int coarse;
@@ -200,8 +200,8 @@ struct RestrictToShared {
     }
 };
 
-/// The places x + k n of a coordinate in the halo or the tile: from first on, below end; x itself
-/// where another tile holds the images.
+/// Places x + k n of a coordinate in the halo or the tile: from first on, below end; x itself if
+/// another tile holds the images.
 struct Images {
     int first, end;
     ASPERITY_INLINE Images(int x, int n, bool wraps)
@@ -211,7 +211,7 @@ struct Images {
     }
 };
 
-/// A node of a plane and its periodic images. x, y: owned along every axis that wraps.
+/// Writes a node of a plane and its periodic images. x, y: owned along every axis that wraps.
 ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel& level, int x,
                                   int y, bool wraps_x, double value) {
     const Images along_x(x, level.nx, wraps_x), along_y(y, level.ny, level.wraps_y);
@@ -220,7 +220,7 @@ ASPERITY_INLINE void write_images(const PlaneView<double>& u, const DeviceLevel&
             u(i, j) = value;
 }
 
-/// Elastic forces, kick, drift and noise.
+/// Elastic forces, kick, drift and noise of the moving nodes.
 template <bool observe, bool noisy>
 struct Advance {
     DeviceStep s;
@@ -257,8 +257,10 @@ struct Advance {
             if (kick.damped) {
                 Triple<double> speed = {v.x.r, v.y.r, v.z.r};
                 const auto xi = normals(s.noise, level.number, level.x0 + x, level.y0 + y, z);
-                sums.sum[AdvanceSum::heat].add(
-                    add_noise(s.noise, 2.0 * kick.half_mass, xi, old, speed, moved));
+                const NoiseEnergies given =
+                    add_noise(s.noise, 2.0 * kick.half_mass, xi, old, speed, moved);
+                sums.sum[AdvanceSum::heat].add(given.heat);
+                if constexpr (observe) sums.sum[AdvanceSum::kinetic].add(given.kinetic);
                 level.v.x.origin[of_v] = speed.x;
                 level.v.y.origin[of_v] = speed.y;
                 level.v.z.origin[of_v] = speed.z;
@@ -282,6 +284,7 @@ private:
         kicker.end_row();
         kicker.add_to(added);
         if constexpr (observe) sums.sum[AdvanceSum::kinetic].merge(added.kinetic);
+        if constexpr (observe) sums.sum[AdvanceSum::of_step].merge(added.of_step);
         if constexpr (damped) {
             sums.sum[AdvanceSum::dissipated].merge(added.dissipated);
             sums.sum[AdvanceSum::dragged].merge(added.dragged);
@@ -290,7 +293,8 @@ private:
     }
 };
 
-/// Strips of halo, to messages or from them. Node i of a strip is component, plane, row, column.
+/// Strips of halo, copied to messages or from them. Node i of a strip is component, plane, row,
+/// column.
 template <bool packs>
 struct Halo {
     DeviceStep s;

@@ -10,12 +10,12 @@
     result.plot.separation()                            # draws into a matplotlib axes
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
-    asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error, and of what
+    asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error and the causes
     sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/howto/python-engine.md)
     sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
-The program does the physics, reads scenes and checks them; this package starts it, reads what it wrote,
-and draws. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError, Stopped.
+The program reads and checks scenes and does the physics; this package starts the program, reads its results and draws
+them. Errors of the program are the exceptions SceneError, PhysicsError, InputOutputError and Stopped.
 """
 
 from typing import TYPE_CHECKING
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
                           "load_sweep", "run", "sweep"), ".forms"),
          "Simulation": ".engine", "Statics": ".engine", "states": ".state_search"}
+_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
+"""Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
            *(name for name, module in _LAZY.items() if module == ".forms")]
 
@@ -42,16 +44,18 @@ def __getattr__(name: str):
 
     if name in _LAZY:
         return getattr(importlib.import_module(_LAZY[name], __name__), name)
+    if name in _MODULES:
+        return [importlib.import_module(module, __name__) for module in _MODULES[name]][-1]
     if name == "__version__":
         return importlib.import_module(".program", __name__).version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def __dir__() -> list[str]:
-    """For dir(), help() and completion: Simulation, Statics and states where the compiled module is there."""
+    """Returns the names for dir(), help() and completion; Simulation, Statics and states if the compiled module exists."""
     import importlib
 
-    names = {*__all__, "__version__"}
+    names = {*__all__, *_MODULES, "__version__"}
     try:
         importlib.import_module(".engine", __name__)
         names |= _LAZY.keys()

@@ -107,9 +107,10 @@ def _parser() -> argparse.ArgumentParser:
     adhesion.add_argument("--nu", required=True, type=float, metavar="0.25", help="its Poisson's ratio")
     adhesion.add_argument("--work", required=True, metavar="200mJ/m2", help="work of adhesion of flat surfaces")
     adhesion.add_argument("--range", metavar="3Å", help="of the attraction (default: 3 Å, or what the spacing resolves)")
-    adhesion.add_argument("--size", metavar="100nm", help="length of the map's edge, of a file that does not tell it")
-    adhesion.add_argument("--unit", metavar="nm", help="of the heights, of a file that does not tell it")
-    adhesion.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
+    adhesion.add_argument("--size", metavar="100nm", help="the map's shorter edge; holds over what the file says")
+    adhesion.add_argument("--unit", metavar="nm", help="of the heights; holds over what the file says")
+    adhesion.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
+    adhesion.add_argument("--line-noise", choices=["keep", "align-rows", "isotropic"], help="treatment of a scan's noise from line to line")
     adhesion.add_argument("--sites", type=_sites, metavar="N", help="along an edge (default: the map's points, 256 at most)")
     adhesion.add_argument("--out", metavar="DIR", help="result directory (default: results/<map>-adhesion)")
     adhesion.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side; they share the processors")
@@ -118,8 +119,8 @@ def _parser() -> argparse.ArgumentParser:
                  "A path at a held mean height goes inwards and back; the states are told with the pressures between\n"
                  "them. The same command goes on where it was stopped.")
     scene(states, "results/<scene>-states")
-    states.add_argument("--starts", type=_many, default=3, metavar="N",
-                        help="states from so many random lateral displacements")
+    states.add_argument("--starts", type=_many, default=20, metavar="N",
+                        help="states from so many layers laid on the substrate at random heights")
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
     export = add("export", "maps and trajectory of a run for OVITO, ParaView, or as PNG")
@@ -130,18 +131,18 @@ def _parser() -> argparse.ArgumentParser:
                   "Atoms: LAMMPS data, and by ASE extended XYZ.")
     convert.add_argument("source", metavar="FILE", help="the file to convert")
     convert.add_argument("target", metavar="OUT.h5", help="the file to write")
-    convert.add_argument("--channel", metavar="NAME", help="of an instrument's file: this channel, by name or number")
+    convert.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
     return parser
 
 
 def _is_override(word: str) -> bool:
-    """`--set a.b=1 c.d=2 scene.toml` means what it looks like."""
+    """Returns True for an override: `--set a.b=1 c.d=2 scene.toml` means what it looks like."""
     before, equals, _ = word.partition("=")
     return bool(equals) and "." in before and "/" not in before and not os.path.exists(word)
 
 
 def _spelt_out(words: list[str]) -> list[str]:
-    """`--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that of one key the last one counts."""
+    """Spells `--set a.b=1 c.d=2` as `--set a.b=1 --set c.d=2`, so that the last value of a key counts."""
     out: list[str] = []
     for word in words:
         if _is_override(word) and len(out) > 1 and out[-2] == "--set":
@@ -210,7 +211,8 @@ def _carry_out(given: argparse.Namespace) -> int:
         from .measured import adhesion_command
 
         return adhesion_command(given.map, given.E, given.nu, given.work, given.out, _pool_options(given),
-                                reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites)
+                                reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites,
+                                line_noise=given.line_noise)
     if given.command == "states":
         from .state_search import states_command
 
@@ -241,7 +243,7 @@ def _carry_out(given: argparse.Namespace) -> int:
 
 
 def _after_the_first(code: int) -> int:
-    """The first rank says what is wrong. A launcher ends all ranks with the first one that ends."""
+    """Waits for the first rank, which prints the error; a launcher ends all ranks with the first one that ends."""
     time.sleep(5)
     return code
 

@@ -200,27 +200,34 @@ PYBIND11_MODULE(_engine, m) {
     m.doc() = "The engine of asperity.Simulation and asperity.Statics";
     m.attr("version") = io::build_info().version;
     py::register_exception_translator(translate);
+    m.def(
+        "quantity",
+        [](const std::string& where, const py::object& given, const std::string& unit) {
+            return quantity(where.c_str(), given, unit.c_str());
+        },
+        py::arg("where"), py::arg("given"), py::arg("unit"),
+        "A number in this unit, given so or as a text with a unit. Raises SceneError.");
 
     py::class_<StepRecord>(m, "Energies", "Energies in eV, since the start of the path.")
         .def_readonly("elastic", &StepRecord::elastic_energy, "elastic energy of the block, eV")
         .def_readonly("interface", &StepRecord::interface_energy,
-                      "energy of the interface, eV; negative where it binds")
+                      "energy of the interface, eV; negative if it binds")
         .def_readonly("kinetic", &StepRecord::kinetic_energy, "kinetic energy of the block, eV")
         .def_readonly(
             "work", &StepRecord::work,
             "work done on the solids since they were at rest apart, eV: by the top plane, "
-            "the medium that damps, an external field, and what was written to u and v")
+            "the damping medium, an external field, and values written to u and v")
         .def_readonly("damped", &StepRecord::damped,
-                      "energy lost to the medium that damps, less the heat of the noise, eV")
+                      "energy lost to the damping medium, less the heat of the noise, eV")
         .def_readonly("balance_error", &StepRecord::residual,
                       "work - energies - damped, over the largest energy or work so far")
         .def("__repr__", shown);
 
     py::class_<BothWays>(
         m, "BothWays",
-        "A number of the approach and one of the pull-off, meV/Å²; None until that way has ended.")
-        .def_readonly("approach", &BothWays::approach, "of the approach, meV/Å²")
-        .def_readonly("pull_off", &BothWays::pull_off, "of the pull-off, meV/Å²")
+        "Numbers of the approach and of the pull-off, meV/Å²; None until the segment has ended.")
+        .def_readonly("approach", &BothWays::approach, "number of the approach, meV/Å²")
+        .def_readonly("pull_off", &BothWays::pull_off, "number of the pull-off, meV/Å²")
         .def("__repr__", shown);
 
     py::class_<InterfaceMaps>(m, "SiteMaps", "Maps of the sites, [y, x].")
@@ -230,7 +237,7 @@ PYBIND11_MODULE(_engine, m) {
         .def_property_readonly(
             "contact",
             [](const InterfaceMaps& of) { return array_of(of, of.contact).attr("astype")("bool"); },
-            "whether the nearest atom is in contact")
+            "True if the nearest atom is in contact")
         .def_property_readonly(
             "pressure", [](const InterfaceMaps& of) { return array_of(of, of.pressure); },
             "normal force on a site over its area, GPa; positive pushes apart")
@@ -239,20 +246,21 @@ PYBIND11_MODULE(_engine, m) {
                 .format(of.ny, of.nx);
         });
 
-    py::class_<RestState>(m, "RestState",
-                          "A state of force balance, of Simulation.relax() and Statics.free().")
+    py::class_<RestState>(
+        m, "RestState",
+        "State of force balance, returned by Simulation.relax() and Statics.free().")
         .def_readonly("binding_energy", &RestState::binding_energy,
-                      "the least work that separates the solids from here, meV/Å²")
+                      "minimum work needed to separate the solids from this state, meV/Å²")
         .def_readonly("elastic_energy", &RestState::elastic, "elastic energy, meV/Å²")
         .def_readonly("contact_fraction", &RestState::contact_fraction,
                       "fraction of the sites in contact")
         .def_readonly("repulsive_fraction", &RestState::repulsive_fraction,
-                      "fraction of the sites that are pushed away")
+                      "fraction of the sites whose net normal force is repulsive")
         .def_readonly("mean_height", &RestState::mean_height,
-                      "of the lowest layer above the substrate's zero, Å")
+                      "mean height of the lowest layer above the substrate's zero, Å")
         .def_readonly("residual", &RestState::residual, "largest force left on a site, eV/Å")
         .def_readonly("iterations", &RestState::iterations, "iterations of the relaxation")
-        .def_readonly("maps", &RestState::maps, "its SiteMaps: gap, contact, pressure")
+        .def_readonly("maps", &RestState::maps, "SiteMaps of the state: gap, contact, pressure")
         .def("__repr__", shown);
 
     using Sim = SteppedPath;
@@ -282,23 +290,27 @@ PYBIND11_MODULE(_engine, m) {
         .def("_every", &Sim::every)
         .def(
             "relax", [](Sim& sim) { return working([&] { return sim.relax(look_for_signals); }); },
-            "The state at zero load that the sites come to from where they are: a RestState.\n\n"
-            "A copy is relaxed; the simulation stays as it is. Raises PhysicsError if no state is "
-            "found.")
+            "Relaxes a copy of the sites from their present places at zero load.\n\n"
+            "Returns\n-------\nRestState\n    State of force balance; the simulation itself does "
+            "not change.\n\n"
+            "Raises\n------\nPhysicsError\n    If no state is found.")
         .def(
             "save",
             [](Sim& sim, const std::filesystem::path& file) {
                 working([&] { sim.save(file.string()); });
             },
             py::arg("file"),
-            "Writes everything but the observers into one file (HDF5), for Simulation.resume().\n\n"
-            "A file of an earlier save() is replaced, nothing else is: that raises SceneError.")
+            "Saves everything except the observers in one file (HDF5), for Simulation.resume().\n\n"
+            "Parameters\n----------\nfile : str or Path\n    The file; one of an earlier save() is "
+            "replaced.\n\n"
+            "Raises\n------\nSceneError\n    If the file exists and is not one of save().")
         .def(
             "maps", [](Sim& sim) { return working([&] { return sim.maps(); }); },
-            "The SiteMaps of the sites as they are now: gap, contact, pressure.")
+            "Returns maps of the sites in their present state.\n\n"
+            "Returns\n-------\nSiteMaps\n    Gap (Å), contact and pressure (GPa), [y, x].")
         .def_property_readonly(
             "done", &Sim::done,
-            "whether the scene's path has come to its end; never while the top is led by hand")
+            "True if the scene's path has come to its end; never while the top is led by hand")
         .def_property_readonly(
             "steps", [](const Sim& sim) { return sim.simulation().steps(); }, "steps made")
         .def_property_readonly(
@@ -327,7 +339,7 @@ PYBIND11_MODULE(_engine, m) {
             "fraction of the sites whose net normal force is repulsive, at the last observed step")
         .def_property_readonly(
             "segment", &Sim::segment,
-            "the segment of drive.path under way, as the scene has it; 'done' after the last")
+            "current segment of drive.path, as the scene has it; 'done' after the last")
         .def_property_readonly(
             "work_of_interface",
             [](const Sim& sim) {
@@ -345,27 +357,27 @@ PYBIND11_MODULE(_engine, m) {
             "work of the drive on the solids, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
             "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
-            "energy lost over approach and pull-off, with what still moves at the end, meV/Å²; "
-            "None "
-            "until then")
+            "energy lost over approach and pull-off, with the kinetic energy left at the end, "
+            "meV/Å²; None until then")
         .def_property_readonly(
             "u", [](Sim& sim) { return arrays_of(sim, sim.u()); },
-            "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; what is written is "
-            "felt by the next step")
+            "displacements of the lowest layer, Å: views .x, .y, .z, [y, x]; the next step uses "
+            "values written to them")
         .def_property_readonly(
             "v", [](Sim& sim) { return arrays_of(sim, sim.v()); },
-            "velocities of the lowest layer half a step before u, Å/fs: views .x, .y, .z, [y, x], "
-            "to be written as well")
+            "velocities of the lowest layer half a step before u, Å/fs: writable views .x, .y, .z, "
+            "[y, x]")
         .def_property_readonly(
             "f", [](Sim& sim) { return arrays_of(sim, sim.f(), false); },
-            "forces on the lowest layer in the last step (substrate and external), eV/Å: views .x, "
-            ".y, .z, to be read")
+            "forces on the lowest layer in the last step (substrate and external), eV/Å: read-only "
+            "views .x, .y, .z")
         .def_property(
             "external", [](Sim& sim) { return arrays_of(sim, sim.external()); }, &set_external,
-            "forces on the lowest layer from outside, eV/Å, from the next step on: an array [y, x, "
-            "3], or three of\n"
-            "[y, x]; they are copied. Reads as views .x, .y, .z of what acts, to be changed in "
-            "place; None: no field")
+            "external forces on the lowest layer, eV/Å, from the next step on: an array [y, x, 3], "
+            "or "
+            "three of [y, x],\n"
+            "which are copied. Reads as writable views .x, .y, .z of the present forces; None: no "
+            "field")
         .def_property_readonly(
             "external_work", [](const Sim& sim) { return sim.simulation().balance().external; },
             "work of the external field so far, eV")
@@ -376,8 +388,7 @@ PYBIND11_MODULE(_engine, m) {
                 return py::make_tuple(py::slice(tile.y0, tile.y0 + tile.ny, 1),
                                       py::slice(tile.x0, tile.x0 + tile.nx, 1));
             },
-            "which sites are this rank's, as an index [y, x]: u.z is whole[tile]; without comm, "
-            "all")
+            "sites of this rank as an index [y, x]: u.z is whole[tile]; without comm, all sites")
         .def_property_readonly(
             "spacing", [](const Sim& sim) { return sim.scene_case().scene.surface.spacing; },
             "distance of the sites, Å")
@@ -401,10 +412,11 @@ PYBIND11_MODULE(_engine, m) {
         });
 
     using Point = LedPath::Point;
-    py::class_<Point>(m, "Point", "A point of a quasi-static path: force balance at what is held.")
+    py::class_<Point>(m, "Point",
+                      "Point of a quasi-static path: force balance at the held quantity.")
         .def_readonly(
             "top", &Point::top,
-            "displacement of the top plane since the start, Å; 0 where the mean height is held")
+            "displacement of the top plane since the start, Å; 0 if the mean height is held")
         .def_readonly("mean_height", &Point::mean_height,
                       "mean height of the lowest layer above the substrate's zero, Å")
         .def_readonly(
@@ -415,31 +427,31 @@ PYBIND11_MODULE(_engine, m) {
         .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
         .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
         .def_readonly("work", &Point::work,
-                      "work of what holds the block, since the path began, eV")
+                      "work of the holder of the block since the path began, eV")
         .def_readonly("dissipated", &Point::damped,
                       "energy dissipated at instabilities, since the path began, eV")
-        .def_readonly(
-            "dissipated_in_block", &Point::relaxed,
-            "energy that a block that relaxes has dissipated by that, beside dissipated, eV")
+        .def_readonly("dissipated_in_block", &Point::relaxed,
+                      "energy dissipated by relaxing in the block, beside dissipated, eV")
         .def_readonly("branch_energy", &Point::branch_energy,
-                      "of elastic_energy, what the branches of a block that relaxes store, eV")
+                      "part of elastic_energy in the branches of a block that relaxes, eV")
         .def_property_readonly(
             "time", [](const Point& p) { return p.time / units::picosecond; },
-            "in which a block that relaxes was led there, ps")
-        .def_readonly("instabilities", &Point::instabilities, "how many points of the path had one")
+            "time of the path, for a block that relaxes, ps")
+        .def_readonly("instabilities", &Point::instabilities,
+                      "number of points of the path with an instability")
         .def_readonly("contact", &Point::contact_fraction,
                       "fraction of the sites whose nearest atom is in contact")
         .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
-                      "fraction of the sites that are pushed away")
-        .def_readonly("number", &Point::step, "points of the path since it began")
+                      "fraction of the sites whose net normal force is repulsive")
+        .def_readonly("number", &Point::step, "number of points since the path began")
         .def("__repr__", shown);
 
     using State = LedPath::State;
     using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
     py::class_<State>(
         m, "State",
-        "Where the sites stand, of Statics.copy(): all that a state depends on, what a "
-        "block that relaxes\nremembers with it.")
+        "State of the sites, returned by Statics.copy(): all numbers that determine it, with "
+        "the memory of a block\nthat relaxes.")
         .def(py::init([](const Array& u, double top, const std::optional<Array>& branches) {
                  if (u.ndim() != 3 || u.shape(0) != 3 || u.shape(1) != u.shape(2))
                      throw io::SceneError({"State", "is given another shape",
@@ -457,7 +469,7 @@ PYBIND11_MODULE(_engine, m) {
                 State& s = self.cast<State&>();
                 return py::array_t<double>({3, s.sites, s.sites}, s.u.data(), self);
             },
-            "displacements of the lowest layer, Å, [component, y, x], to be read and written")
+            "displacements of the lowest layer, Å, a writable array [component, y, x]")
         .def_readwrite("top", &State::top, "displacement of the top plane, Å")
         .def_property_readonly(
             "branches",
@@ -469,8 +481,9 @@ PYBIND11_MODULE(_engine, m) {
                     {s.branches.size() / sites, std::size_t(s.sites), std::size_t(s.sites)},
                     s.branches.data(), self);
             },
-            "extensions of the springs of block.prony, Å, [branch and component, y, x], to be read "
-            "and written; None:\nthe block has relaxed there")
+            "extensions of the springs of block.prony, Å, a writable array [branch and component, "
+            "y, "
+            "x]; None: the block\nhas relaxed in this state")
         .def("__repr__", [](const State& s) {
             return py::str("<State: {0} x {0} sites, top {1:.4g} Å>").format(s.sites, s.top);
         });
@@ -482,23 +495,23 @@ PYBIND11_MODULE(_engine, m) {
         }))
         .def(
             "relax", [](LedPath& s) { return working([&] { return s.relax(look_for_signals); }); },
-            "Leads the solids, point by point, to the mean_height, top or load that was set, and "
-            "returns the Point there.\n\n"
-            "Without a new target it returns the present point. Ctrl-C ends it at a point; the "
-            "next relax() goes on.\n"
-            "Raises PhysicsError where no equilibrium is found, or the solids part before a pull "
-            "is reached.")
+            "Leads the solids, point by point, to the mean_height, top or load that was set.\n\n"
+            "Ctrl-C stops at a point; the next relax() continues.\n\n"
+            "Returns\n-------\nPoint\n    Point at the target; without a new target the present "
+            "one.\n\n"
+            "Raises\n------\nPhysicsError\n    If no equilibrium is found, or the solids part "
+            "before a pull is reached.")
         .def(
             "free", [](LedPath& s) { return working([&] { return s.release(look_for_signals); }); },
-            "Relaxes the sites from where they are with nothing held, under drive.load; returns "
-            "the RestState.\n\n"
-            "From beyond the interaction range: the state that the segment \"relax\" of a run "
-            "leads to. The "
-            "next "
-            "relax() begins\na path there. Raises PhysicsError if no state is found; the "
-            "sites then stay.")
+            "Relaxes the sites from their present places with nothing held, under drive.load.\n\n"
+            "The next relax() begins a path in this state.\n\n"
+            "Returns\n-------\nRestState\n    The state; from beyond the interaction range that of "
+            "the segment \"relax\" of a run.\n\n"
+            "Raises\n------\nPhysicsError\n    If no state is found; the sites then stay in "
+            "place.")
         .def("copy", &LedPath::copy,
-             "Displacements of the sites and the top as a State, for restore().")
+             "Copies the state of the sites and the top.\n\n"
+             "Returns\n-------\nState\n    The state, for restore().")
         .def(
             "restore",
             [](LedPath& s, const py::object& state) {
@@ -509,26 +522,30 @@ PYBIND11_MODULE(_engine, m) {
                 s.restore(state.cast<const State&>());
             },
             py::arg("state"),
-            "Puts the sites where a State has them. The next relax() begins a path there: work, "
-            "dissipated and number\ncount from there.")
+            "Puts the sites into a state. The next relax() begins a path in it: work, dissipated "
+            "and "
+            "number count anew.\n\n"
+            "Parameters\n----------\nstate : State\n    Result of copy(), or State(u, top).\n\n"
+            "Raises\n------\nSceneError\n    If the state has another number of sites, or values "
+            "that are not finite.")
         .def(
             "maps", [](const LedPath& s) { return working([&] { return s.maps(); }); },
-            "The SiteMaps of the sites there: gap, contact, pressure.")
-        .def_property_readonly("now", &LedPath::now, "the Point of the last relax()")
+            "Returns maps of the sites at the last point.\n\n"
+            "Returns\n-------\nSiteMaps\n    Gap (Å), contact and pressure (GPa), [y, x].")
+        .def_property_readonly("now", &LedPath::now, "Point of the last relax()")
         .def_property(
             "mean_height", [](const LedPath& s) { return s.now().mean_height; },
             [](LedPath& s, const py::object& z) {
                 s.set_mean_height(quantity("mean_height", z, "Å"));
             },
-            "mean height of the lowest layer above the substrate's zero, Å. Written, a number or "
-            "\"0.3 nm\": the one to "
-            "which the next relax() leads it")
+            "mean height of the lowest layer above the substrate's zero, Å. A written value (a "
+            "number "
+            "or \"0.3 nm\") is the target of the next relax()")
         .def_property(
             "top", [](const LedPath& s) { return s.now().top; },
             [](LedPath& s, const py::object& z) { s.set_top(quantity("top", z, "Å")); },
-            "displacement of the top plane since the start, Å. Written, a number or \"-1 nm\": the "
-            "one to which the next "
-            "relax() leads it")
+            "displacement of the top plane since the start, Å. A written value (a number or \"-1 "
+            "nm\") is the target of the next relax()")
         .def_property_readonly(
             "_case", // what a search needs of it, in the units of the engine
             [](const LedPath& s) {
@@ -543,6 +560,8 @@ PYBIND11_MODULE(_engine, m) {
                     // Atoms anywhere can bind more than a flat layer does.
                     "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
                     "spacing"_a = c.scene.surface.spacing, "scale"_a = c.flat.work_of_adhesion,
+                    "separation"_a = c.flat.separation,
+                    "wall"_a = c.scene.interface.kind == InterfaceKind::wall,
                     "lateral"_a = !c.scene.interface.frictionless &&
                                   c.scene.interface.kind != InterfaceKind::wall);
             })

@@ -18,6 +18,8 @@ class _Components(NamedTuple):
 
 version: str
 
+def quantity(where: str, given: float | str, unit: str) -> float: ...
+
 class Energies:
     elastic: Final[float]
     interface: Final[float]

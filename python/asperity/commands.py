@@ -9,16 +9,17 @@ from .cost import TARGETS, Cost, target_of
 from .cost_parameters import cost_case
 from .errors import SceneError
 from .estimates import Estimating
-from .plots.sweep import write_plots
+from .plots.sweep import plot_files, write_plots
 from .pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
-from .report_cost import answer_of, text_of, write
+from .report_cost import FILES, answer_of, text_of, write
+from .scene import inputs_of
 from .sweeps import TABLES, Carried
 from .variations import Runs
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
-    """`asperity sweep`: its exit code, 75 if stopped before the end, else that of the first failure."""
-    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True))
+    """Carries out `asperity sweep`. Returns the exit code: 75 if stopped early, else that of the first failure."""
+    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True), plot_files(not theory_only))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
         print()
@@ -46,7 +47,8 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Its exit code: 75 if stopped before the end, that of the reference if it failed, 3 if nothing keeps the target."""
+    """Carries out `asperity cost`. Returns the exit code: 75 if stopped early, that of the reference if it failed, 3 if
+    nothing keeps the target."""
     asked = None if target is None else target_of(target)
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
@@ -55,6 +57,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     cost = Cost(case, asked)
     directory = files.chosen(out, f"results/{found['name']}-cost")
     print(f"reference: {case.reference_text}", flush=True)
+    files.require_free({directory: FILES}, inputs=inputs_of(scene, found["scene"]))
     with files.in_use(directory):
         runs = Runs(scene, overrides, directory, options)
         complete = runs.run(cost.rows)
@@ -77,11 +80,11 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
 
 def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                      parts: list[str], plan: bool) -> int:
-    """Its exit code: 75 if stopped before the end, that of the scene if it failed."""
+    """Carries out `asperity estimate`. Returns the exit code: 75 if stopped early, that of the scene if it failed."""
     def say(text: str) -> None:
         print(text, flush=True)
 
-    making = Estimating(scene, overrides, out, options, seeds, parts, say=say)
+    making = Estimating(scene, overrides, out, options, seeds, parts, say=say, also=report_estimate.FILES)
     say(making.told())
     if plan:
         return 0

@@ -24,12 +24,13 @@ TRIES = 4  # combinations that are run for a target
 
 
 def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Relative and with their signs."""
+    """Returns the signed relative errors."""
     return (measured - reference) / np.where(reference == 0, NAN, np.abs(reference))
 
 
 def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) -> float:
-    """Without sign, of the quantities that the reference has. NaN: the measured run lacks one of them."""
+    """Returns the largest absolute error of the quantities that the reference has; NaN if the measured run lacks one of
+    them."""
     if question == "path" and np.isnan(reference[ASKED["state"]:]).all():
         return NAN  # a reference that followed no path says nothing of one
     asked = slice(ASKED[question])
@@ -38,7 +39,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) ->
 
 
 def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
-    """Which of them are beaten by no other in run time and error at once; NaN is never among them."""
+    """Returns the points that no other point beats in run time and error at once; NaN is never among them."""
     s, e = np.asarray(seconds, float), np.asarray(errors, float)
     beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
@@ -59,7 +60,7 @@ class Cost:
         return any(r.compared and not math.isnan(r.error[question]) for r in self.rows)
 
     def compare(self) -> None:
-        """Errors, fronts and cheapest settings of the rows that are there."""
+        """Computes errors, fronts and cheapest settings of the rows that exist."""
         for row in self.rows:
             row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in ASKED}
         for question in ASKED:
@@ -70,7 +71,8 @@ class Cost:
                                            default=None) for t in TARGETS]
 
     def combinations(self, base: Base) -> list[tuple[float, float, Row]]:
-        """A value of each part: time over that of the reference runs, sum of own errors, the row to run; the cheapest first."""
+        """Returns combinations of one value of each part, the cheapest first: time over that of the reference runs, sum of own
+        errors, the row to run."""
         parts: dict[str, list[tuple[float, float, Row]]] = {p.part: [] for p in self.case.parameters if p.part in base.parts}
         for parameter in (p for p in self.case.parameters if p.part in parts):
             reference = parameter.rows[-1]
@@ -128,7 +130,7 @@ class Cost:
 
 
 def target_of(text: str) -> float:
-    """"1%" and "0.01" are 0.01. Raises SceneError."""
+    """Parses a relative error: "1%" and "0.01" are 0.01. Raises SceneError."""
     words = text.strip()
     with contextlib.suppress(ValueError):
         target = float(words.removesuffix("%")) * (0.01 if words.endswith("%") else 1.0)

@@ -27,7 +27,7 @@ ASKED = {"state": 2, "path": len(QUANTITIES)}
 
 
 def numbers_of(result: Values) -> np.ndarray:
-    """One number a quantity; NaN: none."""
+    """Returns one number for each quantity; NaN if there is none."""
     flat, *numbers = (result.number(key, NAN) for key in ("delta_gamma", "binding_energy", "contact_fraction",
                       "work_of_drive.approach", "work_of_drive.pull_off", "pull_off_force"))
     flat = flat or NAN
@@ -64,7 +64,8 @@ class Parameter(NamedTuple):
 
 
 class Base(NamedTuple):
-    """Where a combination starts: how the path is followed ("": as the scene says), the parts that matter, what it answers."""
+    """Starting point of a combination: how the path is followed ("": as the scene says), the parts that matter, the question
+    that it answers."""
     label: str
     setting: Setting
     parts: list[str]
@@ -89,8 +90,9 @@ def _chosen(parameters: list[Parameter], names: list[str] | None) -> list[Parame
 
 def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
               same_experiment: bool = False) -> CostCase:
-    """keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the parameters, none: all;
-    same_experiment: those of the numerics, and the reference is the scene with these at their best. Raises SceneError."""
+    """Returns the case of a scene. keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the
+    parameters, none: all; same_experiment: only numerical parameters, and the reference is the scene with these at their best.
+    Raises SceneError."""
     scene = Variations(keys, longest_timestep)
     if not same_experiment:
         scene.refuse_finite_strain("measure the same scene at small strain, or with --target")

@@ -7,7 +7,7 @@ Of a modulus E(t)/E = 1 + Σ r exp(-t/τ), a crack that opens at the velocity v 
 a is the radius of its tip, whose stress does not depend on v. G/G0 goes from 1 to 1 + Σ r. A solid of finite size gives
 a part back: the work of a pull-off has a maximum.
 
-prony: pairs (r, τ), as block.prony. Units: any consistent set.
+prony: pairs (r, τ), as block.prony. Numbers are in the package's units (ps, m/s, Å); a text has its own: "1 ns".
 """
 
 from __future__ import annotations
@@ -17,17 +17,71 @@ from typing import Any
 
 import numpy as np
 
-Prony = Sequence[tuple[float, float]]
+from .engine import quantity
+
+Prony = Sequence[tuple[float, "float | str"]]
+ANGSTROM_PER_PS = 0.01
+"""1 m/s in Å/ps."""
+
+
+def _branches(prony: Prony) -> list[tuple[float, float]]:
+    """Returns ratios and times, ps."""
+    return [(ratio, quantity("prony", time, "ps")) for ratio, time in prony]
+
+
+def _numbers(where: str, given: Any, unit: str) -> np.ndarray:
+    """Returns an array in this unit, of numbers, texts or lists of them."""
+    values = np.asarray(given)
+    if values.dtype.kind in "fiu":
+        return values.astype(float)
+    return np.array([quantity(where, value, unit) for value in values.ravel().tolist()]).reshape(values.shape)
 
 
 def modulus(prony: Prony, frequency: Any) -> Any:
-    """E(ω)/E, complex: storage and loss."""
-    iw = 1j * np.asarray(frequency, float)
-    return 1 + sum((r * iw * tau / (1 + iw * tau) for r, tau in prony), np.zeros(iw.shape, complex))
+    """Returns the complex modulus of a solid over its relaxed one, E(ω)/E.
+
+    Parameters
+    ----------
+    prony : sequence of (float, float or str)
+        Branches: modulus over the relaxed one, and relaxation time (ps, or text with a unit).
+    frequency : float, str or array
+        Angular frequency (1/ps, or text with a unit).
+
+    Returns
+    -------
+    complex or array
+        Storage (real) and loss modulus (imaginary part), dimensionless.
+    """
+    iw = 1j * _numbers("frequency", frequency, "1/ps")
+    return 1 + sum((r * iw * tau / (1 + iw * tau) for r, tau in _branches(prony)), np.zeros(iw.shape, complex))
 
 
-def opening_factor(prony: Prony, velocity: Iterable[float] | float, tip_radius: float) -> Any:
-    """G(v)/G0 of a crack that opens; tip_radius: a0, of the slowest one."""
+def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, tip_radius: float | str) -> Any:
+    """Returns the energy release rate of an opening crack over that of the slowest one, G(v)/G0.
+
+        asperity.crack.opening_factor([(9.0, "1 ns"), (1.5, "20 ns")], ["1 mm/s", "1 m/s"], "2 nm")
+
+    Parameters
+    ----------
+    prony : sequence of (float, float or str)
+        Branches: modulus over the relaxed one, and relaxation time (ps, or text with a unit).
+    velocity : float, str or array
+        Velocity of the crack (m/s, or text with a unit).
+    tip_radius : float or str
+        Tip radius a0 of the slowest crack (Å, or text with a unit).
+
+    Returns
+    -------
+    float or array
+        G(v)/G0 at each velocity, dimensionless.
+
+    Raises
+    ------
+    ValueError
+        If there is no branch, or a ratio, time or the radius is not positive.
+    """
+    prony, tip_radius = _branches(prony), quantity("tip_radius", tip_radius, "Å")
+    way = _numbers("velocity", velocity, "m/s") * ANGSTROM_PER_PS
     times = [tau for _, tau in prony]
     if not times or min(times) <= 0 or min(r for r, _ in prony) <= 0 or not tip_radius > 0:
         raise ValueError("a crack in a solid that relaxes has branches (ratio, time) and a tip_radius, all above 0")
@@ -36,4 +90,4 @@ def opening_factor(prony: Prony, velocity: Iterable[float] | float, tip_radius: 
     s = np.linspace(-35, 0, 3501)  # ln ω/ω_c
     weight = np.sqrt(-np.expm1(2 * s)) * (s[1] - s[0]) * 2 / np.pi
     factor = np.array([1 / (1 - weight @ (-1 / modulus(prony, w * np.exp(s))).imag) for w in cut])
-    return np.interp(np.log(np.asarray(velocity, float)), np.log(tip_radius * factor * cut / (2 * np.pi)), factor)
+    return np.interp(np.log(way), np.log(tip_radius * factor * cut / (2 * np.pi)), factor)

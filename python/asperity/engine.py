@@ -30,7 +30,7 @@ NAME = "asperity._engine"
 
 
 def load() -> Any:
-    """The compiled module: of this package, or of the build that the program is of. Raises ImportError."""
+    """Loads the compiled module of this package, or of the build of the program. Raises ImportError."""
     if NAME in sys.modules:
         return sys.modules[NAME]
     folders = [Path(__file__).parent]
@@ -62,11 +62,11 @@ if TYPE_CHECKING:
 else:
     _engine = load()
 RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
-State = _engine.State
+State, quantity = _engine.State, _engine.quantity
 
 
 class Components(NamedTuple):
-    """The three components of a field, each an array [y, x]. numpy.stack(field, -1) copies them to [y, x, 3]."""
+    """Three components of a field, each an array [y, x]. numpy.stack(field, -1) copies them to [y, x, 3]."""
 
     x: numpy.ndarray
     y: numpy.ndarray
@@ -74,14 +74,14 @@ class Components(NamedTuple):
 
 
 def _set_what_is_there(self: object, name: str, value: Any) -> None:
-    """In place of object's: a misspelt name would be kept, and do nothing."""
+    """Sets an existing attribute; refuses a misspelt name, which would have no effect."""
     if not name.startswith("_") and not hasattr(type(self), name):
         raise AttributeError(f"{type(self).__name__} has no '{name}' that can be set", name=name, obj=self)
     object.__setattr__(self, name, value)
 
 
 class Top:
-    """The block's rigid top plane. The scene's drive leads it until a velocity is given."""
+    """Rigid top plane of the block. The scene's drive moves it until a velocity is given."""
 
     __setattr__ = _set_what_is_there
 
@@ -93,8 +93,7 @@ class Top:
 
     @property
     def position(self) -> float:
-        """Displacement since the start, Å. Written, a number or "-1 nm": the plane is there in the next step, without a way
-        in between."""
+        """Displacement since the start, Å. A written value (a number or "-1 nm") takes effect at once in the next step."""
         return self._simulation._top_position
 
     @position.setter
@@ -103,8 +102,8 @@ class Top:
 
     @property
     def velocity(self) -> float:
-        """Velocity in the next step, m/s; positive moves away. Written, a number or "2 m/s": it is kept, and the scene's
-        path waits. None: the scene's path goes on from where it was."""
+        """Velocity in the next step, m/s; positive moves away. A written value (a number or "2 m/s") holds until the next one,
+        and the scene's path waits; None resumes the scene's path."""
         return self._simulation._top_velocity
 
     @velocity.setter
@@ -113,10 +112,10 @@ class Top:
 
 
 class Substrate(NamedTuple):
-    """The rigid substrate."""
+    """Rigid substrate."""
 
     height: numpy.ndarray
-    """Heights of its atoms, Å, a view [y, x] to be read."""
+    """Heights of the atoms, Å, a read-only view [y, x]."""
     edge: float
     """Edge of the periodic box, Å."""
 
@@ -125,14 +124,14 @@ class Substrate(NamedTuple):
 
 
 class NamedArrays(dict):
-    """Arrays by name; a wrong name is answered with those that there are."""
+    """Arrays by name; a wrong name raises KeyError with the existing ones."""
 
     def __missing__(self, name: object) -> numpy.ndarray:
         raise KeyError(f"no {name} in series; there are {', '.join(self)}")
 
 
 MPA = 1e3 / GIGAPASCAL
-"""MPa in an eV/Å³."""
+"""Number of MPa in an eV/Å³."""
 MAPS = {"gap": "Å", "contact": "1", "pressure": "GPa"}
 SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
     "step": ("1", lambda s: s.steps - 1), "time": ("ps", lambda s: s.time),
@@ -142,12 +141,13 @@ SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
     "interface_energy": ("eV", lambda s: s.energy.interface), "elastic_energy": ("eV", lambda s: s.energy.elastic),
     "kinetic_energy": ("eV", lambda s: s.energy.kinetic), "work": ("eV", lambda s: s.energy.work),
     "damped": ("eV", lambda s: s.energy.damped), "balance_error": ("1", lambda s: s.energy.balance_error)}
-"""The engine's columns of Simulation.series, as in run.h5: unit, value. segment: -1 while the top is led by hand."""
+"""Columns of the engine in Simulation.series, as in run.h5: unit, value. segment: -1 while the top is led by hand."""
 
 
 @contextlib.contextmanager
 def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
-    """A bar of tqdm, in a notebook one of its own kind, or lines of text; to be told how many steps were made."""
+    """Makes a bar of tqdm, in a notebook one of its own kind, or lines of text; yields a function that takes the number of
+    steps made."""
     bar, text = None, Progress()
     with contextlib.suppress(ImportError), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a notebook without ipywidgets has bars of text
@@ -170,7 +170,7 @@ def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
 
 
 def _number(comm: Any) -> int | None:
-    """Of mpi4py's communicator, for the engine. Raises SceneError for one of another MPI than the engine's."""
+    """Returns the number of mpi4py's communicator for the engine. Raises SceneError if its MPI is not that of the engine."""
     if comm is None:
         return None
     from mpi4py import MPI
@@ -185,7 +185,7 @@ def _number(comm: Any) -> int | None:
 
 
 def _end_all_with(comm: Any) -> None:
-    """From now on an error that ends this rank ends all of comm: the others would wait for it."""
+    """Makes an error that ends this rank end all ranks of comm, which would wait for it otherwise."""
     before = sys.excepthook
     if before.__module__ == __name__:
         return
@@ -199,27 +199,33 @@ def _end_all_with(comm: Any) -> None:
 
 
 class Simulation(_engine.Simulation):
-    """A scene's dynamic path, a step at a time.
+    """Dynamic path of a scene, one step at a time.
 
         sim = asperity.Simulation("scene.toml", {"surface.rms": 2.0})
         while not sim.done:
             sim.step(100)
             print(sim.time, sim.force, sim.contact)
 
-    scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
-    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
+    The path is that of `asperity run`, with bitwise identical results. A step computes forces at its start and then moves the
+    sites: time, force and energies belong to that start, as in the rows of a run's series, while u is one step further.
+    Energies and contacts are summed in observed steps: the last of each step(), each output.series-th, and those of
+    observers. A simulation uses all threads of its process or rank (OMP_NUM_THREADS). Notes on a scene are warnings
+    (SceneWarning).
 
-    The path starts and turns as `asperity run` has it, with bitwise identical results. A step takes forces at its start and
-    then moves the sites: time, force and energies are of that start, as in the rows of a run's series, and u has
-    moved on by one step. Energies and contacts are summed in observed steps: the last of each step(), each
-    output.series-th, and those of observers.
+    Parameters
+    ----------
+    scene : str, Path or dict
+        TOML file, or dictionary of the scene's sections: {"surface": {"sites": 64}}.
+    overrides : dict, optional
+        Values by key, {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers in the units of docs/reference/scene.md.
+    comm : mpi4py.MPI.Comm, optional
+        Ranks that share the simulation, MPI.COMM_WORLD; each has a `tile` of the sites. All ranks make the same calls with
+        the same arguments; each writes to its own sites. An error that ends one rank ends all.
 
-    comm       ranks to share it, mpi4py's MPI.COMM_WORLD; each has a `tile` of the sites. All of them make the
-               same calls with the same arguments, but for what is written to their own sites. An error that ends one
-               of them ends all.
-
-    It takes all threads of its process, or rank (OMP_NUM_THREADS). Raises SceneError for a quasi-static scene and for one
-    that a run would refuse; notes on a scene are warnings (SceneWarning).
+    Raises
+    ------
+    SceneError
+        If the scene is quasi-static, or a run would refuse it.
     """
 
     __setattr__ = _set_what_is_there
@@ -229,7 +235,7 @@ class Simulation(_engine.Simulation):
                 f"{self.stress:.4g} MPa, contact {self.contact:.4g}>")
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
-        """A scene at the start of its path."""
+        """Places a scene at the start of its path."""
         with scene_file(scene, overrides=overrides) as file:
             super().__init__(file, assignments(overrides), _number(comm))
         self._begin(comm)
@@ -241,17 +247,51 @@ class Simulation(_engine.Simulation):
 
     @classmethod
     def resume(cls, file: str | os.PathLike, comm: Any = None) -> Simulation:
-        """The simulation that save() wrote, which goes on with bitwise identical results. Observers are given anew."""
+        """Resumes a simulation from a file of save(), with bitwise identical results. Observers must be given anew.
+
+        Parameters
+        ----------
+        file : str or Path
+            File of save().
+        comm : mpi4py.MPI.Comm, optional
+            Ranks that share the simulation; any number.
+
+        Returns
+        -------
+        Simulation
+            The simulation.
+
+        Raises
+        ------
+        InputOutputError, SceneError
+            If the file cannot be read or is no saved simulation.
+        """
         simulation = cls.__new__(cls)
         _engine.Simulation.__init__(simulation, os.fspath(file), _number(comm))
         simulation._begin(comm)
         return simulation
 
     def step(self, n: int = 1, progress: bool = False) -> int:
-        """Makes n steps, or fewer: none past the end of the scene's path (`done`). Returns how many.
+        """Makes n steps, or fewer at the end of the scene's path (`done`).
 
-        Other Python threads run meanwhile; Ctrl-C ends it between two steps. progress: shows a bar (tqdm's, if it is
-        installed). Raises PhysicsError where the physics fails a guard; that simulation has then ended.
+        Other Python threads run meanwhile; Ctrl-C stops between two steps.
+
+        Parameters
+        ----------
+        n : int
+            Number of steps.
+        progress : bool
+            Show a bar (tqdm's, if it is installed).
+
+        Returns
+        -------
+        int
+            Number of steps made.
+
+        Raises
+        ------
+        PhysicsError
+            If a guard stops the simulation, which has then ended.
         """
         n = operator.index(n)
         if not progress:
@@ -264,12 +304,12 @@ class Simulation(_engine.Simulation):
 
     @property
     def top(self) -> Top:
-        """The top plane: .position (Å) and .velocity (m/s), to be read and written."""
+        """Top plane with .position (Å) and .velocity (m/s), readable and writable."""
         return Top(self)
 
     @property
     def substrate(self) -> Substrate:
-        """The substrate: .height (Å, [y, x]) and .edge (Å)."""
+        """Substrate with .height (Å, [y, x]) and .edge (Å)."""
         return Substrate(self._substrate_height, self._substrate_edge)
 
     @property
@@ -288,11 +328,25 @@ class Simulation(_engine.Simulation):
         return self.force / self.area * MPA
 
     def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
-        """Calls observer(simulation) after each step whose number divides by n, the first one included.
+        """Calls an observer after each step whose number divides by n, the first step included.
 
-        It may read and write what a script may between two steps, but must not call step(). What it raises ends step().
-        A number that it returns goes to the column `name` of `series` (else that of the function's name), those of a
-        dictionary to the columns that its keys name.
+        The observer may read and write as a script may between two steps, but must not call step(). An exception of the
+        observer ends step().
+
+        Parameters
+        ----------
+        n : int
+            Period, steps.
+        observer : callable
+            Function of the simulation. A number that it returns is added to a column of `series`; the numbers of a returned
+            dictionary are added to the columns named by its keys.
+        name : str, optional
+            Name of the column; by default the function's name.
+
+        Raises
+        ------
+        SceneError
+            If the observer cannot be called.
         """
         if not callable(observer):
             raise SceneError("every", "is given no function", f"{observer!r} cannot be called",
@@ -322,15 +376,30 @@ class Simulation(_engine.Simulation):
 
     @property
     def series(self) -> dict[str, numpy.ndarray]:
-        """What observers returned: columns by name, a row for each step at which one did, beside the engine's own
-        (step, time, force, ..., named and in units as in run.h5). nan: the row's step had no such value."""
+        """Columns by name: the values of observers, one row for each step at which one returned a value, and the engine's
+        columns (step, time, force, ..., with the names and units of run.h5). nan: no value at this step."""
         names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
         return NamedArrays((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
 
     def write(self, directory: str | os.PathLike) -> Path:
-        """Writes a result directory for asperity.load(): the scene, `series`, and the maps of the sites as they are,
-        as the state "now". With `comm` the first rank writes them, with its own series and the maps of all. Raises
-        SceneError where there is a result already."""
+        """Writes a result directory for asperity.load(): the scene, `series`, and the present maps of the sites as the state
+        "now". With `comm` the first rank writes, with its own series and the maps of all ranks.
+
+        Parameters
+        ----------
+        directory : str or Path
+            Directory without a result.
+
+        Returns
+        -------
+        Path
+            The directory.
+
+        Raises
+        ------
+        SceneError
+            If the directory holds a result already.
+        """
         maps, comm = self.maps(), self._comm
         mine = {name: getattr(maps, name) for name in MAPS}
         if comm is None:
@@ -355,25 +424,29 @@ class Simulation(_engine.Simulation):
         units = {name: unit for name, (unit, _) in SERIES.items()}
         with files.in_use(place):
             if (place / "result.json").exists():
-                raise SceneError(str(place), "already holds a result", "results are not written over",
+                raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                                  "name another directory, or remove this one")
-            with files.replacing(place / "run.h5") as beside, h5py.File(beside, "w") as file:
-                parts = {**{f"series/{name}": (values, units.get(name)) for name, values in self.series.items()},
-                         **{f"fields/now/{name}": (maps[name], unit) for name, unit in MAPS.items()},
-                         "substrate/height": (self.substrate.height, "Å")}
-                for name, (values, unit) in parts.items():
-                    file[name] = values
-                    if unit:
-                        file[name].attrs["unit"] = unit
-                file["substrate"].attrs["edge"] = self.substrate.edge
-            files.write(place / "result.json", files.sealed_json({
-                "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
-                "scene": tomllib.loads(self._scene)}))
+            with files.outputs(place, ("run.h5", "result.json"), renew=False) as written:
+                self._write_files(written, maps, units)
         return place
+
+    def _write_files(self, written: files.Outputs, maps: dict[str, numpy.ndarray], units: dict[str, str]) -> None:
+        with written.replacing("run.h5") as beside, h5py.File(beside, "w") as file:
+            parts = {**{f"series/{name}": (values, units.get(name)) for name, values in self.series.items()},
+                     **{f"fields/now/{name}": (maps[name], unit) for name, unit in MAPS.items()},
+                     "substrate/height": (self.substrate.height, "Å")}
+            for name, (values, unit) in parts.items():
+                file[name] = values
+                if unit:
+                    file[name].attrs["unit"] = unit
+            file["substrate"].attrs["edge"] = self.substrate.edge
+        written.write("result.json", files.sealed_json({
+            "name": self._name, "run": {"version": _engine.version, "steps": self.steps},
+            "scene": tomllib.loads(self._scene)}))
 
 
 class Statics(_engine.Statics):
-    """A quasi-static scene: a script prescribes positions or loads, and the solids are relaxed to force balance there.
+    """Quasi-static path of a scene: a script prescribes positions or loads, and the solids relax to force balance.
 
         statics = asperity.Statics("scene.toml")
         for height in (6.0, 4.0, 3.0, 4.0, 6.0):
@@ -381,18 +454,29 @@ class Statics(_engine.Statics):
             point = statics.relax()
             print(point.mean_height, point.force, point.dissipated)
 
-    It starts beyond the interaction range. The state at a point depends on the way there, as on a path of `asperity run`;
-    energy lost on the way is counted. Mean height or top plane: the one that is written first is held from then on (a
-    load holds what drive.control of the scene says). A dynamic scene is taken as if its drive.mode were "quasistatic".
-    scene and overrides are as for Simulation.
+    The path starts beyond the interaction range. The state at a point depends on the way there, as on a path of
+    `asperity run`; energy lost on the way is counted. Mean height or top plane: the one that is written first is held from
+    then on (a load holds the quantity of drive.control). A dynamic scene is treated as if its drive.mode were "quasistatic".
 
-    free() is the state with nothing held; copy() keeps a state, and restore() leads back to it:
+    free() finds the state with nothing held; copy() copies a state, and restore() puts it back:
 
         statics.mean_height = 3.1
         statics.relax()
         held = statics.copy()
         print(statics.free().binding_energy)
         statics.restore(held)
+
+    Parameters
+    ----------
+    scene : str, Path or dict
+        TOML file, or dictionary of the scene's sections.
+    overrides : dict, optional
+        Values by key; numbers in the units of docs/reference/scene.md.
+
+    Raises
+    ------
+    SceneError
+        If a run would refuse the scene.
     """
 
     __setattr__ = _set_what_is_there
@@ -418,7 +502,7 @@ class Statics(_engine.Statics):
 
     @property
     def substrate(self) -> Substrate:
-        """The substrate: .height (Å, [y, x]) and .edge (Å)."""
+        """Substrate with .height (Å, [y, x]) and .edge (Å)."""
         return Substrate(self._substrate_height, self.edge)
 
     @property
@@ -427,7 +511,7 @@ class Statics(_engine.Statics):
         return self.now.force / self.area * MPA
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
-        """The solids of a scene, beyond the interaction range of each other."""
+        """Places the solids of a scene beyond the interaction range."""
         with scene_file(scene, overrides=overrides) as file:
             super().__init__(file, assignments(overrides))
 
@@ -435,8 +519,8 @@ class Statics(_engine.Statics):
     def load(self) -> None:
         """Load to which the next relax() leads the solids, written as MPa or "100 MPa"; positive presses.
 
-        The block moves in until the force rises to the load, or out until it falls to it. It cannot be read: the force
-        of a point is point.force.
+        The block moves in until the force rises to the load, or out until the force falls to it. The load cannot be read:
+        the force of a point is point.force.
         """
         raise AttributeError("a load can be written, not read: the force of a point is point.force, eV/Å")
 
@@ -445,9 +529,22 @@ class Statics(_engine.Statics):
         self._load(pressure)
 
     def hold(self, time: float | str) -> _engine.Point:
-        """Stays where it is for a time (ps, or "20 ns") while the block relaxes (block.prony); the Point then.
+        """Holds the present position while the block relaxes (block.prony). After an interruption relax() continues.
 
-        After an interruption relax() goes on with the rest of it.
+        Parameters
+        ----------
+        time : float or str
+            Duration, ps, or a text with a unit: "20 ns".
+
+        Returns
+        -------
+        Point
+            The point at the end.
+
+        Raises
+        ------
+        SceneError
+            If the scene has no block.prony.
         """
         self._hold(time)
         return self.relax()

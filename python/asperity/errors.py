@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Errors.
 
-Each has the exit code of the command it ends, as in the program, and a message of one grammar:
+Each error has the exit code of the command that it ends, as in the program, and a message of one grammar:
 
     <where>: what is wrong
         why: the reason, with the values
@@ -16,11 +16,11 @@ import sysconfig
 from pathlib import Path
 
 NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "jinja2")
-"""Packages of PyPI that this one imports."""
+"""Packages of PyPI that this package imports."""
 
 
 def to_install(*packages: str) -> str:
-    """The commands that install packages of PyPI for this Python. Debian's own takes none by pip."""
+    """Returns the commands that install packages of PyPI for this Python. Debian's own Python takes none by pip."""
     if not (Path(sysconfig.get_path("stdlib")) / "EXTERNALLY-MANAGED").exists() or sys.prefix != sys.base_prefix:
         return f"{sys.executable} -m pip install {' '.join(packages)}"
     debian = {name: "python3-" + name for name in (*NEEDED, "ase")}
@@ -32,7 +32,7 @@ def to_install(*packages: str) -> str:
 
 
 class Error(Exception):
-    """Base class; `code` is the exit code, `problems` the number of things that are wrong."""
+    """Base class: `code` is the exit code, `problems` the number of mistakes."""
 
     code = 1
 
@@ -46,42 +46,53 @@ class Error(Exception):
 
 
 class SceneError(Error):
-    """The scene, the command line or an input that the scene names is wrong (exit 2)."""
+    """Error in the scene, in the command line or in an input that the scene names (exit 2)."""
 
     code = 2
 
     @classmethod
     def of(cls, problems: list[dict]) -> SceneError:
-        """All problems that the program listed: where, what, why, fix."""
+        """Returns one error with all problems that the program listed.
+
+        Parameters
+        ----------
+        problems : list of dict
+            Problems with the members where, what, why and fix.
+
+        Returns
+        -------
+        SceneError
+            The error, whose message lists them all.
+        """
         error = cls("\n".join(str(cls(**p)) for p in problems))
         error.problems = len(problems)
         return error
 
 
 class SceneWarning(UserWarning):
-    """Worth knowing of a scene, not wrong."""
+    """Warning about a scene that is worth knowing and no mistake."""
 
 
 class PhysicsError(Error):
-    """A guard of the physics stopped the run (exit 3)."""
+    """Error of the physics: a guard stopped the run (exit 3)."""
 
     code = 3
 
 
 class InputOutputError(Error):
-    """A file could not be read or written (exit 4)."""
+    """Error of a file that could not be read or written (exit 4)."""
 
     code = 4
 
 
 class Stopped(Error):
-    """The run stopped early and left a valid checkpoint (exit 75)."""
+    """End of a run that stopped early and left a valid checkpoint (exit 75)."""
 
     code = 75
 
 
 class InternalError(Error):
-    """The program ended in a way that it should not (exit 1 or a signal)."""
+    """Error of the program itself: it ended in an unexpected way (exit 1 or a signal)."""
 
 
 BY_CODE = {cls.code: cls for cls in (SceneError, PhysicsError, InputOutputError, Stopped)}

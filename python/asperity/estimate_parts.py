@@ -41,6 +41,7 @@ FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
         Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
         Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
+        Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
         Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
 CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
@@ -61,8 +62,8 @@ def convergence_of(result: Values, path: str) -> float:
     parent, _, leaf = path.rpartition(".")
     if path == "binding_energy_ratio":
         return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
-    if path == "lost.cycle":
-        return sum(result.number(f"lost.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
+    if leaf == "cycle":
+        return sum(result.number(f"{parent}.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
     return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
 
 

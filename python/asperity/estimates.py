@@ -22,7 +22,7 @@ from .errors import BY_CODE, Error, InternalError, SceneError, Stopped
 from .estimate_parts import CURVED, FLAT, Part, Plan, SpacingAlso, edges, finer, number_of, places, plan_of, stated
 from .pool import DONE, PoolOptions, refuse_jobs
 from .result import Values, read_json
-from .scene import Overrides, SceneLike, assignments, scene_file, toml_of
+from .scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from .stated_number import Found, Number
 from .terminal import duration
 from .units import GIGAPASCAL
@@ -105,10 +105,8 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 # Planning.
 
-def _file_of(name: str, scene: str) -> str:
-    """A file that a scene names, as the program finds it: beside the scene, or in the working directory."""
-    beside = Path(scene).parent / name
-    return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
+MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+"""What the parts of a measured map are written to, in the folder maps."""
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
@@ -120,7 +118,9 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
     of = Values(keys)
     sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
     unit = of.text("surface.file_unit")
-    there = maps.read_map(_file_of(of.text("surface.file"), scene), "Å" if unit in ("", "auto") else unit)
+    inputs = inputs_of(scene, keys)
+    files.require_free({place: MAP_FILES}, inputs=inputs)
+    there = maps.read_map(file_beside(of.text("surface.file"), scene), None if unit in ("", "auto") else unit, assumed="Å")
     heights = maps.square(there.heights)
     size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
     if size > 1.005 * edge:  # the program takes its middle
@@ -129,7 +129,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         heights = heights[start:start + n, start:start + n]
     if of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
-        made["surface"].update(rms=None, file=str(Path(_file_of(of.text("surface.file"), scene)).resolve()))
+        made["surface"].update(rms=None, file=str(Path(file_beside(of.text("surface.file"), scene)).resolve()))
         with scene_file(made) as file:
             heights = heights * (of.number("surface.rms") / surface_made(file).rms)
 
@@ -142,22 +142,24 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
             made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
             made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
                                 "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+            if name == "finer":  # the surface as it was made: what was taken off it is off
+                made["surface"]["line_noise"] = "keep"
             thickness = of.number("block.thickness")
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
-                made["interface"]["table"] = str(Path(_file_of(of.text("interface.table"), scene)).resolve())
+                made["interface"]["table"] = str(Path(file_beside(of.text("interface.table"), scene)).resolve())
             made.pop("sweep", None)
-            files.directory(place)
-            with files.replacing(place / f"{stem}.npy") as beside, open(beside, "wb") as file:
-                np.save(file, piece)
-            files.write(place / f"{stem}.toml", toml_of(made))
+            with files.outputs(place, (f"{stem}.npy", f"{stem}.toml"), inputs=inputs) as written:
+                with written.replacing(f"{stem}.npy") as beside, open(beside, "wb") as file:
+                    np.save(file, piece)
+                written.write(f"{stem}.toml", toml_of(made))
             rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
         return rows
 
     parts = [Part("waves", "truncation", "")]
     if continuous:
-        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(_file_of(of.text("surface.file"), scene)).resolve())}}) as file:
+        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}}) as file:
             made_of_it = surface_made(file).heights
         order = 1 if spacing_also(0.5) else None  # None: that of the quantity
         parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
@@ -179,21 +181,21 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
 
 
 class SurfaceMade(NamedTuple):
-    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]."""
+    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]; doubts: notes on the file of a map."""
 
     rms: float
     slope: float
     heights: np.ndarray
+    doubts: list[str]
 
 
 def surface_made(file: str) -> SurfaceMade:
     """Returns the surface that a scene makes."""
+    made = program.surface(file)
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        text = program.call(["surface", file, "--out", str(Path(place) / "surface")])
-        slope = re.search(r"rms slope +(\S+) +differences", text.partition("the surface made")[2])
-        rms = read_json(Path(place) / "surface/result.json").number("surface.rms", math.nan)
+        program.call(["surface", file, "--out", str(Path(place) / "surface")])
         heights = maps.read_map(str(Path(place) / "surface/heights.h5")).heights
-    return SurfaceMade(rms, float(slope[1]) if slope else math.nan, heights)
+    return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
@@ -256,8 +258,9 @@ class Estimating:
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
-                 say: Callable[[str], None] = print, withheld: str = "", condition: str = ""):
-        """withheld, condition: of the numbers OF_A_PATH, why they are not stated, or what they hold for."""
+                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
+        """withheld, condition: of the numbers OF_A_PATH, why they are not stated, or what they hold for; also: names of files
+        that the caller will write there."""
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -271,6 +274,8 @@ class Estimating:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
         self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
         self.place = files.chosen(out, f"results/{self.name}-estimate")
+        self.inputs = inputs_of(scene, keys)
+        files.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
         self.withheld, self.condition = withheld, condition
         pinning = answer.get("edge_pinning", 1.0)
         if varied.moves and pinning > PINNED and not withheld:
@@ -334,7 +339,8 @@ class Estimating:
                             | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
                                zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
         if complete:
-            files.write(self.place / RESULT, files.sealed_json(estimate.json()))
+            with files.outputs(self.place, [RESULT], inputs=self.inputs) as written:
+                written.write(RESULT, files.sealed_json(estimate.json()))
         return estimate, complete
 
 

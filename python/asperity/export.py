@@ -16,6 +16,7 @@ from __future__ import annotations
 import base64
 import struct
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -65,7 +66,7 @@ class Atoms:
 
 
 def _rows(file: IO[str], atoms: Atoms, before: list[np.ndarray], after: list[np.ndarray]) -> None:
-    """Lines of columns: those before the positions, these with more digits, and those behind."""
+    """Returns lines of columns: those before the positions, the positions with more digits, and those behind."""
     forms, columns = [], []
     for values in [*before, atoms.positions, *after]:
         form = {"U": "%s", "f": "%.8g" if values is atoms.positions else "%.6g"}.get(values.dtype.kind, "%d")
@@ -77,8 +78,8 @@ def _rows(file: IO[str], atoms: Atoms, before: list[np.ndarray], after: list[np.
 
 
 def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
-    """Velocities under the names that readers take for them: velo (Å/ps) is OVITO's; ASE makes its own of momenta
-    and masses, in its units."""
+    """Returns the columns. Velocities have the names that readers expect: velo (Å/ps) for OVITO; ASE computes its own from
+    momenta and masses, in its units."""
     columns = dict(atoms.columns)
     velocity = columns.pop("velocity", None)
     if velocity is not None:
@@ -88,7 +89,7 @@ def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
 
 
 def write_xyz(file: IO[str], atoms: Atoms) -> None:
-    """A frame of extended XYZ: the lattice, what the columns are, and what else is known."""
+    """Writes a frame of extended XYZ: the lattice, the meaning of the columns, and further properties."""
     low, high = atoms.box_z
     columns = _xyz_columns(atoms)
     head = (f'{len(atoms.types)}\nLattice="{atoms.edge:.8g} 0 0 0 {atoms.edge:.8g} 0 0 0 {high - low:.8g}" '
@@ -107,13 +108,13 @@ def _text(template: str, **values: Any) -> str:
 
 
 def _packed(values: np.ndarray, form: str) -> str:
-    """An array as VTK's XML takes it: base64, the length in bytes first."""
+    """Returns an array in the form of VTK's XML: base64, the length in bytes first."""
     data = np.ascontiguousarray(values, form).tobytes()
     return base64.b64encode(struct.pack("<Q", len(data)) + data).decode()
 
 
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
-    """VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors."""
+    """Returns VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors."""
     arrays = []
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
@@ -122,7 +123,7 @@ def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> st
 
 
 def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:
-    """VTK's XML of points [point, 3], each a vertex, with vectors [point, 3] by name."""
+    """Returns VTK's XML of points [point, 3], each a vertex, with vectors [point, 3] by name."""
     n = len(points)
     return _text("points.vtp", n=n, points=_packed(points, "<f4"), vertices=_packed(np.arange(n), "<i8"),
                  ends=_packed(np.arange(1, n + 1), "<i8"),
@@ -159,27 +160,30 @@ class Export:
     def _strange(self, what: str, why: str) -> InputOutputError:
         return InputOutputError(str(self.run.file.path), what, why, "was the file written by another program?")
 
-    def _path(self, name: str) -> Path:
-        return files.directory(self.run.directory / "export") / name
+    def _outputs(self, names: Iterable[str]) -> AbstractContextManager[files.Outputs]:
+        return files.outputs(self.run.directory, [f"export/{name}" for name in names])
+
+    def _paths(self, names: Iterable[str]) -> list[Path]:
+        return [self.run.directory / "export" / name for name in names]
 
     def _frames(self) -> int:
         steps = self.run.file.members(TRAJECTORY + "/position")
         return len(self.run.file.array(TRAJECTORY + "/position/step", 1)) if "step" in steps else 0
 
     def _sites(self, state: State) -> int:
-        """Of the state's maps, which must be of one size."""
+        """Returns the number of sites of the state's maps, which must be of one size."""
         sizes = {len(state[name]) for name in state}
         if len(sizes) != 1:
             raise self._strange(f'state "{state.name}" cannot be exported', f"its maps have the sizes {sorted(sizes)}")
         return sizes.pop()
 
     def _atoms(self, layer: np.ndarray, *more: Any) -> Atoms:
-        """Of the substrate, and of the block's lowest layer."""
+        """Returns the atoms of the substrate and of the block's lowest layer."""
         types = np.concatenate([self.types, np.full(len(layer), self.types.max() + 1)])
         return Atoms(np.vstack([self.rigid, layer]), types, self.run.edge, *more)
 
     def _state_atoms(self, state: State) -> Atoms:
-        """Both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
+        """Returns both layers with the maps as columns, zero for the substrate. Sites stand over its hollows."""
         for name in DISPLACEMENT:
             if name not in state:
                 raise self._strange(f'state "{state.name}" cannot be exported', f"it has no map {name}")
@@ -199,7 +203,7 @@ class Export:
         return self._atoms(rest + u, columns)
 
     def _trajectory(self) -> Iterator[tuple[int, float, np.ndarray, dict[str, np.ndarray]]]:
-        """Step, time (ps), the lowest layer [site, 3], and what else there is of it, of each frame."""
+        """Yields step, time (ps), the lowest layer [site, 3], and further arrays of each frame."""
         file = self.run.file
         steps, times = (file.array(f"{TRAJECTORY}/position/{n}", 1) for n in ("step", "time"))
         moving = "velocity" in file.members(TRAJECTORY)
@@ -214,30 +218,30 @@ class Export:
             yield self._atoms(layer, columns, step, time, self._mass)
 
     def atoms(self) -> list[Path]:
-        """Every state, and the trajectory."""
-        written = []
-
-        def save(name: str, frames: Iterable[Atoms]) -> None:
-            path = self._path(name)
-            with files.replacing(path) as beside, open(beside, "w", encoding="utf-8") as file:
-                for frame in frames:
-                    write_xyz(file, frame)
-            written.append(path)
-
-        for state in self.run.fields.values():
-            save(file_name(state.name) + ".xyz", [self._state_atoms(state)])
+        """Writes every state and the trajectory."""
+        frames: dict[str, Callable[[], Iterable[Atoms]]] = {
+            file_name(state.name) + ".xyz": partial(lambda one: [self._state_atoms(one)], state)
+            for state in self.run.fields.values()}
         if self._frames():
-            save("trajectory.xyz", self._trajectory_atoms())
-        return written
+            frames["trajectory.xyz"] = self._trajectory_atoms
+        with self._outputs(frames) as out:
+            for name, of_file in frames.items():
+                with out.replacing(f"export/{name}") as beside, open(beside, "w", encoding="utf-8") as file:
+                    for frame in of_file():
+                        write_xyz(file, frame)
+        return self._paths(frames)
 
     def pictures(self) -> list[Path]:
+        made = {f"{name}-{file_name(state.name)}": (state, name) for state in self.run.fields.values()
+                for name in ("gap", "pressure", "contact")}
         written = []
-        for state in self.run.fields.values():
-            for name in ("gap", "pressure", "contact"):
+        with self._outputs(file for stem in made for file in figures.files_of(stem)) as out:
+            for stem, (state, name) in made.items():
                 fig = figures.make(partial(map_of, self.run, state, name))
                 if fig is not None:
-                    written += figures.save(fig, self._path(f"{name}-{file_name(state.name)}"))
-        return written
+                    figures.save(fig, out, f"export/{stem}")
+                    written += figures.files_of(stem)
+        return self._paths(written)
 
     def images(self) -> list[Path]:
         n = len(self.run.substrate.height)
@@ -248,25 +252,27 @@ class Export:
             if set(DISPLACEMENT) <= set(state):
                 maps["displacement (Å)"] = np.dstack([state[name] for name in DISPLACEMENT])
             texts[file_name(state.name)] = image_text(self.spacing, 0.5 * self.spacing, maps)
-        for name, text in texts.items():
-            files.write(self._path(name + ".vti"), text)
-        return [*(self._path(name + ".vti") for name in texts), *self._film()]
+        film = self._frames() > 0
+        frames = [f"trajectory/{number:05}.vtp" for number in range(self._frames())]
+        written = [name + ".vti" for name in texts] + ["trajectory.pvd"] * film
+        with self._outputs([*written, *frames]) as out:
+            for name, text in texts.items():
+                out.write(f"export/{name}.vti", text)
+            if film:
+                self._film(out, frames)
+        return self._paths(written)
 
-    def _film(self) -> list[Path]:
-        """The frames as points, and trajectory.pvd, which has their times."""
-        if not self._frames():
-            return []
-        place, frames = files.directory(self._path("trajectory")), []
-        for number, (_, time, layer, more) in enumerate(self._trajectory()):
-            frames.append((time, f"trajectory/{number:05}.vtp"))
-            files.write(place / f"{number:05}.vtp",
-                        points_text(layer, {f"{name} (Å/ps)": values for name, values in more.items()}))
-        files.write(self._path("trajectory.pvd"), _text("trajectory.pvd", frames=frames))
-        return [self._path("trajectory.pvd")]
+    def _film(self, out: files.Outputs, names: list[str]) -> None:
+        """Writes the frames as points, and trajectory.pvd, which has their times."""
+        frames = []
+        for name, (_, time, layer, more) in zip(names, self._trajectory()):
+            frames.append((time, name))
+            out.write(f"export/{name}", points_text(layer, {f"{key} (Å/ps)": values for key, values in more.items()}))
+        out.write("export/trajectory.pvd", _text("trajectory.pvd", frames=frames))
 
 
 def _title(name: str) -> str:
-    """Of a map, with its unit."""
+    """Returns the title of a map, with its unit."""
     return name if name == "contact" else f"{name} ({'GPa' if name == 'pressure' else 'Å'})"
 
 
@@ -277,7 +283,7 @@ GONE = {"lammps": "its atoms are in --to xyz, which OVITO and ASE convert for LA
 
 
 def export(directory: Path, kind: str) -> list[Path]:
-    """The files that were written. Raises InputOutputError for a directory with nothing to export."""
+    """Exports a directory. Returns the written files. Raises InputOutputError for a directory with nothing to export."""
     if kind in GONE:
         raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],
                          f"asperity export {directory} --to {'xyz' if kind == 'lammps' else 'vtk'}")

@@ -1,9 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Files that matter: written whole or not at all, and checked by the digests that they hold.
+"""Files that matter: written whole or not at all, never in place of a file that Asperity did not write, and checked by
+the digests that they hold.
 
 A digest is the CRC-32 of all bytes before it: the last member of a JSON object (`digest`), the last 32 bytes
 of an HDF5 file of the program (io/files.cpp).
+
+Every file of a command is written through `outputs()`, which keeps the record .asperity-files.json of the directory
+(io/file_record.hpp): the names of the files that commands wrote there, each with its digest, or "unfinished" while
+the command has not come to its end. A file that is there is replaced only if the record names it and it has not been
+changed; a file that is a result or an input of the command is not replaced at all.
 """
 
 from __future__ import annotations
@@ -18,11 +24,12 @@ import math
 import os
 import re
 import socket
+import stat
 import time
 import zlib
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from .errors import InputOutputError, SceneError
 
@@ -42,7 +49,7 @@ def directory(path: Path) -> Path:
 
 
 @contextlib.contextmanager
-def replacing(path: Path) -> Iterator[Path]:
+def _replacing(path: Path) -> Iterator[Path]:
     """A path beside `path` to write to; it takes the place of `path` when all went well and it is on the disk."""
     beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
     try:
@@ -63,18 +70,216 @@ def replacing(path: Path) -> Iterator[Path]:
             beside.unlink(missing_ok=True)
 
 
-def write(path: Path, content: str | bytes) -> None:
-    """Writes a file whole, or leaves the old one."""
-    with replacing(path) as beside:
-        beside.write_bytes(content.encode() if isinstance(content, str) else content)
+def require_new(path: Path) -> None:
+    """Raises SceneError if there is a file of this name, or a link, wherever it leads."""
+    if os.path.lexists(path):
+        raise SceneError(str(path), "is there already and is not replaced", "it is a symbolic link" * path.is_symlink(),
+                         "name another file, or move it away")
 
 
-def set_aside(path: Path) -> None:
-    """Of a damaged file: "result.json" becomes "result-damaged.json"."""
+@contextlib.contextmanager
+def new(path: Path) -> Iterator[Path]:
+    """A path beside `path` to write to, for a file that must not be there yet."""
+    require_new(path)
+    with _replacing(path) as beside:
+        yield beside
+
+
+RECORD = ".asperity-files.json"
+UNFINISHED = "unfinished"
+Inputs = Iterable["str | os.PathLike"]
+
+
+def _digest_of(path: Path) -> str:
+    with open(path, "rb") as file:
+        value = 0
+        while part := file.read(1 << 20):
+            value = zlib.crc32(part, value)
+    return f"crc32:{value:08x}"
+
+
+def _record(place: Path) -> dict[str, str] | None:
+    """Reads the record of a directory: digests by name, or None if there is none. Raises SceneError for a file of its
+    name that is no record."""
+    path = place / RECORD
     try:
-        path.replace(path.with_name(f"{path.stem}-damaged{path.suffix}"))
+        content = path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
     except OSError as error:
-        raise _refuse(path, error, "cannot be set aside") from None
+        raise _refuse(path, error, "cannot be read") from None
+    found = json.loads(content) if json_is_whole(content) and not path.is_symlink() else {}
+    if not isinstance(found.get("files"), dict):
+        raise SceneError(str(path), "is no record of the files that Asperity wrote", "it does not end in its digest: it was "
+                         "changed or damaged", "move it away; the files that it named are not replaced then")
+    return {str(name): str(digest) for name, digest in found["files"].items()}
+
+
+def is_named(place: Path, name: str) -> bool:
+    """Whether the record of a directory names a file."""
+    return name in (_record(place) or {})
+
+
+def _update(place: Path, change: Callable[[dict[str, str]], dict[str, str]]) -> None:
+    """Writes the record that change(record) returns; a record that names nothing is removed."""
+    try:
+        lock = os.open(place, os.O_RDONLY | os.O_DIRECTORY)
+    except OSError as error:
+        raise _refuse(place, error, "cannot be opened") from None
+    try:
+        with contextlib.suppress(OSError):  # a file system without such locks
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        before = _record(place) or {}
+        after = change(dict(before))
+        if not after:
+            (place / RECORD).unlink(missing_ok=True)
+        elif after != before:
+            with _replacing(place / RECORD) as beside:
+                beside.write_text(sealed_json({"files": dict(sorted(after.items()))}), encoding="utf-8")
+    finally:
+        os.close(lock)
+
+
+def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew: bool, inputs: Inputs) -> str:
+    """Explains, for an error message, why a file must not be replaced; "" if it may be."""
+    path = place / name
+    try:
+        there = path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return ""
+    for file in inputs:
+        with contextlib.suppress(OSError, ValueError):
+            if os.path.samefile(str(file).partition(":/")[0], path):
+                return f"it is {file}, which the command reads"
+    if stat.S_ISLNK(there.st_mode):
+        return "it is a symbolic link"
+    if not stat.S_ISREG(there.st_mode):
+        return "it is no regular file"
+    if name == LOCK:
+        return "" if _is_lock(path.read_bytes()) else NO_LOCK
+    if record is None:
+        return (f"the directory has no record ({RECORD}) of the files that Asperity wrote: the file is another program's, "
+                "or of a version without records")
+    if name not in record:
+        return f"it is not one of the files that Asperity wrote here ({RECORD} lists them)"
+    if record[name] == UNFINISHED:
+        return ""
+    if record[name] != _digest_of(path):
+        return "it was changed after Asperity wrote it"
+    return "" if renew else "it belongs to an earlier result, and results are not written over"
+
+
+def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> list[dict[str, str]]:
+    """The files of these names that must not be replaced, each as a problem for SceneError.of().
+
+    renew: files that the record names and that are as they were written may be replaced. inputs: files that the command
+    reads, which are never replaced. Raises InputOutputError for a file that cannot be read.
+    """
+    names, inputs, record = list(names), list(inputs), _record(place)
+    problems = []
+    for folder in dict.fromkeys(str(Path(name).parent) for name in names):
+        if os.path.lexists(place / folder) and not (place / folder).is_dir():
+            problems.append({"where": str(place / folder), "what": "is there already and is not replaced",
+                             "why": "it is no directory, and files are to be written into one of its name"})
+    try:
+        problems += [{"where": str(place / name), "what": "is there already and is not replaced", "why": why}
+                     for name in names if (why := _reason_to_keep(place, name, record, renew, inputs))]
+    except OSError as error:
+        raise _refuse(Path(error.filename or place), error, "cannot be read") from None
+    return [{**problem, "fix": "move it away, or name another directory (--out)"} for problem in problems]
+
+
+def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
+    """Raises SceneError with all files in the way of a command that is going to write these names, by directory."""
+    problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
+    if problems:
+        raise SceneError.of(problems)
+
+
+class Outputs:
+    """The files that a command writes in a directory, by the names that it claimed (`outputs()`)."""
+
+    def __init__(self, place: Path, names: Iterable[str]):
+        self.place, self.names = place, frozenset(names)
+        self.digests: dict[str, str] = {}
+        """of the files that were written"""
+
+    def _path(self, name: str) -> Path:
+        if name not in self.names:
+            raise KeyError(f"{name} was not claimed in {self.place}")
+        directory((self.place / name).parent)
+        return self.place / name
+
+    @contextlib.contextmanager
+    def replacing(self, name: str) -> Iterator[Path]:
+        """A path to write to; it becomes the file of this name when all went well and it is on the disk."""
+        self.digests.setdefault(name, UNFINISHED)
+        with _replacing(self._path(name)) as beside:
+            yield beside
+            self.digests[name] = _digest_of(beside)
+
+    def write(self, name: str, content: str | bytes) -> None:
+        """Writes a file whole, or leaves the old one."""
+        with self.replacing(name) as beside:
+            beside.write_bytes(content.encode() if isinstance(content, str) else content)
+
+    def append(self, name: str) -> IO[bytes]:
+        """Opens a file to append to it."""
+        self.digests[name] = UNFINISHED
+        return open(self._path(name), "ab")
+
+
+@contextlib.contextmanager
+def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> Iterator[Outputs]:
+    """The files that a command is about to write in a directory, which is made if it is missing. Their names are claimed in
+    the record before, and their digests noted there after the work; of work that ends in an exception they stay
+    unfinished. The arguments are those of in_the_way(). Raises SceneError with all files that are in the way."""
+    written, before = Outputs(place, names), {}
+    require_free({place: written.names}, renew, inputs)
+    made = [path for path in (place, *place.parents) if not path.exists()]
+    directory(place)
+
+    def claim(record: dict[str, str]) -> dict[str, str]:
+        before.update(record)
+        return record | dict.fromkeys(written.names, UNFINISHED)
+
+    def note(record: dict[str, str]) -> dict[str, str]:
+        for name in written.names:
+            digest, there = written.digests.get(name), (place / name).exists()
+            if digest is None and record.get(name) != UNFINISHED:
+                continue  # noted by somebody else meanwhile
+            if digest is None:
+                digest = before.get(name)
+            elif failed:
+                digest = UNFINISHED
+            elif digest == UNFINISHED and there:
+                digest = _digest_of(place / name)
+            record.pop(name, None)
+            if digest is not None and there:
+                record[name] = digest
+        return record
+
+    _update(place, claim)
+    failed = True
+    try:
+        yield written
+        failed = False
+    finally:
+        with contextlib.suppress(OSError):  # the directory was removed
+            _update(place, note)
+        with contextlib.suppress(OSError):  # something is in it
+            for path in made:
+                path.rmdir()
+
+
+def set_aside(place: Path, names: Iterable[str]) -> None:
+    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free."""
+    for path in (place / name for name in names if os.path.lexists(place / name)):
+        first = path.with_name(f"{path.stem}-damaged{path.suffix}")
+        try:
+            path.rename(numbered(first, os.path.lexists))
+        except OSError as error:
+            raise _refuse(path, error, "cannot be set aside") from None
 
 
 def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
@@ -101,13 +306,24 @@ def chosen(out: str | None, otherwise: str) -> Path:
 
 def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
     """This one, or else the first of first-2, first-3, ... that is not taken."""
-    others = (first.with_name(f"{first.name}-{number}") for number in itertools.count(2))
+    others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))
     return next(place for place in itertools.chain([first], others) if not taken(place))
 
 
 LOCK = "run.lock"
 """The same file, content and rules as of the directory of a run (io/result_directory.hpp), so that runs and sweeps
 keep each other out as well."""
+
+
+NO_LOCK = "it is not the lock of a run: it does not begin with a host"
+RUN_FILES = ("run.journal", "checkpoint.h5", "checkpoint-before.h5", "checkpoint-damaged.h5", "checkpoint-next.part",
+             "run.h5", "result.json", "last-good.h5")
+"""What a run may write into its directory (io/result_directory.hpp)."""
+
+
+def _is_lock(content: bytes) -> bool:
+    """Whether a file begins as the text of a lock does, as far as it was written."""
+    return content[:5] == b"host "[:len(content)]
 
 
 def _in_place(handle: int, path: Path) -> bool:
@@ -140,7 +356,12 @@ def _take(place: Path) -> int:
         if not kept or _in_place(handle, path):
             break
         os.close(handle)  # given back just now
-    lines = os.read(handle, 4096).decode("utf-8", "replace").splitlines()
+    content = os.read(handle, 4096)
+    if not made and not _is_lock(content):
+        os.close(handle)
+        raise SceneError(str(path), "is there already and is not replaced", NO_LOCK,
+                         "move it away, or name another directory (--out)")
+    lines = content.decode("utf-8", "replace").splitlines()
     holder = {key: value for key, _, value in (line.partition(" ") for line in lines)}
     if "since" not in holder:
         holder = {}

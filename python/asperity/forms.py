@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What a user calls: the functions of the package, and the plots and reports of its results.
+"""The functions of the package for users, and the plots and reports of its results.
 
 Results and sweeps are data alone; their plots and reports are attached here, above the modules that draw and write.
 matplotlib and jinja2 are imported with the first of them.
@@ -20,35 +20,71 @@ __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "l
 
 
 def _plot_of_run(self: Result):
-    """Its plots: result.plot.separation(ax), .energy, .map("gap"), ..."""
+    """Returns the plots of the run: result.plot.separation(ax), .energy, .map("gap"), ..."""
     from .plots.run import RunPlots
 
     return RunPlots(self)
 
 
 def _plot_of_sweep(self: Sweep, name: str = "gamma", ax=None):
-    """A plot: gamma, area, separation, radius, pull-off or hysteresis over the swept key."""
+    """Draws a plot over the swept key.
+
+    Parameters
+    ----------
+    name : str
+        "gamma", "area", "separation", "radius", "pull-off" or "hysteresis".
+    ax : matplotlib Axes, optional
+        Axes to draw into; by default new ones.
+
+    Returns
+    -------
+    Axes
+        The axes with the plot.
+    """
     from .plots.sweep import draw
 
     return draw([self], name, ax)
 
 
 def _report_of_run(self: Result) -> Path:
-    """Writes report.html into the directory; its path."""
+    """Writes report.html into the directory.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
     from .report import write_run_page
 
     return write_run_page(self).path
 
 
 def _report_of_sweep(self: Sweep) -> Path:
-    """Writes report.html into the directory; its path."""
+    """Writes report.html into the directory.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
     from .report_sweep import write_sweep_page
 
     return write_sweep_page(self.directory).path
 
 
 def _plot_of_estimate(self: Estimate, ax=None):
-    """The shifts of the first number and their errors, as bars."""
+    """Draws the shifts of the first number and their errors, as bars.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes, optional
+        Axes to draw into; by default new ones.
+
+    Returns
+    -------
+    Axes
+        The axes with the plot.
+    """
     from .plots.style import drawn_into
     from .report_estimate import chart
 
@@ -56,7 +92,18 @@ def _plot_of_estimate(self: Estimate, ax=None):
 
 
 def _quote(self: Estimate, path: str = "") -> str:
-    """A number as it is published, with its error and the parts of it; "": the first one."""
+    """Returns a number as it is published, with its error and the parts of the error.
+
+    Parameters
+    ----------
+    path : str
+        Path of the number in result.json; "": the first number.
+
+    Returns
+    -------
+    str
+        Sentence with the number, mJ/m² and meV/Å² for energies per area.
+    """
     from .report_estimate import quote
 
     return quote(self.number(path))
@@ -69,7 +116,13 @@ def _text_of_estimate(self: Estimate) -> str:
 
 
 def _report_of_estimate(self: Estimate) -> Path:
-    """Writes report.html into the directory; its path."""
+    """Writes report.html into the directory.
+
+    Returns
+    -------
+    Path
+        The file.
+    """
     from .report_estimate import page_of
 
     page = page_of(self)

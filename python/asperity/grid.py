@@ -12,11 +12,13 @@ from __future__ import annotations
 import contextlib
 import itertools
 import math
+import re
 from dataclasses import dataclass
 from typing import Any
 
 from . import program
 from .errors import SceneError
+from .scene import toml_value
 
 MOST_POINTS = 10_000
 LISTS = ("list", "pairs")
@@ -37,14 +39,14 @@ def is_seed(key: str) -> bool:
 
 
 def _number(text: str) -> float:
-    """NaN for what is no number."""
+    """Returns the number in a text, NaN if it is none."""
     with contextlib.suppress(ValueError):
         return float(text)
     return math.nan
 
 
 def _range(text: str, where: str, whole: bool) -> list[str]:
-    """The values of "0.1:25:0.25"; none if it is no range."""
+    """Returns the values of "0.1:25:0.25"; none if it is no range."""
     numbers = [_number(part) for part in text.split(":")]
     if len(numbers) < 2 or not all(map(math.isfinite, numbers[:2])):
         return []
@@ -68,6 +70,8 @@ def _range(text: str, where: str, whole: bool) -> list[str]:
 def _axis(key: str, values: str, where: str) -> Axis:
     kind = program.schema()[key]["kind"]
     axis = Axis(key, [], where)
+    if re.fullmatch(r"\[[^\[\]]*\]", values.strip()):  # as in a scene's [sweep]
+        values = re.sub(r"""(?<![^\s,\[])(["'])(.*?)\1(?=\s*[,\]])""", r"\2", values.strip())[1:-1]
     for part in (p.strip() for p in values.split(",")):
         if not part:
             raise SceneError(where, "has an empty value", "values stand between commas",
@@ -77,8 +81,28 @@ def _axis(key: str, values: str, where: str) -> Axis:
     return axis
 
 
+def _lists(values: str) -> list[Any]:
+    """The lists that stand side by side, as in [1], [2]; none if it is something else."""
+    try:
+        return program.json.loads(f"[{values}]")
+    except ValueError:
+        return []
+
+
+def _several_lists(values: str, kind: str) -> bool:
+    """Whether they are several values of a key that is a list, side by side or in brackets of their own."""
+    found = _lists(values)
+    inner = found[0] if len(found) == 1 and isinstance(found[0], list) and kind == "list" else found
+    return (len(inner) > 1 or inner is not found) and bool(inner) and all(isinstance(one, list) for one in inner)
+
+
+def _first_list(values: str) -> str:
+    found = _lists(values)
+    return toml_value(found[0] if len(found) > 1 else found[0][0])
+
+
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
-    """The axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
+    """Returns the axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
     schema = program.schema()
     found: dict[str, Axis] = {}
     fixed: list[str] = []
@@ -86,6 +110,9 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
         where = "--set " + assignment
         key, equals, values = assignment.partition("=")
         key = key.strip()
+        if key in schema and schema[key]["kind"] in LISTS and _several_lists(values, schema[key]["kind"]):
+            raise SceneError(where, f"{key} cannot be swept", "its value is a list itself", "write one scene for each, or one run "
+                             f"for each: asperity run SCENE --set '{key}={_first_list(values)}'")
         if not equals or key not in schema or schema[key]["kind"] in LISTS:
             fixed.append(assignment)  # a list has commas of its own; the program finds mistakes
             continue
@@ -107,12 +134,12 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
 
 
 def points_of(axes: list[Axis]) -> list[list[str]]:
-    """Every combination, the last axis fastest, each as a list of "key=value"."""
+    """Returns every combination, the last axis fastest, each as a list of "key=value"."""
     return [list(point) for point in itertools.product(*([f"{a.key}={v}" for v in a.values] for a in axes))]
 
 
 def shown(value: Any) -> str:
-    """A value of a key as it stands in tables and names: "3", "multiscale"."""
+    """Returns a value of a key as it stands in tables and names: "3", "multiscale"."""
     if isinstance(value, (int, float)) and not isinstance(value, bool):
         return f"{value:.12g}"
-    return value if isinstance(value, str) else program.json.dumps(value)
+    return value if isinstance(value, str) else toml_value(value)

@@ -21,9 +21,9 @@ import numpy as np
 from . import files, maps, missing_waves, program, report_estimate
 from .errors import BY_CODE, InternalError, SceneError, Stopped
 from .estimate_parts import SpacingAlso
-from .estimates import Estimate, Estimating, surface_made
+from .estimates import MAP_FILES, RESULT, Estimate, Estimating, surface_made
 from .pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
-from .report import write_run_page
+from .report import run_page_files, write_run_page
 from .result import Result, Values
 from .scene import scene_file, toml_of
 from .units import GIGAPASCAL, MILLIJOULE
@@ -36,7 +36,7 @@ SITE_BYTES = 1200
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""
-UNITS = {"E": "GPa", "work": "mJ/m^2", "range": "Å", "size": "nm"}
+UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
 
 
 @dataclass
@@ -59,7 +59,7 @@ class Adhesion:
 
 
 ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
-             "surface.file_size": "size"}
+             "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
 
 
@@ -68,14 +68,14 @@ def _with_unit(name: str, value: object) -> str:
     text = re.sub(r"m2$", "m^2", str(value).strip())
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
-                         f'write one: "{text or 1} {UNITS[name]}"')
+                         "write the one that is meant: " + " or ".join(f'"{text or 1} {unit}"' for unit in UNITS[name]))
     return text
 
 
 def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
     """Heights of a square map (Å, NaN where one is missing), its edge (Å), notes. Raises SceneError for what is no map
     that adhesion can be computed of."""
-    found = maps.read_map(file, unit, size, channel)
+    found = maps.read_map(file, unit, size or None, channel)
     heights, notes = found.heights, list(found.notes)
 
     def refuse(what: str, why: str, fix: str) -> SceneError:
@@ -86,7 +86,7 @@ def _read(file: str, unit: str | None, size: float | None, channel: str | None) 
         raise refuse(f"has {columns} x {rows} points", f"{maps.FEWEST} along an edge are the least of which a surface is "
                      "made", "export the whole map")
     if found.size is None:
-        raise refuse("does not tell how wide it is", "", 'name the length of its edge along x: --size "100 nm"')
+        raise refuse("does not tell how wide it is", "", 'name the length of its shorter edge: --size "100 nm"')
     missing = np.isnan(heights)
     if missing.mean() > 0.5:
         raise refuse("has no heights" if missing.all() else f"lacks {100 * missing.mean():.0f} % of its heights",
@@ -142,10 +142,11 @@ class MapScene(NamedTuple):
 
 def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             ) -> MapScene:
+             line_noise: str | None = None) -> MapScene:
     """Writes the scene of a map and the map beside it. Raises SceneError for what no scene can be made of, before anything is
     written."""
-    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson}, "surface": {"kind": "flat", "sites": 32},
+    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson},
+                "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
                 "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
                               "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
     if size is not None:
@@ -159,8 +160,6 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     if not keys.number("interface.adhesion") > 0.0:
         raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
-    if edge > 0.0 and size is not None and abs(edge / keys.number("surface.file_size") - 1) > 0.01:
-        notes.append(f"the file says how wide it is, {edge:.6g} Å: --size is not used")
     points = len(heights)
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
@@ -213,19 +212,22 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         heights = flat
     notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
                  "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
-    files.directory(place)
-    stem = re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
-    with files.replacing(place / "map.npy") as beside, open(beside, "wb") as opened:
-        np.save(opened, heights)
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
-                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited"},
+                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited",
+                         "line_noise": line_noise},
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True},
              "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
-    files.write(place / f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
+    stem = _stem(file)
+    with files.outputs(place, ("map.npy", f"{stem}.toml"), inputs=[file]) as out:
+        with out.replacing("map.npy") as beside, open(beside, "wb") as opened:
+            np.save(opened, heights)
+        out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
-    kept = surface_made(str(place / f"{stem}.toml")).slope
+    made = surface_made(str(place / f"{stem}.toml"))
+    notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made.doubts]
+    kept = made.slope
     if n < points:
         notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
                      f"{kept:.3g}; the map's neighbours have {slope:.3g}")
@@ -240,7 +242,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
 
 def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
              range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
-             sites: int | None = None, jobs: int = 1) -> Adhesion:
+             sites: int | None = None, jobs: int = 1, line_noise: str | None = None) -> Adhesion:
     """The adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
 
         found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
@@ -251,14 +253,18 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
              are texts with units
     out      the directory; None: results/<map>-adhesion. Runs that are there are not run again.
     range    of the exponential attraction; None: 3 Å, or what the spacing resolves
-    size, unit, channel   of maps that do not tell their width or unit; of an instrument's file
+    size, unit   of the shorter edge, of the heights; they hold over what the file says, and a note names both
+    channel  of a file with several maps: its name or number
     sites    along an edge; None: as many as the map has, 256 at most
     jobs     runs side by side; they share the processors
+    line_noise   treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise)
     """
     program.refuse_ranks()
     refuse_jobs(jobs)
     place = files.chosen(None if out is None else str(out), _place(str(map)))
-    made = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel, sites=sites)
+    _require_free(place, str(map))
+    made = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
+                    line_noise=line_noise)
     making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
     found, complete = _carried_out(making)
     if not complete:
@@ -271,6 +277,18 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
 
 def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Estimating:
     return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition)
+
+
+def _stem(file: str) -> str:
+    """The name of the scene of a map."""
+    return re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
+
+
+def _require_free(place: Path, file: str) -> None:
+    """Raises SceneError with the files that are in the way of those that are known beforehand: all but the runs'."""
+    page = [] if files.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
+    files.require_free({place: ["map.npy", f"{_stem(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
+                        place / "scene": page}, inputs=[file])
 
 
 def _place(file: str) -> str:
@@ -291,6 +309,7 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
 def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
     """`asperity adhesion`: its exit code."""
     place = files.chosen(out, _place(file))
+    _require_free(place, file)
     made = scene_of(file, young, poisson, work, place, **more)
     print(f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes), sep="\n", flush=True)
     making = _estimating(made, place, options, lambda text: print(text, flush=True))

@@ -32,11 +32,12 @@ from typing import Any, NamedTuple
 from . import files, program
 from .errors import Error, InputOutputError, SceneError
 from .result import Values, read_json
+from .scene import inputs_of
 from .terminal import Progress, duration, environment_alone
 
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
-RESULT = "result.json"
+RESULT, LOG = "result.json", "log.txt"
 FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "interface.table_digest": "scene.interface.table"}
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1
@@ -56,7 +57,7 @@ class Job:
 
 @dataclass
 class Outcome:
-    """What a job's directory holds: status, result.json, and of a failure its exit code and reason."""
+    """Contents of a job's directory: status, result.json, and of a failure its exit code and reason."""
 
     status: str = WAITING
     result: Values = field(default_factory=lambda: Values({}))
@@ -83,14 +84,14 @@ class PoolOptions:
 
 
 def refuse_jobs(jobs: object) -> None:
-    """Raises SceneError for what is no number of runs side by side."""
+    """Refuses a wrong number of runs side by side. Raises SceneError."""
     if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
         raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
                          "leave it out for one after the other")
 
 
 def look_at(job: Job) -> Outcome:
-    """What is there of a job. Failed physics counts as an outcome; another failure, or a result that cannot be read, is
+    """Returns the outcome of a job. Failed physics counts as an outcome; another failure, or a result that cannot be read, is
     tried again.
 
     Raises SceneError if there is a result of another scene, or of another content of surface.file.
@@ -124,8 +125,19 @@ def look_at(job: Job) -> Outcome:
 
 
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
-    """What is there of each; a result that cannot be read is told."""
+    """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError with the files that are in
+    the way of the jobs that wait."""
     outcomes = [look_at(job) for job in jobs]
+    problems = []
+    for job, outcome in zip(jobs, outcomes):
+        if outcome.status == WAITING:
+            aside = (RESULT, "run.h5") if outcome.damaged and files.is_named(job.directory, RESULT) else ()
+            names = [name for name in (*files.RUN_FILES, files.LOCK) if name not in aside]
+            inputs = inputs_of(job.file, job.answer["scene"])
+            problems += files.in_the_way(job.directory, names, renew=False, inputs=inputs)
+            problems += files.in_the_way(job.directory, [LOG], inputs=inputs)
+    if problems:
+        raise SceneError.of(problems)
     for job, outcome in zip(jobs, outcomes):
         if outcome.damaged:
             say(f"note: {job.directory / RESULT} cannot be read ({outcome.damaged}): this run is repeated")
@@ -141,7 +153,7 @@ class Ended(NamedTuple):
 
 
 def _told(going: str) -> str:
-    """"stop", "kill" or nothing."""
+    """Returns "stop", "kill" or nothing."""
     try:
         return Path(going).read_text()
     except FileNotFoundError:
@@ -164,9 +176,15 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
     if told:
         return Ended(STOPPED)
     try:
-        files.directory(place)
+        with files.outputs(place, [LOG]) as out:
+            return _run(words, folder, out, threads, overrule, going)
     except Error as error:
         return Ended(error.code, 0.0, str(error).splitlines()[0])
+
+
+def _run(words: list[str], folder: str, out: files.Outputs, threads: str, overrule: bool, going: str) -> Ended:
+    """The same, when the directory is free."""
+    told = ""
     environment = environment_alone()
     if threads and (overrule or "OMP_NUM_THREADS" not in environment):
         environment["OMP_NUM_THREADS"] = threads
@@ -181,7 +199,7 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
 
     start = time.monotonic()
     try:
-        with open(place / "log.txt", "ab") as log:
+        with out.append(LOG) as log:
             # A session of its own: Ctrl-C goes to the pool, and from there on as USR1.
             child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=folder,
                                      env=environment, start_new_session=True, preexec_fn=prepare)
@@ -207,7 +225,7 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
 
 @contextlib.contextmanager
 def executor_of(text: str) -> Iterator[Executor | None]:
-    """That of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one."""
+    """Returns the executor of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one."""
     kind, _, address = text.partition(":")
     try:
         if text == "mpi":
@@ -236,7 +254,7 @@ def executor_of(text: str) -> Iterator[Executor | None]:
 
 @contextlib.contextmanager
 def _signals() -> Iterator[list[int]]:
-    """Those of INT, TERM and USR1 that come meanwhile."""
+    """Catches INT, TERM and USR1 meanwhile; yields those that come."""
     came: list[int] = []
     if threading.current_thread() is not threading.main_thread():
         yield came
@@ -251,16 +269,16 @@ def _signals() -> Iterator[list[int]]:
 
 
 def _last_line(job: Job) -> str:
-    """Of what its run has said."""
+    """Returns the last line that the run of a job has written."""
     try:
-        text = (job.directory / "log.txt").read_text("utf-8", "replace")
+        text = (job.directory / LOG).read_text("utf-8", "replace")
     except OSError:
         return ""
     return text.rstrip().rpartition("\n")[2].strip()
 
 
 def _fraction(job: Job) -> float:
-    """How far a run has come, by its last line (" 45 %  approach, ..."); 0: not known."""
+    """Returns the progress of a run by its last line (" 45 %  approach, ..."); 0: not known."""
     head = _last_line(job).split(" %")[0].strip()
     return min(1.0, int(head) / 100) if head.isdigit() else 0.0
 
@@ -282,9 +300,10 @@ class Pool:
         self.going = self.place / f"going-{uuid.uuid4().hex}"
 
     def run(self, done: Callable[[], None] = lambda: None) -> bool:
-        """done() is called after each. False: stopped before all of them had run."""
-        for old in self.place.glob("going-*"):  # of one that was killed, whose workers may live
-            old.unlink()
+        """Runs the jobs and calls done() after each. Returns False if stopped before all of them had run."""
+        for old in self.place.glob("going-" + 32 * "[0-9a-f]"):  # of one that was killed, whose workers may live
+            if not old.is_symlink() and old.stat().st_size <= len("kill"):
+                old.unlink()
         with contextlib.ExitStack() as stack:
             signals = stack.enter_context(_signals())
             executor = self.options.executor or stack.enter_context(ThreadPoolExecutor(self.options.jobs))
@@ -313,7 +332,7 @@ class Pool:
         threads = options.threads or (0 if options.launch else equal)
         try:
             if self.outcomes[i].damaged:  # moved away, or its run would be refused
-                files.set_aside(job.directory / RESULT)
+                files.set_aside(job.directory, (RESULT, "run.h5"))
             return executor.submit(run_task, words, os.getcwd(), directory, str(threads or ""), options.threads > 0,
                                    str(self.going))
         except (Error, BrokenExecutor) as error:  # of the latter all workers were lost
@@ -377,7 +396,7 @@ class Pool:
         self.progress.say(f"[{over}/{len(self.jobs)}] {job.name}: {what}")
 
     def _look_for_running(self) -> None:
-        """Executors start in order, and not all of them tell what they have started: runs lock their directories."""
+        """Looks for running jobs: executors start in order and do not all report a start, but runs lock their directories."""
         idle = 0
         for i in list(self.waiting):
             if (self.jobs[i].directory / files.LOCK).exists():
@@ -394,11 +413,12 @@ class Pool:
         return text + self._left(fractions, time.monotonic())
 
     def _left(self, fractions: dict[int, float], now: float) -> str:
-        """Points of a scene are taken to last alike; those of a scene that none is known of are not counted."""
+        """Estimates the time left: points of a scene are assumed to last alike; scenes without a finished point are not
+        counted."""
         points, seconds = self.done.copy(), self.seconds.copy()
 
         def one_takes(i: int) -> float:
-            """Seconds of a point of this scene; NaN: not known."""
+            """Returns the seconds of a point of this scene; NaN: not known."""
             file = self.jobs[i].file
             return seconds[file] / points[file] if points[file] > 0.02 else math.nan
 

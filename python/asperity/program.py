@@ -22,13 +22,13 @@ from .terminal import environment_alone, launched
 
 @functools.lru_cache(maxsize=None)
 def version() -> str:
-    """Of the program that the package calls."""
+    """Returns the version of the program that the package calls."""
     return call(["--version"]).split()[-1]
 
 
 @functools.lru_cache(maxsize=None)
 def path() -> str:
-    """The program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
+    """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 
     In a source tree without a build it is the script `asperity`, which makes one.
     """
@@ -50,7 +50,7 @@ def path() -> str:
 
 
 def raise_for(code: int, text: str) -> None:
-    """Raises the exception that stands for an exit code, with the program's own message."""
+    """Throws the exception of an exit code, with the program's own message."""
     if code == 0:
         return
     text = re.sub(r"\n\d+ problems?; nothing was written\s*$", "", text.strip())
@@ -60,7 +60,7 @@ def raise_for(code: int, text: str) -> None:
 
 
 def refuse_ranks() -> None:
-    """Raises SceneError in one of several ranks, each of which would do the same."""
+    """Refuses a call in one of several ranks, each of which would do the same. Raises SceneError."""
     if launched()[1]:
         raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
                          "it starts its runs itself, each as a program of its own",
@@ -82,31 +82,31 @@ def call(arguments: Iterable[str], *, text: str | None = None) -> str:
 
 
 def sets(overrides: Iterable[str]) -> list[str]:
-    """["a.b=1", ...] as the words of a command line."""
+    """Returns ["a.b=1", ...] as the words of a command line."""
     return [word for one in overrides for word in ("--set", one)]
 
 
 @functools.lru_cache(maxsize=None)
 def mpi() -> str:
-    """The MPI that the program was built with: "Open MPI v4.1.4"."""
+    """Returns the MPI that the program was built with: "Open MPI v4.1.4"."""
     found = re.search(r"^ *MPI +(.*\S)", call(["info"]), re.MULTILINE)
     return found[1] if found else ""
 
 
 @functools.lru_cache(maxsize=None)
 def schema() -> dict[str, dict[str, Any]]:
-    """Every key of a scene: kind, unit, default, doc, choices."""
+    """Returns every key of a scene: kind, unit, default, doc, choices."""
     return json.loads(call(["defaults", "--json"]))
 
 
 @functools.lru_cache(maxsize=None)
 def quantities() -> dict[str, dict[str, str]]:
-    """Every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
+    """Returns every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
     return json.loads(call(["defaults", "--results", "--json"]))
 
 
 def quantity(path: str) -> dict[str, str]:
-    """Of a value its unit ("" of a pure number), what it is over (per) and meaning; empty for what the program does not
+    """Returns unit ("" for a pure number), divisor (per) and meaning of a value; empty for a value that the program does not
     know."""
     found = quantities().get(path)
     if found is None:
@@ -116,14 +116,19 @@ def quantity(path: str) -> dict[str, str]:
 
 
 def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """The scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs),
+    """Returns the scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs),
     edge_pinning (by which a coarse spacing increases the pull-off force of a sphere)."""
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
+def surface(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map."""
+    return json.loads(call(["surface", scene, *sets(overrides), "--json"]))
+
+
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
-    """Persson's theory of many variations of a scene, and what others need to know of it (`rough`, `flat`); what is
-    wrong with one is in its `problems`. runnable: also what a run would refuse. profile: everything over
+    """Returns Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`); the
+    mistakes of a variation are in its `problems`. runnable: also the problems that would stop a run. profile: everything over
     magnification, and theory.persson.critical_rms."""
     text = "".join(json.dumps(point) + "\n" for point in points)
     words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
@@ -134,7 +139,7 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
 
 
 def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
-    """Raises SceneError with every problem of the points, each once. where: places of swept keys."""
+    """Refuses points with problems: raises SceneError with each problem once. where: places of swept keys."""
     found: dict[tuple[str, str], dict] = {}
     for point in points:
         for problem in point.get("problems", []):

@@ -7,11 +7,11 @@ These files are the report's own: a second report writes them anew.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
 
 from . import program, scene, sentences, terminal, theories
-from .page import Page, file_name
+from .page import Page, file_name, page_files
 from .plots import run as plots
 from .plots.style import KINDS
 from .result import Result, State, Values
@@ -58,12 +58,13 @@ DISTRIBUTIONS = (
      "beyond the interaction range are left out: the integral is the fraction of the others."),
     ("gaps", "Distribution of gaps", "Probability density of the gaps of all sites; the integral is one."))
 SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOTH, "lost": "lost" + BOTH,
+                   "dissipated_in_block": "dissipated in the block" + BOTH, "stored": "stored" + BOTH,
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
 
 
 def _words(run: Result) -> dict[str, str]:
-    """What captions are filled in with; contact: which sites the program counts as in contact."""
+    """Returns the words that fill in captions; contact: the definition of sites in contact."""
     contact = "Sites nearer to an atom of the substrate than the inflection of the potential"
     if run.key("interface.kind") == "wall":
         contact = "Sites that touch the wall" if run.key("interface.law") == "exponential" else \
@@ -77,9 +78,11 @@ def _words(run: Result) -> dict[str, str]:
     return {"path": path, "contact": contact,
             "energy": "Work of the drive = interface + elastic + dissipated" + relaxes + ". Steps of the curves are "
                       "instabilities." if static else
-                      "Work of the drive = interface + elastic + kinetic + damped. The drive is the top plane, and the "
+                      "Work of the drive = interface + elastic + kinetic + damped" +
+                      " + the energy of the time step" * ("time_step_energy" in run.series) + ". The drive is the top plane, and the "
                       "medium of the damping that moves with it.",
-            "loading": "The area between approach and pull-off is the energy lost in a cycle." if static else
+            "loading": "The area between approach and pull-off is the energy lost and dissipated in the block in a cycle." if relaxes else
+                       "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
                        "the damping does is not in it.", "at": run.load_words[0],
             "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
@@ -125,7 +128,7 @@ def _state(page: Page, run: Result, state: State) -> None:
 
 
 def _states(page: Page, run: Result) -> None:
-    """The relaxed state first; of many, some that are spread evenly."""
+    """Adds the relaxed state first; of many states, some that are spread evenly."""
     states = sorted(run.fields.values(), key=lambda s: s.name != "relaxed")
     n, few = len(states), min(len(states), MOST_STATES)
     for i in range(few):
@@ -135,7 +138,7 @@ def _states(page: Page, run: Result) -> None:
 
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
-    """Numbers by the names of columns."""
+    """Adds numbers by the names of columns."""
     def cell(line: Values, name: str, head: str) -> str:
         if name not in line:  # the friction of a segment that is no slide
             return "–"
@@ -146,7 +149,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) 
 
 
 def _segments(page: Page, run: Result) -> None:
-    """Of a path that does more than to approach and to pull off."""
+    """Adds the segments of a path that has others than approach and pull-off."""
     if set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         return
     lines = run.listed("segments", dict)
@@ -155,7 +158,7 @@ def _segments(page: Page, run: Result) -> None:
 
 
 def _numbers(page: Page, run: Result) -> None:
-    """Every number of the result, in the order of the file."""
+    """Adds every number of the result, in the order of the file."""
     rows = []
     for key, value in run.numbers().items():
         if key.split(".")[0] in ("scene", "run", "failure", "units"):
@@ -182,7 +185,7 @@ def _times(page: Page, run: Result) -> None:
 
 
 def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> None:
-    """The scene, where the numbers come from, and how to cite them."""
+    """Adds the scene, the origin of the numbers, and how to cite them."""
     if keys:
         page.section("scene", heading)
         page.add("paragraph", note)
@@ -195,8 +198,15 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
     page.add("lists", [("", sentences.citations(result))])
 
 
+def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> list[str]:
+    """The names of all files that write_run_page() may write for a run with these states."""
+    of_state = [one[0] for one in (*MAPS, *DISTRIBUTIONS)]
+    return page_files([*(figure[0] for _, figures in FIGURES.values() for figure in figures),
+                       *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)
+
+
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of a run; kinds: of files of its figures."""
+    """Writes DIR/report.html of a run; kinds: of files of its figures."""
     theories.complete(run)
     page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),

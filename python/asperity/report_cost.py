@@ -25,7 +25,7 @@ GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"
 
 
 def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
-    """The largest error of a question ("state", "path") over the processor time of each setting that was run."""
+    """Draws the largest error of a question ("state", "path") over the processor time of each setting that was run."""
     rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
     for label, parameters, colour, marker in GROUPS:
         if some := [r for r in rows if r.parameter in parameters]:
@@ -46,25 +46,30 @@ def csv_of(cost: Cost) -> str:
            *row.error.values(), *row.front.values()] for row in cost.rows)])
 
 
+FILES = ["cost.csv", *(file for question in ASKED for file in figures.files_of(f"cost-{question}"))]
+"""The names of all files that write() may write."""
+
+
 def write(cost: Cost, directory: Path) -> list[str]:
-    """Names of the files written."""
-    files.write(files.directory(directory) / "cost.csv", csv_of(cost))
+    """Writes the files and returns their names."""
     written = ["cost.csv"]
-    for question in ASKED:
-        fig = figures.make(lambda ax: error_against_time(cost, question, ax)) if cost.answered(question) else None
-        if fig is not None:
-            figures.save(fig, directory / f"cost-{question}")
-            written.append(f"cost-{question}.svg")
+    with files.outputs(directory, FILES) as out:
+        out.write("cost.csv", csv_of(cost))
+        for question in ASKED:
+            fig = figures.make(lambda ax: error_against_time(cost, question, ax)) if cost.answered(question) else None
+            if fig is not None:
+                figures.save(fig, out, f"cost-{question}")
+                written.append(f"cost-{question}.svg")
     return written
 
 
 def percent(error: float) -> str:
-    """A relative error in percent, three digits of it; "-": none."""
+    """Returns a relative error in percent with three digits; "-": none."""
     return "-" if math.isnan(error) else f"{100 * error:.3g}"
 
 
 def text_of(cost: Cost) -> str:
-    """The tables on the terminal."""
+    """Returns the tables for the terminal."""
     parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks a setting if no "
              "other is faster\nand more accurate: first star for the state at zero load (γ, contact), second for the whole path.\n"]
     rows: list[list[str]] = []
@@ -99,7 +104,7 @@ def text_of(cost: Cost) -> str:
 
 
 def answer_of(cost: Cost) -> str:
-    """What was found for the target; the last line is what to put behind a command."""
+    """Returns the answer for the target; its last line is to be put behind a command."""
     target, varied = f"{100 * cost.target:.6g} %", "varied: " + ", ".join(p.name for p in cost.case.parameters)
     row, question = cost.chosen, cost.case.bases[0].question
     if row is None:

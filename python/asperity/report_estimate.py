@@ -9,10 +9,10 @@ import re
 import numpy as np
 from matplotlib.axes import Axes
 
-from . import terminal
+from . import files, terminal
 from .estimates import Estimate
 from .estimate_parts import GROUPS
-from .page import Page
+from .page import Page, page_files
 from .plots import style as figures
 from .plots.style import BLUE, INK, Curve, drawn, finish
 from .sentences import ALWAYS_LEFT_OUT
@@ -146,10 +146,15 @@ def page_of(estimate: Estimate) -> Page:
     return page
 
 
+FILES = [*figures.files_of("estimate", ("png",)), *page_files(["budget"])]
+"""The names of the files that write() writes."""
+
+
 def write(estimate: Estimate) -> list[str]:
     """The chart and the page beside estimate.json; names of what there is."""
     fig = figures.make(lambda ax: chart(estimate, ax))
     if fig is not None:
-        figures.save(fig, estimate.directory / "estimate", ("png",))
+        with files.outputs(estimate.directory, figures.files_of("estimate", ("png",))) as out:
+            figures.save(fig, out, "estimate", ("png",))
     page_of(estimate).write()
     return ["estimate.json", *["estimate.png"] * (fig is not None), "report.html"]

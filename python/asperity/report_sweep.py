@@ -6,6 +6,7 @@ seeds: contact maps, force curves, and pages to go to."""
 from __future__ import annotations
 
 import base64
+import contextlib
 import io
 from functools import partial
 from pathlib import Path
@@ -14,15 +15,16 @@ import matplotlib.image
 import numpy as np
 from matplotlib.axes import Axes
 
+from . import files
 from .errors import Error
 from .estimates import RESULT, load_estimate
 from .grid import is_seed, shown
-from .page import Page, file_name
+from .page import Page, file_name, page_files
 from .plots import run as run_plots
 from .plots import sweep as plots
 from .plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
 from .pool import DONE, FAILED
-from .report import end, write_run_page
+from .report import end, run_page_files, write_run_page
 from .report_estimate import page_of
 from .result import Result, Values, expect
 from .scene import toml_of
@@ -43,7 +45,8 @@ FIGURES = {
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
     "pull-off": ("Pull-off force", "Largest attraction of the substrate on the block during the pull-off."),
-    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle."),
+    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle; of a "
+                   "block that relaxes also what it dissipates."),
     "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
                  "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
                  "energy."),
@@ -53,7 +56,7 @@ FIGURES = {
 
 
 class _Points:
-    """Of one sweep the points that are shown one by one."""
+    """Points of one sweep that are shown one by one."""
 
     def __init__(self, sweep: Sweep, directory: Path):
         self.links: list[str] = []
@@ -61,11 +64,10 @@ class _Points:
         self.runs: list[tuple[str, Result]] = []
         self.origin = ""
         self.unread: list[str] = []
-        for number, (_, places) in enumerate(sweep.table.groups):
+        for name in _shown(sweep):
             self.links.append("")
-            done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
-            if done and number < MOST_POINTS:
-                self._look_at(str(done[0]["directory"]), sweep.directory, directory)
+            if name:
+                self._look_at(name, sweep.directory, directory)
 
     def _look_at(self, name: str, place: Path, directory: Path) -> None:
         if not (place / name / "result.json").exists():
@@ -76,10 +78,9 @@ class _Points:
             self.unread.append(str(error).splitlines()[0])
             return  # its row stays without a page
         self.unread += [f"{name}: {note}" for note in run.notes]
-        page = run.directory / "report.html"
-        if not page.exists() or page.stat().st_mtime < (run.directory / "result.json").stat().st_mtime:
+        if _wants_page(run.directory):
             write_run_page(run, kinds=("png",))
-        link = page.relative_to(directory).as_posix()
+        link = (run.directory / "report.html").relative_to(directory).as_posix()
         self.links[-1] = link
         self.origin = self.origin or run.text("surface.origin")
         self.runs.append((name, run))
@@ -91,8 +92,34 @@ class _Points:
             self.thumbs.append({"png": base64.b64encode(picture.getvalue()).decode(), "caption": name, "link": link})
 
 
+def _shown(sweep: Sweep) -> list[str]:
+    """Of each line of the table the directory of the point that is shown, or ""."""
+    names = []
+    for number, (_, places) in enumerate(sweep.table.groups):
+        done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
+        names.append(str(done[0]["directory"]) if done and number < MOST_POINTS else "")
+    return names
+
+
+def _wants_page(directory: Path) -> bool:
+    """Whether the page of a point is missing or older than its result."""
+    page = directory / "report.html"
+    return not page.exists() or page.stat().st_mtime < (directory / "result.json").stat().st_mtime
+
+
+def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) -> None:
+    """Raises SceneError with the files in the way of the page and of those of the points."""
+    curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
+    names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
+    for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name):
+        if (place / "result.json").exists() and _wants_page(place):
+            with contextlib.suppress(Error):  # a point that cannot be read stays without a page
+                names[place] = run_page_files(Result(place).fields, ("png",))
+    files.require_free(names)
+
+
 def _force_curves(points: _Points, ax: Axes) -> bool:
-    """The force curves of several points in one plot, spread evenly over them."""
+    """Draws the force curves of several points in one plot, spread evenly over them."""
     runs = [(n, r) for n, r in points.runs
             if {"segment", "mean_height", "force"} <= set(r.series) and len(r.series["segment"]) > 1]
     if len(runs) < 2:
@@ -117,7 +144,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
 
 
 def _half_way(table: Table, column: str) -> float | None:
-    """The roughness at which a quantity has fallen to half, between the points; seeds averaged."""
+    """Returns the roughness at which a quantity has fallen to half, between the points; seeds averaged."""
     means = table.average(table.values(column)).mean
     points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
     for (x0, y0), (x1, y1) in zip(points, points[1:]):
@@ -127,7 +154,7 @@ def _half_way(table: Table, column: str) -> float | None:
 
 
 def key_numbers(sweep: Sweep) -> list[KeyNumber]:
-    """What a sweep over roughness alone comes to."""
+    """Returns the key numbers of a sweep over roughness alone."""
     table, curves = sweep.table, sweep.curves
     if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not table.along:
         return []
@@ -185,8 +212,9 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
 
 
 def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
+    """Writes DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
     sweeps = load_sweeps(directory)
+    _require_free(directory, sweeps, kinds)
     page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
                 kinds=kinds)
     points = [_Points(sweep, directory) for sweep in sweeps]
@@ -220,7 +248,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """DIR/report.html of what it holds: an estimate, a sweep, those of several scenes in its folders, or a run."""
+    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run."""
     if (directory / RESULT).exists():
         page = page_of(load_estimate(directory))
         page.write()

@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 """A result directory: result.json as attributes, the arrays of run.h5 as they are asked for.
 
-A directory holds what its run came to: a run that failed has a reason and perhaps half a series, one of
-the theory alone has no run.h5. What is not there is absent or empty here; a damaged run.h5 is reported in
-`notes`, and the rest is used.
+A run that failed leaves the reason and perhaps half a series; one of the theory alone leaves no run.h5. Missing parts are
+absent or empty here; a damaged run.h5 is reported in `notes`, and the rest is used.
 """
 
 from __future__ import annotations
@@ -25,13 +24,13 @@ from . import files
 from .errors import InputOutputError
 
 LARGEST_ARRAY = 2**28
-"""Values; a data set that claims to be larger is not read."""
+"""Largest number of values of a data set that is read."""
 DEEPEST_JSON = 64
-"""Levels; what the program itself reads is no deeper."""
+"""Largest number of levels of a JSON file; the program itself reads no deeper ones."""
 
 
 def finite(value: Any, otherwise: float | None = None) -> float | None:
-    """A value of a JSON file if it is a finite number."""
+    """Returns a value of a JSON file if it is a finite number, else `otherwise`."""
     with contextlib.suppress(OverflowError):
         if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
@@ -39,7 +38,7 @@ def finite(value: Any, otherwise: float | None = None) -> float | None:
 
 
 class Attributes:
-    """Members by name are attributes too."""
+    """Mapping whose members are attributes too."""
 
     _called = "the result"
 
@@ -65,7 +64,18 @@ class Values(Attributes, dict):
         return json.dumps(self, indent=2, ensure_ascii=False)
 
     def find(self, name: str) -> Any:
-        """A value by its path, "theory.persson.gamma_eff"; None where there is none."""
+        """Returns a value by its path, None if there is none.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        object
+            The value: number, text, list or Values.
+        """
         value: Any = self
         for part in name.split("."):
             if not isinstance(value, dict) or part not in value:
@@ -74,26 +84,80 @@ class Values(Attributes, dict):
         return value
 
     def number(self, name: str, otherwise: float | None = None) -> float | None:
-        """The same if it is a finite number."""
+        """Returns a value by its path if it is a finite number.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+        otherwise : float, optional
+            Returned for every other value.
+
+        Returns
+        -------
+        float or None
+            The number, in the unit of unit(name).
+        """
         return finite(self.find(name), otherwise)
 
     def text(self, name: str) -> str:
-        """The same if it is a string, else ""."""
+        """Returns a value by its path if it is a text, else "".
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        str
+            The text.
+        """
         value = self.find(name)
         return value if isinstance(value, str) else ""
 
     def part(self, name: str) -> Values:
-        """The same if it is an object, else an empty one."""
+        """Returns a value by its path if it is an object, else an empty one.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        Values
+            The object.
+        """
         value = self.find(name)
         return Values(value) if isinstance(value, dict) else Values()
 
     def listed(self, name: str, kind: type = object) -> list:
-        """The same if it is a list, else []: its members of a kind."""
+        """Returns the members of a kind of a list by its path, [] if the value is no list.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+        kind : type
+            Type of the members that are returned.
+
+        Returns
+        -------
+        list
+            The members.
+        """
         value = self.find(name)
         return [member for member in value if isinstance(member, kind)] if isinstance(value, list) else []
 
     def numbers(self) -> dict[str, float]:
-        """All finite numbers by their paths, in the order of the file."""
+        """Returns all finite numbers by their paths, in the order of the file.
+
+        Returns
+        -------
+        dict of str to float
+            The numbers, in the units of unit(path).
+        """
         found: dict[str, float] = {}
         for key, value in self.items():
             if isinstance(value, dict):
@@ -104,8 +168,8 @@ class Values(Attributes, dict):
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
-    """Of a scene, the load of its state, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
-    " under a load of 5 MPa". They differ after an approach: its state carries none. swept: drive.load is an axis."""
+    """Returns the load of a scene's state in words, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
+    " under a load of 5 MPa". They differ after an approach, whose state carries no load. swept: drive.load is an axis."""
     keys = Values({"scene": scene}).part("scene")
     load = keys.number("drive.load", 0.0)
     under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
@@ -119,7 +183,7 @@ def _deeper_than(value: Any, levels: int) -> bool:
 
 
 def read_json(path: Path) -> Values:
-    """A file with a JSON object, as its digest says if it has one. Raises InputOutputError for anything else."""
+    """Reads a file with a JSON object and checks its digest, if it has one. Raises InputOutputError for anything else."""
     def refuse(why: str, remedy: str = "was it damaged, or written by hand?") -> InputOutputError:
         return InputOutputError(str(path), "cannot be read", why, remedy)
     try:
@@ -143,7 +207,7 @@ def read_json(path: Path) -> Values:
 
 
 def expect(directory: Path, *files: str) -> None:
-    """Raises InputOutputError unless the directory holds one of these files."""
+    """Checks that the directory holds one of these files. Raises InputOutputError."""
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
         raise InputOutputError(str(directory), "is no result directory",
@@ -158,13 +222,13 @@ def expect(directory: Path, *files: str) -> None:
 
 
 class RunFile:
-    """run.h5 of a directory. Every read is checked; what cannot be read raises InputOutputError.
+    """File run.h5 of a directory. Every read is checked, and raises InputOutputError if it fails.
 
     The first read compares the file with the digest at its end, if it was written with one.
     """
 
     def __init__(self, path: Path, unread: str = ""):
-        """unread: why nothing of it is here"""
+        """Keeps the path. unread: why the file is not read; "": it is."""
         self.path, self.unread = path, unread
 
     def lacks(self, what: str, there: list[str]) -> KeyError:
@@ -195,7 +259,7 @@ class RunFile:
                                    "run the scene again, or resume it from its checkpoint") from None
 
     def members(self, group: str) -> list[str]:
-        """Names in a group; none if there is no such group."""
+        """Returns the names in a group; [] if there is no such group."""
         if not self.path.exists():
             return []
         with self._opened() as file:
@@ -203,7 +267,7 @@ class RunFile:
             return list(found) if isinstance(found, h5py.Group) else []
 
     def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
-        """A data set of numbers of so many dimensions; of a frame, that element of the first one."""
+        """Reads a data set of numbers of so many dimensions; frame: only this element of the first dimension."""
         with self._opened() as file:
             found = file[name]
             if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
@@ -216,7 +280,7 @@ class RunFile:
             return np.asarray(found[()] if frame is None else found[frame])
 
     def attribute(self, name: str, key: str) -> Any:
-        """An attribute of a data set or group; None if there is none."""
+        """Returns an attribute of a data set or group; None if there is none."""
         with self._opened() as file:
             found = file[name].attrs.get(key)
             return found.decode() if isinstance(found, bytes) else found
@@ -225,7 +289,7 @@ class RunFile:
 class Group(Attributes, Mapping):
     """Arrays of a group of run.h5, read when they are asked for.
 
-    Maps are square, [y, x]; what stands in `lists` has one dimension and is reached by other members.
+    Maps are square, [y, x]; the names in `lists` have one dimension and are read by other members.
     """
 
     lists: tuple[str, ...] = ()
@@ -256,11 +320,11 @@ class Group(Attributes, Mapping):
         return len(self._read)
 
     def unit(self, name: str) -> str:
-        """The unit of an array; "" of pure numbers."""
+        """Returns the unit of an array; "" for pure numbers."""
         return str(self._file.attribute(f"{self._path}/{name}", "unit") or "")
 
     def _lists(self, *names: str) -> list[np.ndarray] | None:
-        """Arrays of one dimension, if all are there."""
+        """Returns arrays of one dimension; None unless all exist."""
         return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
 
 
@@ -278,7 +342,7 @@ class Series(Group):
         self._read = {name: column[:rows] for name, column in columns.items()}
 
     def frame(self):
-        """The columns as a pandas DataFrame."""
+        """Returns the columns as a pandas DataFrame."""
         import pandas
 
         return pandas.DataFrame(self._read)
@@ -299,24 +363,24 @@ class State(Group):
 
     @functools.cached_property
     def slide(self) -> tuple[float, float]:
-        """Place of the block over the substrate along x and y, Å; 0 where it was not slid."""
+        """Place of the block over the substrate along x and y, Å; 0 if it was not slid."""
         return self._number("slide_x"), self._number("slide_y")
 
     @functools.cached_property
     def reference_height(self) -> float:
-        """z of undisplaced sites, Å."""
+        """Height z of undisplaced sites, Å."""
         return self._number("reference_height")
 
     @property
     def gap_distribution(self) -> list[np.ndarray] | None:
-        """P(u): edges of the bins (Å) and density (1/Å)."""
+        """Distribution of gaps P(u): edges of the bins (Å) and density (1/Å)."""
         found = self._lists(*self.lists)
         return found if found and len(found[0]) == len(found[1]) + 1 else None
 
 
 class Substrate(Group):
-    """The rigid surface: height [y, x] (Å), spectrum: q (1/Å), realised and target C(q) (Å^4); where they stand
-    anywhere, atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs), else None."""
+    """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms
+    anywhere also has atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs); else they are None."""
 
     lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
@@ -342,7 +406,7 @@ class Substrate(Group):
 
 
 class States(dict):
-    """Of a run file, its states by name."""
+    """States of a run file by name."""
 
     def __init__(self, file: RunFile):
         super().__init__({name: State(file, name) for name in file.members("/fields")})
@@ -353,14 +417,32 @@ class States(dict):
 
 
 class Result(Values):
-    """One run: the keys of result.json as attributes, and
+    """Result of one run: the keys of result.json are attributes.
 
-    series      columns along the path, e.g. series["force"] (eV/Å)
-    fields      maps of states, e.g. fields["relaxed"].pressure (GPa), arrays [y, x]
-    substrate   its height and spectrum
-    units       the unit of each number, in the same nesting as the numbers
-    plot        plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
-    notes       what could not be read
+    Parameters
+    ----------
+    directory : str or Path
+        Result directory.
+
+    Attributes
+    ----------
+    series : Series
+        Columns along the path: series["force"] (eV/Å).
+    fields : States
+        Maps of states, arrays [y, x]: fields["relaxed"].pressure (GPa).
+    substrate : Substrate
+        Heights (Å) and spectrum of the substrate.
+    units : Values
+        Unit of each number, in the same nesting as the numbers.
+    plot : RunPlots
+        Plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
+    notes : list of str
+        Parts that could not be read.
+
+    Raises
+    ------
+    InputOutputError
+        If the directory holds no result.
     """
 
     def __init__(self, directory: str | os.PathLike):
@@ -377,7 +459,7 @@ class Result(Values):
             self._open("no run.h5", self.notes[-1])
 
     def _of_another_run(self) -> bool:
-        """Whether run.h5 ends in another digest than the one that result.json knows."""
+        """Returns True if run.h5 ends in another digest than that in result.json."""
         known, path = self.text("run.file_digest"), self.directory / "run.h5"
         with contextlib.suppress(OSError):
             there = files.hdf5_digest(path)
@@ -394,20 +476,44 @@ class Result(Values):
 
     @property
     def segments(self) -> list[Values]:
-        """The segments that have ended, with their numbers: result.segments[0].work."""
+        """Segments that have ended, with their numbers: result.segments[0].work_of_drive (meV/Å²)."""
         return [Values(s) for s in self.listed("segments") if isinstance(s, dict)]
 
     @property
     def segment_names(self) -> list[str]:
-        """The segments of the path, as the scene names them: series["segment"] counts them from 0."""
+        """Segments of the path by their names in the scene; series["segment"] counts them from 0."""
         return [str(s) for s in self.listed("scene.drive.path")]
 
     def unit(self, name: str) -> str:
-        """The unit of a number by its path; "" of a pure number or if the file does not tell."""
+        """Returns the unit of a number by its path.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        str
+            The unit; "" if the file gives none.
+        """
         return self.units.text(name)
 
     def key(self, name: str, otherwise: Any = None) -> Any:
-        """A key of the scene that was used, "surface.sites"."""
+        """Returns a key of the scene of the run.
+
+        Parameters
+        ----------
+        name : str
+            The key, "surface.sites".
+        otherwise : object, optional
+            Returned if the scene has no such key.
+
+        Returns
+        -------
+        object
+            The value, in the unit of docs/reference/scene.md.
+        """
         value = self.find("scene." + name)
         return otherwise if value is None else value
 
@@ -426,24 +532,24 @@ class Result(Values):
 
     @property
     def radius(self) -> float | None:
-        """Of a spherical cap, Å."""
+        """Radius of the spherical cap, Å; None: not curved."""
         return self.number("scene.surface.radius")
 
     @property
     def failure_text(self) -> str:
-        """Why the run failed; "" if it did not."""
+        """Reason why the run failed; "" if it did not."""
         if "failure" not in self:
             return ""
         return self.text("failure.reason") or json.dumps(self["failure"])[:2000]
 
     @property
     def stopped(self) -> str:
-        """Why the run ended before its end ("signal", "wall_limit", "max_steps"); "" if it did not."""
+        """Reason why the run ended early ("signal", "wall_limit", "max_steps"); "" if it did not."""
         return self.text("run.stopped")
 
     @property
     def title(self) -> str:
-        """The scene in one line; of a result without one the directory's name."""
+        """Scene in one line; the directory's name for a result without a scene."""
         name = self.text("name")
         sites = self.number("scene.surface.sites")
         if not name or not sites:
@@ -465,5 +571,21 @@ class Result(Values):
 
 
 def load(directory: str | os.PathLike) -> Result:
-    """The result in a directory. Raises InputOutputError where there is none."""
+    """Loads the result of a run.
+
+    Parameters
+    ----------
+    directory : str or Path
+        Result directory.
+
+    Returns
+    -------
+    Result
+        The result.
+
+    Raises
+    ------
+    InputOutputError
+        If the directory holds no result.
+    """
     return Result(directory)

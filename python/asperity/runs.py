@@ -21,8 +21,8 @@ from .terminal import progress_shown
 
 
 def launcher(ranks: int) -> list[str]:
-    """The words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
-    the MPI that the program was built with, where several are installed. Raises InputOutputError if it is not there."""
+    """Returns the words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
+    the MPI that the program was built with, if several are installed. Raises InputOutputError if there is none."""
     if ranks == 1:
         return []
     words, names = os.environ.get("ASPERITY_MPIRUN", "").split(), ()
@@ -45,16 +45,32 @@ OF_PROGRESS = re.compile(r" *\d+ %  ")
 
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,
         ranks: int = 1, progress: bool | None = None) -> Result:
-    """Simulates a scene and returns its Result.
+    """Simulates a scene.
 
-    scene      a TOML file, or a dictionary of its sections: {"surface": {"sites": 64}}
-    overrides  {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers are in the units of docs/reference/scene.md
-    out        the result directory; None: results/<scene>, or the next name that is free
-    ranks      MPI ranks
-    progress   lines that say how far it is; None: on a terminal and in a notebook
+    An interruption (Ctrl-C) lets the run write a checkpoint first.
 
-    An interruption (Ctrl-C) lets the run write a checkpoint first. Raises SceneError, PhysicsError,
-    InputOutputError or Stopped with the program's message.
+    Parameters
+    ----------
+    scene : str, Path or dict
+        TOML file, or dictionary of the scene's sections: {"surface": {"sites": 64}}.
+    overrides : dict, optional
+        Values by key, {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers in the units of docs/reference/scene.md.
+    out : str or Path, optional
+        Result directory; by default results/<scene>, or the next free name.
+    ranks : int
+        Number of MPI ranks.
+    progress : bool, optional
+        Print lines of progress; by default on a terminal and in a notebook.
+
+    Returns
+    -------
+    Result
+        Result of the run.
+
+    Raises
+    ------
+    SceneError, PhysicsError, InputOutputError, Stopped
+        If the program fails or stops early, with its message.
     """
     program.refuse_ranks()
     if isinstance(ranks, bool) or not isinstance(ranks, Integral) or ranks < 1:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import os
 import re
 import sys
@@ -14,25 +15,31 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any, Union
 
-from .errors import Error
+from .errors import Error, SceneError
 
 SceneLike = Union[str, Path, Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], list]
 
 
 def toml_value(value: Any) -> str:
-    """A value as it stands in TOML; a JSON string is a TOML string as well."""
+    """Returns a value as it stands in TOML; a JSON string is a TOML string as well."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml_value(v) for v in value) + "]"
     if hasattr(value, "item"):  # a number of numpy
         value = value.item()
     if isinstance(value, Path):
         value = str(value)
-    return json.dumps(value, ensure_ascii=False)
+    if isinstance(value, float) and not math.isfinite(value):
+        return repr(value)  # nan, inf: the program refuses them by the name of their key
+    try:
+        return json.dumps(value, ensure_ascii=False)
+    except TypeError:
+        raise SceneError("", f"{value!r:.60} is no value of a key", f"it is of type {type(value).__name__}",
+                         "give a number, a text, true or false, or a list of them") from None
 
 
 def toml_of(scene: Mapping[str, Any]) -> str:
-    """The TOML text of {"surface": {"rms": 1}, ...}; keys may also be whole: {"surface.rms": 1}."""
+    """Returns the TOML text of {"surface": {"rms": 1}, ...}; keys may also be whole: {"surface.rms": 1}."""
     lines, sections = [], []
     for name, value in scene.items():
         if isinstance(value, Mapping):
@@ -45,20 +52,39 @@ def toml_of(scene: Mapping[str, Any]) -> str:
 
 
 def assignments(overrides: Overrides | None) -> list[str]:
-    """Overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
+    """Returns overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
+    if overrides is None:
+        return []
     if not isinstance(overrides, Mapping):
-        return list(overrides or [])
+        if isinstance(overrides, (list, tuple)) and all(isinstance(o, str) for o in overrides):
+            return list(overrides)
+        raise SceneError("overrides", f"are {overrides!r:.60}", "keys with their values are needed",
+                         'for example {"surface.rms": 2.0}, or ["surface.rms=2.0"]')
     found = []
     for key, value in overrides.items():
         if isinstance(value, Mapping):
             found += assignments({f"{key}.{name}": inner for name, inner in value.items()})
+        elif value is None:
+            raise SceneError(str(key), "= None", "that is no value of a key", "leave the key out, or give it a value")
         else:
             found.append(f"{key}={value if isinstance(value, str) else toml_value(value)}")
     return found
 
 
+def file_beside(name: str, scene: str) -> str:
+    """The path of a file that a scene names: beside the scene, or else in the working directory."""
+    beside = Path(scene).parent / name
+    return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
+
+
+def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
+    """Paths of the files that a command reads for a scene: its file, its map or atoms, and its table."""
+    named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("interface", "table"))]
+    return [str(file), *(file_beside(name, str(file)) for name in named if name)]
+
+
 def _caller() -> str:
-    """File and line of the script that called the package."""
+    """Returns file and line of the script that called the package."""
     package = str(Path(__file__).parent)
     frame = sys._getframe(1)
     while frame and (frame.f_code.co_filename.startswith(package) or frame.f_code.co_filename == contextlib.__file__):
@@ -68,7 +94,7 @@ def _caller() -> str:
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
-    """The file of a scene; of a dictionary a temporary one, named by its entry "name", in the folder if it is given.
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name", in the folder if it is given.
     overrides: those that a script gave; errors about them name the script."""
     try:
         with _file_of(scene, folder) as file:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -143,13 +144,13 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
-    if (lost := run.number("lost.cycle")) is not None:
-        add(f"{lost * run.edge**2 / 1e3 if run.curved else lost:.4g}", "eV" if run.curved else "meV/Å²",
-            "lost at instabilities in a cycle" if run.number("dissipated_in_block.cycle") is not None else
-            "lost in a cycle (hysteresis)", _loss(run) if run.curved else f"{millijoules(lost)} mJ/m²; {_loss(run)}")
-    if (relaxed := run.number("dissipated_in_block.cycle")) is not None and not run.curved:
-        add(f"{relaxed:.4g}", "meV/Å²", "dissipated in the block in a cycle",
-            f"{millijoules(relaxed)} mJ/m²; as the block relaxes (block.prony)")
+    relaxes = run.number("dissipated_in_block.cycle") is not None
+    for key, name, note in (
+            ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
+            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block relaxes (block.prony)")):
+        if (value := run.number(key)) is not None:
+            add(f"{value * run.edge**2 / 1e3 if run.curved else value:.4g}", "eV" if run.curved else "meV/Å²", name,
+                note if run.curved else f"{millijoules(value)} mJ/m²; {note}")
     if not run.curved:
         gamma("work_of_interface.approach", "work of the interface, approach")
         gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
@@ -196,6 +197,12 @@ def _loss(run: Result) -> str:
     return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
 
 
+def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
+    """What a block that relaxes dissipates in a cycle, beside what is lost; "": it does not relax."""
+    relaxed = run.number("dissipated_in_block.cycle")
+    return "" if relaxed is None else f" The block, which relaxes, dissipates {energy(relaxed)}."
+
+
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
     if lost is None:
@@ -204,10 +211,10 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         loop, *parts = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
         return f"A cycle of approach and pull-off loses {loop} eV" + (
             f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
-            "detaches." if all(parts) else ".")
+            "detaches." if all(parts) else ".") + _relaxing_sentence(run, lambda e: minus(f"{e * run.edge**2 / 1e3:.4g}") + " eV")
     text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
-    if (relaxed := run.number("dissipated_in_block.cycle")) is not None:
-        text += f" The block, which relaxes, dissipates {energy(relaxed)}; {energy(lost)} are lost at instabilities."
+    if relaxing := _relaxing_sentence(run, energy):
+        text += f" Of these works {energy(lost)} are lost at instabilities." + relaxing
     elif abs(lost) < 0.01 * flat:
         text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
     else:
@@ -226,7 +233,8 @@ def results(run: Result) -> list[str]:
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
     if state is not None and flat > 0:
         text.append(_state_sentence(run, state, flat))
-    if into is not None and out is not None and flat > 0 and set(run.segment_names) <= {"approach", "pull-off", "relax"}:
+    kinds = {name.split()[0] for name in run.segment_names}
+    if into is not None and out is not None and flat > 0 and kinds <= {"approach", "hold", "pull-off", "relax"}:
         text.append(_cycle_sentence(run, into, out, flat))
     if (pinning := run.number("jkr.edge_pinning")) is not None:
         text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion by "

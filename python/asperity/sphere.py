@@ -29,12 +29,12 @@ RATIOS = np.sinh(np.geomspace(1e-8, 15, 4000))
 
 
 def jkr(a: Any) -> tuple[Any, Any, Any]:
-    """Force, radius and approach in Maugis' units at the contact radius a."""
+    """Returns force, radius and approach in Maugis' units at the contact radius a."""
     return a**3 - np.sqrt(6 * a**3), a, a**2 - 2 / 3 * np.sqrt(6 * a)
 
 
 def maugis(parameter: Any, s: Any) -> tuple[Any, Any, Any]:
-    """The same at λ and s = √(m² - 1)."""
+    """Returns force, radius and approach in Maugis' units at λ and s = √(m² - 1)."""
     s = np.asarray(s, float)
     m, angle = np.sqrt(1 + s * s), np.arctan(s)
     # w/σ0 is the opening at c; both parts cancel to order s³ and s² where m is close to one.
@@ -64,13 +64,13 @@ class Sphere(NamedTuple):
         return 4 * self.modulus / 3
 
     def parameter(self, stress: float, radius: Any = None) -> Any:
-        """Maugis' λ, of a sphere of this radius."""
+        """Returns Maugis' λ of a sphere of this radius."""
         return 2 * stress * np.cbrt((self.radius if radius is None else radius) / (
             math.pi * self.work * self.stiffness**2))
 
     def curve(self, at: np.ndarray, stress: float | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Mean height, force and contact radius with the images: by JKR at these contact radii, or by Maugis and
-        Dugdale with this stress at these √(m² - 1). NaN where the images flatten the sphere, or do not converge."""
+        """Returns mean height, force and contact radius with the images: by JKR at these contact radii, or by Maugis and
+        Dugdale with this stress at these √(m² - 1). NaN if the images flatten the sphere, or do not converge."""
         curvature = CURVATURE_SUM / (2 * math.pi * self.modulus * self.period**3)
         at = np.asarray(at, float)
         force = before = 0 * at
@@ -89,7 +89,7 @@ class Sphere(NamedTuple):
         return height, force, a * length
 
     def pull_off(self, stress: float | None = None) -> float:
-        """The largest attraction, as a work of adhesion by JKR, F/(1.5πR). NaN where there is none."""
+        """Returns the largest attraction as a work of adhesion by JKR, F/(1.5πR). NaN if there is none."""
         unit = float(np.cbrt(math.pi * self.work * self.radius**2 / self.stiffness))
         at = np.linspace(0.2, 3, 4000) * unit if stress is None else RATIOS
         for _ in range(3):  # finer about the least

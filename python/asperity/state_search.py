@@ -4,19 +4,19 @@
 
 A path at a held mean height goes inwards from beyond the interaction range; where its force F passes P the block is set free. From an
 instability the new branch is followed outwards, too. At the inner end full contact is pressed on, and the way back is
-followed. Where it ends, and what it may miss: docs/explanation/relaxation.md.
+followed. Then random starts are relaxed. Where the path ends, and what it may miss: docs/explanation/relaxation.md.
 """
 
 from __future__ import annotations
 
 import contextlib
 import json
-import math
 import os
 import sys
 import time
+import tomllib
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -25,17 +25,18 @@ import numpy
 from . import files, program
 from .engine import State, Statics
 from .errors import PhysicsError, SceneError
-from .scene import Overrides, SceneLike, assignments
+from .scene import Overrides, SceneLike, assignments, inputs_of
 from .terminal import Progress, millijoules, table
 from .units import MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
+NEAR = 0.01  # of the deepest energy found: a random start that ends within it counts as ending there
 PRESS = 0.125  # of the contact modulus: how far full contact is pressed
 SAVE_EVERY = 5.0  # s
 MEGAPASCAL = 6.241509074e-6  # eV/Å³
 NUMBERS = ("binding_energy", "elastic_energy", "mean_height", "contact_fraction", "repulsive_fraction")
-UNITS = dict(zip((*NUMBERS, "barrier", "approach_less_run", "step", "innermost", "pressed_to"),
-                 "meV/Å^2 meV/Å^2 Å 1 1 MPa meV/Å^2 Å Å MPa".split()))
+UNITS = dict(zip((*NUMBERS, "barrier", "approach_less_run", "step", "innermost", "pressed_to", "start_energies"),
+                 "meV/Å^2 meV/Å^2 Å 1 1 MPa meV/Å^2 Å Å MPa meV/Å^2".split()))
 RESULT, UNFINISHED = "states.json", "states-unfinished.npz"
 
 
@@ -44,8 +45,9 @@ class Search:
 
     def __init__(self, statics: Statics, starts: int):
         self.statics, self.case, self.starts = statics, statics._case, starts
-        self.log: dict[str, Any] = {"stage": "inwards", "states": [], "points": [], "branch": 0, "tried": 0, "failed": 0}
-        self.kept: dict[str, State] = {}  # "turn": where it turned outwards; "best": the deepest state
+        self.log: dict[str, Any] = {"stage": "inwards", "states": [], "points": [], "branch": 0, "tried": 0, "failed": 0,
+                                    "ends": []}  # binding energies that random starts led to
+        self.kept: dict[str, State] = {}  # "turn": where it turned outwards
         self._dissipated = 0.0  # at the last point of the path under way
 
     @property
@@ -69,8 +71,9 @@ class Search:
         lost, self._dissipated = p.dissipated - self._dissipated, p.dissipated
         return lost
 
-    def free(self, found: str, start: State | None = None) -> None:
-        """The state that the sites come to from `start`, or from where they are, where they are again afterwards."""
+    def free(self, found: str, start: State | None = None) -> float | None:
+        """Relaxes the sites from `start`, or from where they are, and puts them back there. Returns the binding energy of
+        the state, meV/Å²; None if no state is found."""
         here = self.statics.copy()
         if start:
             self.put(start)
@@ -83,7 +86,8 @@ class Search:
             rest = self.statics.free()
         except PhysicsError:
             self.log["failed"] += 1
-            return self.put(here)
+            self.put(here)
+            return None
         for known in self.log["states"]:
             if (abs(known["mean_height"] - rest.mean_height) < 0.5 * self.case["step"] and
                     abs(known["binding_energy"] - rest.binding_energy) <= 1e-4 * self.case["scale"]):
@@ -91,17 +95,17 @@ class Search:
                 known["branch"] = branch if known["branch"] is None else known["branch"]
                 break
         else:
-            if all(rest.binding_energy > known["binding_energy"] for known in self.log["states"]):
-                self.kept["best"] = self.statics.copy()
             self.log["states"].append({**{name: getattr(rest, name) for name in NUMBERS}, "found": [found],
                                        "branch": branch})
         self.put(here)
+        return rest.binding_energy
 
     def advance(self) -> bool:
         """A point more, and the state beside it. False: the search is over."""
         if not self.log["points"]:
             self.free("run")
             self.go(mean_height=self.statics.mean_height)
+            self.log["datum"] = self.now["z"] - float(self.statics.copy().u[2].mean())
         getattr(self, "_" + self.log["stage"])()
         return self.log["stage"] != "done"
 
@@ -112,7 +116,9 @@ class Search:
         except PhysicsError as error:
             if before["force"] < 0.0:  # a state may lie before the next point
                 self.free(self._way())
-            return self._end("the next point inwards failed: " + str(error).splitlines()[0])
+            what, *why = str(error).splitlines()
+            return self._end("the next point inwards failed: " + what + "".join(
+                f" ({line.strip().removeprefix('why: ')})" for line in why if line.strip().startswith("why: ")))
         if before["force"] < 0.0 <= self.now["force"]:
             self.free(self._way())
         apart, push = self.case["area"] * (1.0 - self.now["contact"]), self.now["force"]
@@ -159,14 +165,41 @@ class Search:
             self.log.update(stage=self.log["then"], branch=0)
 
     def _random(self) -> None:
-        """From the deepest state, the sites displaced sideways by up to half a spacing."""
-        if not self.case["lateral"] or "best" not in self.kept or self.log["tried"] == self.starts:
+        """Relaxes one more random start. The starts are independent of each other and of the path."""
+        if self.log["tried"] == self.starts or not self.case["scale"]:  # without attraction there is one state
             self.log["stage"] = "done"
             return
         self.log["tried"] += 1
-        start, draw = State(self.kept["best"].u, self.kept["best"].top), numpy.random.default_rng(self.log["tried"])
-        start.u[:2] += self.case["spacing"] * draw.uniform(-0.5, 0.5, start.u[:2].shape)
-        self.free("random start", start)
+        end = self.free("random start", self.laid(numpy.random.default_rng(self.log["tried"])))
+        self.log["ends"] += [] if end is None else [end]
+
+    def laid(self, draw: numpy.random.Generator) -> State:
+        """Returns a flat layer at a random height, between lying on the whole substrate and on its highest atom.
+
+        Where the layer would be closer to the substrate than flat solids at rest it lies on it: no site is on the other
+        side. The sites are moved sideways at random, by up to a random part of half a spacing.
+        """
+        here, apart = self.statics.copy(), self.case["separation"] - self.log["datum"]
+        u, heights = numpy.zeros_like(here.u), numpy.asarray(self.statics.substrate.height)
+        level = draw.uniform(heights.min(), heights.max())
+        if self.case["lateral"]:
+            u[:2] = draw.uniform(0.0, 0.5) * self.case["spacing"] * draw.uniform(-1.0, 1.0, u[:2].shape)
+        u[2] = numpy.maximum(level, self._heights_below(u[:2], heights)) + apart
+        return State(u, float(u[2].mean()))
+
+    def _heights_below(self, sideways: numpy.ndarray, heights: numpy.ndarray) -> numpy.ndarray:
+        """Returns the height of the substrate below each site, Å, [y, x]: of a wall, or between four atoms."""
+        if self.case["wall"]:
+            return heights
+        sites, atoms = sideways.shape[-1], len(heights)
+        row, column = numpy.indices((sites, sites)) + 0.5
+        x, y = (place * atoms / sites for place in (column + sideways[0] / self.case["spacing"],
+                                                    row + sideways[1] / self.case["spacing"]))
+        west, south = numpy.floor(x).astype(int), numpy.floor(y).astype(int)
+        x, y = x - west, y - south
+        low, high = ((1.0 - x) * heights[j % atoms, west % atoms] + x * heights[j % atoms, (west + 1) % atoms]
+                     for j in (south, south + 1))
+        return (1.0 - y) * low + y * high
 
     def _barrier(self, outer: dict[str, Any], inner: dict[str, Any]) -> float | None:
         """The largest pressure on the way to the next state, MPa: on the branch of the first to its inner end, and
@@ -179,30 +212,36 @@ class Search:
         return largest / self.case["area"] / MEGAPASCAL if largest > 0.0 else None
 
     def result(self) -> dict[str, Any]:
-        log, states = self.log, sorted(self.log["states"], key=lambda s: -s["mean_height"])
-        if not states:
+        log = self.log
+        if not log["states"]:
             raise PhysicsError(f"{self.case['name']}: no state was found under this load")
+        best = max(log["states"], key=lambda s: s["binding_energy"])
+        states = sorted((s for s in log["states"] if s is best or s["found"] != ["random start"]),
+                        key=lambda s: -s["mean_height"])
         on_path = [s for s in states if s["branch"] is not None]
         for outer, inner in zip(on_path, on_path[1:]):
             outer["barrier"] = self._barrier(outer, inner)
         energy = {name: s["binding_energy"] for s in states for name in s["found"]}
-        innermost, random = min(p["z"] for p in log["points"]), sum(s["found"] == ["random start"] for s in states)
+        innermost, made = min(p["z"] for p in log["points"]), len(log["ends"])
         misses = [f"states whose force passes the load and comes back within {self.case['step']:.3g} Å",
                   f"branches that no instability of this path leads to, or one that loses less than {LEAST_LOSS:.1%} "
                   "of the energies met", f"states below a mean height of {innermost:.2f} Å"]
-        misses += [f"states in which sites rest in other hollows: {log['tried']} random starts led to "
-                   f"{random or 'none'} of which the path leads to none"] * self.case["lateral"]
+        misses += [f"deeper states: a further random start ends in one with a probability of at most "
+                   f"{1.0 / (made + 1):.2g}"] * (made > 0)
         misses += [f"the ends of {log['failed']} relaxations that did not reach drive.tolerance"] * (log["failed"] > 0)
         return {"states": [{**{name: s[name] for name in NUMBERS}, "barrier": s.get("barrier"), "found": s["found"]}
                            for s in states],
-                "deepest": max(range(len(states)), key=lambda i: states[i]["binding_energy"]),
+                "deepest_found": states.index(best), "starts": made, "start_energies": log["ends"],
+                "starts_at_deepest": sum(best["binding_energy"] - end <= NEAR * abs(best["binding_energy"])
+                                         for end in log["ends"]),
+                "deeper_next": 1.0 / (made + 1),
                 "approach_less_run": energy["approach"] - energy["run"] if {"approach", "run"} <= {*energy} else None,
                 "points": len(log["points"]), "step": self.case["step"], "innermost": innermost,
                 "pressed_to": log["pressed_to"], "ended": log["ended"], "may_miss": misses, "units": UNITS}
 
-    def save(self, place: Path) -> None:
+    def save(self, out: files.Outputs) -> None:
         states = {**self.kept, "here": self.statics.copy()}
-        with files.replacing(place) as beside, open(beside, "wb") as file:
+        with out.replacing(UNFINISHED) as beside, open(beside, "wb") as file:
             numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]),
                         **{name: state.u for name, state in states.items()})
 
@@ -220,37 +259,46 @@ class Search:
         self.log, self.kept = log, states
 
 
-def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 3,
+def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
     """Searches for the stable states of a scene under its load. Returns a dictionary:
 
         states      inwards: binding_energy, elastic_energy (meV/Å²), mean_height (Å), contact_fraction,
-                    repulsive_fraction, barrier (MPa: the largest pressure on the path to the next), found (how)
-        deepest     the number of the one that binds most
-        may_miss    what such a search does not find
+                    repulsive_fraction, barrier (MPa: the largest pressure on the path to the next), found (how); of those
+                    that only random starts led to, the deepest
+        deepest_found       the number of the one that binds most among those found
+        starts              random starts that were relaxed to a state; start_energies: its binding energy, of each
+        starts_at_deepest   how many of them ended within 1 % of its binding energy
+        deeper_next         the largest probability that a further start ends deeper
+        may_miss            what such a search does not find
 
-    out: a directory for states.json, where a search that was stopped goes on. starts: random lateral displacements
-    that are tried. report is told how far it is.
+    out: a directory for states.json, where a search that was stopped goes on. starts: how many flat layers, laid on the
+    substrate at random heights, are relaxed. report is told how far it is.
     """
     program.refuse_ranks()
     place = None if out is None else files.chosen(os.fspath(out), "")
-    with contextlib.nullcontext() if place is None else files.in_use(place):
+    with contextlib.ExitStack() as stack:
+        if place:
+            stack.enter_context(files.in_use(place))
         if place and (place / RESULT).exists():
-            raise SceneError(str(place), "already holds a result", "results are not written over",
+            raise SceneError(str(place), "already holds a result, states.json", "results are not written over",
                              "name another directory, or remove this one")
         relaxed = [*assignments(overrides), "block.prony=[]", "drive.path=relax"]  # the block has relaxed
         search, saved = Search(Statics(scene, relaxed), starts), time.monotonic()
+        if place:
+            inputs = () if isinstance(scene, Mapping) else inputs_of(str(scene), tomllib.loads(search.case["scene"]))
+            out = stack.enter_context(files.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
         if place and (place / UNFINISHED).exists():
             search.resume(place / UNFINISHED)
         while search.advance():
             if report:
                 report(f"{search.log['stage']}, {search.now['z']:.2f} Å, states: {len(search.log['states'])}")
             if place and time.monotonic() - saved >= SAVE_EVERY:
-                search.save(place / UNFINISHED)
+                search.save(out)
                 saved = time.monotonic()
         found = search.result()
         if place:
-            files.write(place / RESULT, files.sealed_json({"name": search.case["name"], **found}))
+            out.write(RESULT, files.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
     return found
 
@@ -273,9 +321,13 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
              ", ".join(s["found"])] for s in found["states"]]
     print(table(["binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
                  "to the next, MPa", "found by"], rows, left=(6,)))
-    deepest = found["states"][found["deepest"]]["binding_energy"]
-    print(f"The deepest state has a binding energy of {deepest:.4g} meV/Å² ({millijoules(deepest)} mJ/m²). The path went in to a "
-          f"mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; it ended because: {found['ended']}.")
+    deepest = found["states"][found["deepest_found"]]["binding_energy"]
+    print(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "
+          f"({millijoules(deepest)} mJ/m²)" + (
+              f"; {found['starts_at_deepest']} of the starts ended within {NEAR:.0%} of it. A further start ends deeper with a "
+              f"probability of at most {found['deeper_next']:.2g}." if found["starts"] else "."))
+    print(f"The path went in to a mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; "
+          f"it ended because: {found['ended']}.")
     if found["approach_less_run"]:
         less = found["approach_less_run"]
         print(f"The state after an approach binds by {less:+.3g} meV/Å² ({less * MILLIJOULE:+.3g} mJ/m²) relative to that of a run.")

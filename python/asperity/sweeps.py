@@ -29,17 +29,39 @@ from .errors import Error, InputOutputError, SceneError
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from .result import Result, Values, read_json
-from .scene import SceneLike, scene_file
+from .scene import SceneLike, inputs_of, scene_file
 from .tables import Columns, Table, columns_of, text_of
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
+TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
 
 
 @dataclass
 class Sweep:
-    """The points of one scene. `points` and `theory` (the theory's curves, more finely) are dictionaries as in
-    sweep.json: set {key: value}, delta_gamma, theory {...}; of a simulated point directory, status, failure
-    and result {column: value}. Energies in meV/Å², lengths in Å."""
+    """Points of a sweep over one scene.
+
+    Attributes
+    ----------
+    name : str
+        Name of the scene.
+    scene : dict
+        Sections of the scene.
+    axes : list of str
+        Swept keys.
+    points : list of dict
+        Points as in sweep.json: set {key: value}, delta_gamma and theory {...}; simulated points also have directory,
+        status, failure and result {column: value}. Energies in meV/Å², lengths in Å.
+    theory : list of dict
+        Points of the theory's curves, which are finer.
+    notes : list of str
+        Notes on the scene.
+    simulated : bool
+        True unless only the theory was computed.
+    run : dict
+        Version, compiler and machine of the program.
+    directory : Path
+        Directory of the sweep.
+    """
 
     name: str
     scene: dict[str, Any]
@@ -53,26 +75,43 @@ class Sweep:
 
     @property
     def table(self) -> Table:
-        """Its columns by name as numpy arrays, one value a point; table.units, table.frame()."""
+        """Columns by name as numpy arrays, one value a point, with their units: table.units, table.frame()."""
         return Table(self.axes, self.points, self.simulated)
 
     @property
     def curves(self) -> Table:
-        """The same of the theory's curves; of the points where there are none."""
+        """Columns of the theory's curves; without curves, those of the points."""
         return Table(self.axes, self.theory, False) if self.theory else self.table
 
     @property
     def means(self) -> Columns:
-        """The same with the seeds averaged: mean, .deviation and .count of every column."""
+        """Columns averaged over the seeds: mean, .deviation and .count of every column."""
         return self.table.means()
 
     def results(self) -> list[Result | None]:
-        """The Result of each point; None of one without."""
+        """Loads the results of the points.
+
+        Returns
+        -------
+        list of Result or None
+            One result for each point; None for a point without a result.
+        """
         places = [self.directory / str(p.get("directory", "")) for p in self.points]
         return [Result(place) if self.simulated and (place / "result.json").exists() else None for place in places]
 
     def json(self, table: Table) -> dict[str, Any]:
-        """sweep.json: everything the report and the plots of a sweep are made from."""
+        """Returns the content of sweep.json, from which the report and the plots of a sweep are made.
+
+        Parameters
+        ----------
+        table : Table
+            Table of the sweep.
+
+        Returns
+        -------
+        dict
+            The content.
+        """
         # In a fixed order, whatever was filled in when.
         order = ("set", "delta_gamma", "theory", "directory", "status", "failure", "result")
         found: dict[str, Any] = {"name": self.name, "scene": self.scene, "axes": self.axes,
@@ -90,8 +129,13 @@ class Sweep:
         return {**found, "run": {**self.run, **_build()}}
 
     def write(self) -> None:
-        """The tables as they are at this moment. sweep.json is written last."""
-        place, table = files.directory(self.directory), self.table
+        """Writes the tables into its directory."""
+        with files.outputs(self.directory, TABLE_FILES) as out:
+            self.write_to(out)
+
+    def write_to(self, out: files.Outputs) -> None:
+        """Writes the tables as they are at this moment. sweep.json is written last."""
+        table = self.table
         means = table.means()
 
         def csv(columns: Mapping, last: str, words: list[str]) -> str:
@@ -99,12 +143,11 @@ class Sweep:
                 [*(shown(column[row]) if name in self.axes else column[row] for name, column in columns.items()), word]
                 for row, word in enumerate(words))])
 
-        files.write(place / "sweep.csv", csv(table, "status", table.status))
+        out.write("sweep.csv", csv(table, "status", table.status))
         if self.simulated and any(is_seed(key) for key in self.axes):
             done = [str(sum(table.status[i] == DONE for i in rows)) for _, rows in table.groups]
-            files.write(place / "sweep-mean.csv", csv({n: c for n, c in means.items() if not n.endswith(".count")},
-                                                      "points", done))
-        with files.replacing(place / "sweep.h5") as beside, h5py.File(beside, "w") as file:
+            out.write("sweep-mean.csv", csv({n: c for n, c in means.items() if not n.endswith(".count")}, "points", done))
+        with out.replacing("sweep.h5") as beside, h5py.File(beside, "w") as file:
             for group, columns in (("points", table), ("means", means)):
                 made, units = file.create_group(group), columns.units
                 for name, values in columns.items():
@@ -112,10 +155,10 @@ class Sweep:
                         made.attrs[name] = np.array(values, dtype=h5py.string_dtype())
                     else:
                         made.create_dataset(name, data=np.asarray(values, float)).attrs["unit"] = units[name]
-        files.write(place / "sweep.json", files.sealed_json(self.json(table)))
+        out.write("sweep.json", files.sealed_json(self.json(table)))
 
     def print_table(self) -> None:
-        """The table on the terminal: twenty lines show as much as a hundred; the files have them all."""
+        """Prints the table: at most about 25 lines, evenly chosen; the files have all of them."""
         heads, rows, meaning = text_of(self.table)
         stride = max(1, (len(rows) + 19) // 25)
         if meaning:
@@ -133,14 +176,30 @@ class Sweep:
 
 @functools.lru_cache(maxsize=None)
 def _build() -> dict[str, str]:
-    """Version, git, compiler and flags of the program."""
+    """Returns version, git, compiler and flags of the program."""
     lines = (line.split(None, 1) for line in program.call(["info"]).splitlines()[1:])
     found = {line[0]: line[1].strip() for line in lines if len(line) == 2}
     return {name: found[name] for name in ("version", "git", "compiler", "flags") if name in found}
 
 
 def load_sweep(directory: str | os.PathLike) -> Sweep:
-    """The sweep in a directory. Raises InputOutputError where there is none, or those of several scenes."""
+    """Loads a sweep.
+
+    Parameters
+    ----------
+    directory : str or Path
+        Directory of the sweep.
+
+    Returns
+    -------
+    Sweep
+        The sweep.
+
+    Raises
+    ------
+    InputOutputError
+        If the directory holds no sweep, or those of several scenes.
+    """
     path = Path(directory) / "sweep.json"
     if not path.exists() and (several := sorted(path.parent.glob("*/sweep.json"))):
         raise InputOutputError(str(directory), "holds a sweep for each of several scenes",
@@ -166,7 +225,7 @@ def load_sweep(directory: str | os.PathLike) -> Sweep:
 
 
 def load_sweeps(directory: Path) -> list[Sweep]:
-    """The directory's own sweep, or those of several scenes in its folders."""
+    """Loads the directory's own sweep, or those of several scenes in its folders."""
     if (directory / "sweep.json").exists():
         return [load_sweep(directory)]
     return [load_sweep(p.parent) for p in sorted(directory.glob("*/sweep.json"))]
@@ -175,7 +234,7 @@ def load_sweeps(directory: Path) -> list[Sweep]:
 # From scenes to sweeps.
 
 def _default_axis(file: str, fixed: list[str]) -> Axis:
-    """Without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
+    """Returns the axis without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
@@ -187,7 +246,7 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
 
 def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_only: bool,
           say: Callable[[str], None]) -> tuple[list[Axis], list[str], dict]:
-    """The axes, the overrides of every point, and the scene as the program reads it with these and the first values of
+    """Returns the axes, the overrides of every point, and the scene as the program reads it with these and the first values of
     the axes (the file alone need be no scene: it may lack what is swept)."""
     axes, fixed = axes_of(sets, of_scene)
     base = program.check(file, fixed + points_of(axes)[0])
@@ -211,7 +270,7 @@ def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_onl
 
 
 def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
-    """A point of sweep.json from the program's answer."""
+    """Returns a point of sweep.json from the program's answer."""
     scene = Values(point["scene"])
     return {"set": {axis.key: scene.find(axis.key) for axis in axes},
             "delta_gamma": point.get("delta_gamma"), "theory": point["theory"]}
@@ -219,7 +278,7 @@ def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
 
 def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[dict[str, Any]],
                    needs_surface: bool) -> list[dict[str, Any]]:
-    """The theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
+    """Returns the theory between the points: the same axes, 31 values along x, and one seed unless the surface matters."""
     x = Table([a.key for a in axes], points, False).along
     if x is None or not any("gamma_eff" in p["theory"].get("persson", {}) for p in points):  # none applies to these scenes
         return []
@@ -236,7 +295,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
 
 
 def _point_name(point: dict[str, Any]) -> str:
-    """The directory of a point: "rms=3,seed=1". Sections only where two keys share a name."""
+    """Returns the directory of a point: "rms=3,seed=1". Sections only where two keys share a name."""
     last = [key.partition(".")[2] for key in point["set"]]
     parts = [f"{key if last.count(short) > 1 else short}={shown(value)}"
              for (key, value), short in zip(point["set"].items(), last)]
@@ -245,7 +304,7 @@ def _point_name(point: dict[str, Any]) -> str:
 
 def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, prefix: str, theory_only: bool,
              say: Callable[[str], None]) -> tuple[Sweep, list[Job]]:
-    """A scene's points, read and checked, and the runs that they need. prefix: of their names."""
+    """Returns a scene's points, read and checked, and the runs that they need. prefix: of their names."""
     axes, fixed, base = _axes(file, sets, found["sweep"], theory_only, say)
     before = [] if theory_only else _points_before(place, base["scene"], [axis.key for axis in axes])
     overrides = [fixed + point for point in points_of(axes)]
@@ -273,7 +332,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
 
 
 def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[dict[str, Any]]:
-    """The points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
+    """Returns the points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
     of another scene or over other keys: before anything is computed."""
     if not (place / "sweep.json").exists():
         return []
@@ -289,7 +348,7 @@ def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[
                          f"this one is over {', '.join(axes)}, and the points of a table have the same keys", remedy)
 
     def fixed(keys: dict[str, Any]) -> dict[str, Any]:
-        """The keys that are no axes."""
+        """Returns the keys that are no axes."""
         sections = {name: dict(section) if isinstance(section, dict) else section for name, section in keys.items()}
         for section, _, key in (axis.partition(".") for axis in axes):
             if isinstance(sections.get(section), dict):
@@ -311,12 +370,12 @@ def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[
 # Carrying them out.
 
 def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[str], None]) -> Path:
-    """Where the sweep goes. Of the theory alone, nothing is resumed: a directory of its own."""
+    """Returns the directory of the sweep. The theory alone resumes nothing: it has a directory of its own."""
     place = files.chosen(asked, f"results/{name}{'-theory' * theory_only}-sweep")
     if not theory_only or not (place / "sweep.json").exists():
         return place
     if asked is not None:
-        raise SceneError(f"--out {asked}", "already holds a sweep", "results are not written over",
+        raise SceneError(f"--out {asked}", "already holds a sweep, sweep.json", "results are not written over",
                          "name another directory, or remove this one")
     free = files.numbered(place, lambda one: (one / "sweep.json").exists())
     say(f"note: {place} already holds a sweep; this one goes to {free}")
@@ -327,7 +386,8 @@ class Carried:
     """The sweeps of some scenes, carried out. complete: every point was run."""
 
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
-                 say: Callable[[str], None]):
+                 say: Callable[[str], None], also: Iterable[str] = ()):
+        """also: names of files that the caller will write."""
         axes, fixed = axes_of(sets, [])
         found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
         names = [found[file]["name"] for file in scenes]
@@ -338,7 +398,13 @@ class Carried:
         several = len(scenes) > 1
         self.place = _directory(out, "+".join(names), theory_only, say)
         self.start, self.written = time.monotonic(), 0.0
-        with files.in_use(self.place):
+        inputs = [one for file in scenes for one in inputs_of(file, found[file]["scene"])]
+        places = [self.place / name if several else self.place for name in names]
+        with contextlib.ExitStack() as stack:
+            stack.enter_context(files.in_use(self.place))
+            tables = {place: [*TABLE_FILES, *also] for place in (self.place, *places)}
+            files.require_free(tables, renew=not theory_only, inputs=inputs)
+            self.outputs = [stack.enter_context(files.outputs(place, TABLE_FILES)) for place in places]
             prepared = [_prepare(file, found[file], sets, self.place / name if several else self.place,
                                  f"{name}/" * several, theory_only, say) for file, name in zip(scenes, names)]
             self.sweeps = [sweep for sweep, _ in prepared]
@@ -358,10 +424,10 @@ class Carried:
             self._write()
 
     def _write(self) -> None:
-        """The tables with what there is."""
+        """Writes the tables of the finished points."""
         self.written = time.monotonic()
         outcomes = iter(self.outcomes)
-        for sweep, count in zip(self.sweeps, self.counts):
+        for sweep, count, out in zip(self.sweeps, self.counts, self.outputs):
             programs: Counter[str] = Counter()
             for point, outcome in zip(sweep.points[len(sweep.points) - count:], outcomes):
                 point["status"] = outcome.status
@@ -373,13 +439,13 @@ class Carried:
                     programs[git] += 1
             sweep.run["programs"] = dict(programs)
             sweep.run["wall_seconds"] = time.monotonic() - self.start
-            sweep.write()
+            sweep.write_to(out)
 
 
 def _values(given: Any) -> str:
-    """As behind --set: of several values, in whatever holds them, each; of one, it."""
+    """Returns values as they stand behind --set: each of several values, in whatever holds them; or the single one."""
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
-    if isinstance(given, (str, os.PathLike)) or not isinstance(given, Iterable):
+    if isinstance(given, (str, bytes, os.PathLike)) or not isinstance(given, Iterable):
         given = [given]
     plain = (v.item() if hasattr(v, "item") else v for v in given)
     return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v) for v in plain)
@@ -388,17 +454,37 @@ def _values(given: Any) -> str:
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
           jobs: int = 1, theory_only: bool = False, executor: Executor | None = None,
           progress: bool | None = None) -> Sweep:
-    """Simulates a scene for every combination of the values; returns its Sweep, whose table has all points.
+    """Simulates a scene for every combination of values.
 
-    values     {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4), "surface.hurst": [0.7, 0.8],
-               "drive.load": "0:100:20", "surface.radius": 200}; beside the scene's [sweep]
-    out        the directory; None: results/<scene>-sweep. Points that are there are not run again.
-    jobs       points side by side; they share the processors
-    theory_only   the theory alone, no simulation
-    executor   of concurrent.futures, whose workers run the points instead, one thread each unless their
-               OMP_NUM_THREADS says more: mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need
-               this package, the program and the same file system.
-    progress   how far it is; None: on a terminal and in a notebook
+    Parameters
+    ----------
+    scene : str, Path or dict
+        TOML file, or dictionary of the scene's sections.
+    values : dict, optional
+        Values by key, beside the scene's [sweep]: {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4),
+        "surface.hurst": [0.7, 0.8], "drive.load": "0:100:20", "surface.radius": 200}.
+    out : str or Path, optional
+        Directory; by default results/<scene>-sweep. Points in it are not run again.
+    jobs : int
+        Number of points that run side by side and share the processors.
+    theory_only : bool
+        Compute the theory without simulations.
+    executor : concurrent.futures.Executor, optional
+        Executor whose workers run the points, one thread each unless their OMP_NUM_THREADS is larger:
+        mpi4py.futures.MPIPoolExecutor(), Dask's client.get_executor(). They need this package, the program and the same
+        file system.
+    progress : bool, optional
+        Show progress; by default on a terminal and in a notebook.
+
+    Returns
+    -------
+    Sweep
+        The sweep, whose table has all points.
+
+    Raises
+    ------
+    SceneError, InputOutputError
+        If the scene, a value or the directory is wrong. Points that fail are marked in the table instead.
     """
     refuse_jobs(jobs)
     if executor is None:
@@ -407,6 +493,9 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
         raise SceneError(f"executor = {executor!r:.80}", "is no executor", f"it is {type(executor).__name__}, and not of "
                          "concurrent.futures.Executor", "for example mpi4py.futures.MPIPoolExecutor(), or "
                          "client.get_executor() of Dask")
+    if values is not None and not isinstance(values, Mapping):
+        raise SceneError("values", f"are {values!r:.60}", "keys with their values are needed",
+                         'for example {"surface.rms": [1, 2, 3]}')
     given = [f"{key}={_values(value)}" for key, value in (values or {}).items()]
     with scene_file(scene, "" if executor is None else ".") as file:  # workers elsewhere have no /tmp of ours
         return Carried([file], given, None if out is None else str(out), theory_only,

@@ -27,7 +27,7 @@ AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites
 
 @functools.lru_cache(maxsize=None)
 def over_flat(path: str) -> bool:
-    """Whether a number of a result is an energy that also has a column of its ratio to the flat reference."""
+    """Returns True if a number of a result is an energy with a column of its ratio to the flat reference."""
     known = program.quantity(path)
     return known["unit"] == "meV/Å^2" and known["per"] in (AREA, CONTACT) and path != "delta_gamma" and \
         "uncertainty" not in path
@@ -35,14 +35,14 @@ def over_flat(path: str) -> bool:
 
 @functools.lru_cache(maxsize=None)
 def of_area(column: str) -> bool:
-    """Whether a column is over the nominal area, which means nothing for a sphere, or the mean of all sites."""
+    """Returns True if a column is over the nominal area, which is meaningless for a sphere, or the mean of all sites."""
     path = column.removesuffix("_ratio")
     return not path.startswith("theory.") and program.quantity(path)["per"] in (AREA, SITES) or \
         path == "relaxed.mean_height"
 
 
 def unit_of(column: str) -> str:
-    """The unit of a column, a key of the scene or a value of a result."""
+    """Returns the unit of a column, a key of the scene or a value of a result."""
     schema = program.schema()
     if column in schema:
         return schema[column]["unit"]
@@ -51,7 +51,7 @@ def unit_of(column: str) -> str:
 
 
 def columns_of(result: Values) -> dict[str, float]:
-    """The numbers of a result.json that a table holds, by column."""
+    """Returns the numbers of a result.json that a table holds, by column."""
     flat = result.number("delta_gamma")
     found: dict[str, float] = {}
     for path, value in result.numbers().items():
@@ -64,7 +64,7 @@ def columns_of(result: Values) -> dict[str, float]:
 
 
 def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
-    """The numbers of a point's theories, with the ratios to their Δγ."""
+    """Returns the numbers of a point's theories, with the ratios to their Δγ."""
     numbers = Values({"theory": point["theory"]}).numbers()
     if flat := numbers.get("theory.persson.delta_gamma"):
         for name in ("theory.persson.gamma_eff", "theory.persson.gamma_full_contact"):
@@ -101,7 +101,7 @@ class Columns(UserDict):
         return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}
 
     def frame(self):
-        """The columns as a pandas DataFrame."""
+        """Returns the columns as a pandas DataFrame."""
         import pandas
 
         return pandas.DataFrame(self.data)
@@ -143,11 +143,11 @@ class Table(Columns):
         return max(numbers, key=lambda k: len(set(self[k])), default=None)
 
     def counted(self, name: str) -> np.ndarray:
-        """A column, NaN where the point is not done; of the theory whole."""
+        """Returns a column, NaN for points that are not done; columns of the theory are whole."""
         return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
 
     def values(self, name: str) -> np.ndarray:
-        """The same, NaN where it means nothing or there is none; "-name": with the other sign."""
+        """Returns a column, NaN for meaningless or missing values; "-name": with the other sign."""
         if name.startswith("-"):
             return -self.values(name[1:])
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
@@ -157,22 +157,22 @@ class Table(Columns):
         return np.where(np.isfinite(sphere), np.nan, found)
 
     def at(self, key: str) -> np.ndarray:
-        """The value of a key for each group; NaN where it is no number."""
+        """Returns the value of a key for each group; NaN if it is no number."""
         return np.array([finite(values.get(key), np.nan) for values, _ in self.groups])
 
     def average(self, values: np.ndarray) -> Average:
-        """Over the seeds of each group, of the points that have a number."""
+        """Averages over the seeds of each group, over the points that have a number."""
         there = [(v := values[rows])[np.isfinite(v)] for _, rows in self.groups]
         return Average(np.array([v.mean() if len(v) else np.nan for v in there]),
                        np.array([v.std(ddof=1) if len(v) > 1 else np.nan for v in there]),
                        np.array([len(v) for v in there]))
 
     def averages(self) -> dict[str, Average]:
-        """Of every column that is no axis; of results, over the points that are done."""
+        """Averages every column that is no axis; results over the points that are done."""
         return {name: self.average(self.counted(name)) for name in self if name not in self.axes}
 
     def means(self) -> Columns:
-        """A row a group: mean, .deviation and .count of every column."""
+        """Returns one row for each group: mean, .deviation and .count of every column."""
         columns: dict[str, Any] = {}
         for key in (key for key in self.axes if not is_seed(key)):
             column = [self[key][rows[0]] for _, rows in self.groups]
@@ -192,6 +192,7 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
                  ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
+                 ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
@@ -201,14 +202,14 @@ OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
 
 
 def _status(words: list[str]) -> str:
-    """"3 done", "2 done, 1 failed"; of one point its word."""
+    """Returns "3 done", "2 done, 1 failed"; for one point its word."""
     if len(words) == 1:
         return words[0]
     return ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
 
 
 def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
-    """Heads, a row for all seeds of a point, and what the numbers are."""
+    """Returns heads, a row for all seeds of a point, and the meaning of the numbers."""
     axes = [key for key in table.axes if not is_seed(key)]
     cells = [(head, table.average(column), digits)
              for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)

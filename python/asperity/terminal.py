@@ -18,7 +18,7 @@ PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
 
 def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)) -> str:
-    """Columns of text under their heads, numbers to the right; an empty row is a rule."""
+    """Returns columns of text under their heads, numbers to the right; an empty row is a rule."""
     width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) for i in range(len(heads))]
     rule = "  " + "─" * (sum(width) + 2 * len(width) - 2)
 
@@ -31,8 +31,8 @@ def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,))
 
 
 def number(value: float, decimals: int) -> str:
-    """For people: with so many decimals, or with more where these would show less than three significant digits, and
-    by powers of ten where it is tiny or huge. The rule of io/terminal.cpp."""
+    """Returns a number for people: with so many decimals, or with more if these would show less than three significant digits,
+    and with powers of ten if it is tiny or huge. The rule of io/terminal.cpp."""
     size = abs(value)
     if not math.isfinite(value):
         return "-"
@@ -51,12 +51,12 @@ def minus(text: str) -> str:
 
 
 def millijoules(gamma: float) -> str:
-    """An energy over an area, meV/Å², in mJ/m²: "1120", "7.65"."""
+    """Returns an energy over an area, meV/Å², in mJ/m²: "1120", "7.65"."""
     return number(gamma * MILLIJOULE, 0)
 
 
 def duration(seconds: float) -> str:
-    """"45 s", "2 min 05 s", "3 h 10 min"."""
+    """Returns "45 s", "2 min 05 s", "3 h 10 min"."""
     whole = int(seconds + 0.5)
     if seconds < 9.95:
         return f"{seconds:.1f} s"
@@ -70,7 +70,7 @@ def duration(seconds: float) -> str:
 
 
 def parse_duration(text: str) -> float:
-    """Seconds of "23h50m", "45m", "90s" or "90". Raises SceneError."""
+    """Returns the seconds of "23h50m", "45m", "90s" or "90". Raises SceneError."""
     match = re.fullmatch(r"(?:([\d.]+)d)?(?:([\d.]+)h)?(?:([\d.]+)m(?:in)?)?(?:([\d.]+)s)?|([\d.]+)", text)
     try:
         seconds = sum(float(part) * unit for part, unit in zip(match.groups(), (86400, 3600, 60, 1, 1)) if part)
@@ -82,7 +82,7 @@ def parse_duration(text: str) -> float:
 
 
 def launched() -> tuple[int, bool]:
-    """The rank of this process, and whether a launcher says that it has started more than one. The rule is that of
+    """Returns the rank of this process, and True if a launcher says that it has started more than one. The rule is that of
     launched_in_parallel() of the program (decomposition/communicator.hpp)."""
     for size, rank in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),
                        ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID")):
@@ -92,7 +92,7 @@ def launched() -> tuple[int, bool]:
 
 
 def environment_alone() -> dict[str, str]:
-    """The environment for a program that is one process, also where this one is a rank that a launcher has started."""
+    """Returns the environment for a program that is one process, also if this one is a rank that a launcher has started."""
     if not launched()[1]:
         return dict(os.environ)
     of_rank = re.compile("OMPI_(?!ALLOW|MCA)|OMPI_MCA_(orte|ess|pmix|plm|shmem)|PMI|HYDRA_|MPI_LOCAL|"
@@ -141,7 +141,7 @@ class Progress:
 
 
 def progress_shown(wanted: bool | None) -> bool:
-    """None: where somebody looks, a terminal or a notebook."""
+    """Returns True if progress is to be shown; wanted None: on a terminal or in a notebook."""
     if wanted is not None:
         return bool(wanted)
     return sys.stderr.isatty() or type(sys.stderr).__module__.startswith("ipykernel")

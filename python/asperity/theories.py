@@ -25,8 +25,8 @@ _known: dict[str, dict[str, Any]] = {}
 
 
 def renormalised(rough: dict[str, Any], quick: bool = False) -> dict[str, Any]:
-    """`theory.renormalised` of what the program says of a scene ("rough"); the same is not computed twice. quick: for a
-    curve, known to about 1e-3, without expected errors."""
+    """Returns `theory.renormalised` from the program's input of a scene ("rough"); the same is not computed twice. quick: for
+    a curve, known to about 1e-3, without expected errors."""
     key = json.dumps([quick, rough])
     if key not in _known:
         _known[key] = _renormalised(rough, quick)
@@ -62,8 +62,8 @@ def _renormalised(rough: dict[str, Any], quick: bool) -> dict[str, Any]:
 
 
 def _spheres(point: Values) -> tuple[Any, float, Any, float]:
-    """The smooth sphere of a point and the largest tension of its interface; the same with the renormalised law, None
-    where nothing binds. In eV and Å."""
+    """Returns the smooth sphere of a point and the largest tension of its interface; the same with the renormalised law, None
+    if nothing binds. In eV and Å."""
     from .sphere import Sphere
 
     keys, gpa = point.part("scene"), 1 / 160.21766208
@@ -78,7 +78,7 @@ def _spheres(point: Values) -> tuple[Any, float, Any, float]:
 
 
 def _sphere(point: Values) -> dict[str, Any]:
-    """`theory.sphere`: pull-off forces of smooth spheres, as works of adhesion by JKR."""
+    """Returns `theory.sphere`: pull-off forces of smooth spheres, as works of adhesion by JKR."""
     smooth, stress, rough, tension = _spheres(point)
     if not (smooth.work > 0 and stress > 0):
         return {}
@@ -93,7 +93,7 @@ def _sphere(point: Values) -> dict[str, Any]:
 
 def points(file: str, variations: list[list[str]], runnable: bool = False, profile: bool = False,
            quick: bool = False) -> list[dict]:
-    """The theories of many variations of a scene, as program.theory_points; quick: for a curve."""
+    """Returns the theories of many variations of a scene, as program.theory_points; quick: for a curve."""
     found = program.theory_points(file, variations, runnable, profile)
     for point in found:
         if (rough := point.pop("rough", None)) is not None:
@@ -107,7 +107,7 @@ def points(file: str, variations: list[list[str]], runnable: bool = False, profi
 
 
 def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = False) -> list[Values]:
-    """The theories of a run's scene with some keys changed; [] where there are none. quick: for a curve."""
+    """Returns the theories of a run's scene with some keys changed; [] if there are none. quick: for a curve."""
     if not run.part("scene"):
         return []
     overrides: dict[str, Any] = {}
@@ -118,7 +118,7 @@ def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = F
                 if not run.substrate or run.curved:
                     return []
                 overrides = {"surface.file": f"{place}/heights.npy", "surface.file_size": run.edge,
-                             "surface.detrend": "none", "surface.resample": "none", "surface.file_unit": "Å"}
+                             "surface.detrend": "none", "surface.line_noise": "keep", "surface.resample": "none", "surface.file_unit": "Å"}
                 np.save(Path(place) / "heights.npy", run.substrate.height)
             found = points(file, [scene.assignments({**overrides, **one}) for one in variations], quick=quick)
     except Error:  # a scene that this version refuses, or no program beside the package
@@ -127,7 +127,7 @@ def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = F
 
 
 def of_run(run: Result) -> Values:
-    """The theories of the scene of a run, computed with the first call: `theory`, `flat`."""
+    """Returns the theories of the scene of a run, computed with the first call: `theory`, `flat`."""
     cached = run.__dict__
     if "_theories" not in cached:
         found = variations_of(run, [{}]) if run.part("theory") else []
@@ -144,8 +144,8 @@ def complete(run: Result) -> None:
 
 
 def sphere_curves(run: Result, largest_force: float) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Force (eV/Å) over mean height (Å) of smooth spheres beside the path of a curved scene, with a label; up to the
-    contact radius at which JKR's force is a tenth above this one, the largest of the run."""
+    """Returns force (eV/Å) over mean height (Å) of smooth spheres beside the path of a curved scene, with a label; up to the
+    contact radius at which JKR's force is a tenth above the largest of the run."""
     found = of_run(run)
     if not found or not run.curved:
         return []

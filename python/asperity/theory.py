@@ -36,7 +36,7 @@ TOUCHING, SIDEWAYS, TILT, STIFFENING, RINGS_FROM = range(5)
 
 
 class NoSolution(Exception):
-    """Why the theory has no number."""
+    """Reason why the theory has no number."""
 
 
 class Spectrum:
@@ -53,7 +53,7 @@ class Spectrum:
         self.waves = 2 * math.pi * self._below[-1] ** 2 / (smallest**2 * squares) if pieces else math.inf
 
     def _moments(self, k: int, q: np.ndarray, piece: Any = slice(None)) -> np.ndarray:
-        """∫ q^k C dq of pieces, up to q."""
+        """Returns ∫ q^k C dq of pieces, up to q."""
         qa = self.qa[piece]
         return self.c[piece] * qa ** (k + 1) * _power_integral(k + 1 + self.n[piece], np.log(q / qa))
 
@@ -64,7 +64,7 @@ class Spectrum:
 
 
 def _power_integral(m: np.ndarray, L: np.ndarray) -> np.ndarray:
-    """∫ e^(m x) dx from 0 to L."""
+    """Returns ∫ e^(m x) dx from 0 to L."""
     return np.where(np.abs(m * L) < 1e-8, L * (1 + m * L / 2), np.expm1(m * L) / np.where(m == 0, 1, m))
 
 
@@ -91,13 +91,13 @@ class Flat:
         self.well = self.inflection - self.separation
 
     def pair(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """V, V'/r and (V'/r)'/r of each ring, by separation."""
+        """Returns V, V'/r and (V'/r)'/r of each ring, by separation."""
         r = np.sqrt(np.asarray(u)[..., None] ** 2 + self.rings[:, 0] ** 2)
         found = np.where((r <= self.last)[..., None], self._pair(np.log(r)), 0)
         return found[..., 0], found[..., 1], found[..., 2]
 
     def derivative(self, u: Any, order: int) -> Any:
-        """φ, φ′ or φ″ at separations u."""
+        """Returns φ, φ′ or φ″ at separations u."""
         u = np.asarray(u, float)
         if not len(self.rings):
             return np.where(u <= self.last, self._wall(u, order), 0)
@@ -106,8 +106,8 @@ class Flat:
         return (energy, first * far, first + second * far**2)[order] @ self.rings[:, 1]
 
     def touching(self, u: np.ndarray, slopes: float) -> np.ndarray:
-        """Fraction of sites in contact over a surface of Gaussian slopes: of the four corners below a site the nearest
-        is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat, which is below y with the probability erf(y/aσ)²."""
+        """Returns the fraction of sites in contact over a surface of Gaussian slopes: of the four corners below a site the
+        nearest is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat, which is below y with the probability erf(y/aσ)²."""
         if not slopes > 0 or self.spacing == 0:
             return np.where(u < self.contact, 1.0, 0.0)
         y = np.maximum(u - self.contact, 0) / (self.spacing * math.sqrt(slopes / 2))
@@ -115,12 +115,12 @@ class Flat:
 
 
 def _total(S, D, bend):
-    """S + φ″, or the value below which the equation is continued by its tangent."""
+    """Returns S + φ″, or the value below which the equation is continued by its tangent."""
     return np.maximum(S + bend, 1e-4 * (S + np.abs(D)))
 
 
 def _rate(S, D, bend):
-    """dφ/dh² of a shell."""
+    """Returns dφ/dh² of a shell."""
     return 0.5 * (S + 2 * D - (S + D) ** 2 / _total(S, D, bend))
 
 
@@ -145,7 +145,8 @@ class Flow:
         self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else ([], [0.0], [])
 
     def _grid(self, spacing: float, last: float) -> np.ndarray:
-        """Even up to twice the distance from the minimum to the inflection beyond it, then wider in proportion."""
+        """Returns a grid that is even up to twice the distance from the minimum to the inflection beyond it, then wider in
+        proportion."""
         even_until, growth = self.flat.separation + 2 * self.flat.well, 6 * self.flat.well
 
         def step(x: float) -> float:
@@ -159,8 +160,8 @@ class Flow:
         return np.array([*u, x])
 
     def _cut(self, level: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Where shells are cut from q1 down to q_L (STEPS even in ln q and one for each width of the well of the rms of
-        the roughness above, both `level` times halved), the variances above, the wavevectors of the first stages."""
+        """Returns the cuts of the shells from q1 down to q_L (STEPS even in ln q and one for each width of the well of the rms
+        of the roughness above, both `level` times halved), the variances above, and the wavevectors of the first stages."""
         of, width = self.spectrum, math.log(self.spectrum.largest / self.spectrum.smallest)
         more = min(of.rms / self.flat.well, 1e4)
         even, steps = STEPS / (STEPS + more), math.ceil(STEPS + more) << level
@@ -177,7 +178,7 @@ class Flow:
         return self.left * (f[:-2] - f[1:-1]) + self.right * (f[2:] - f[1:-1])
 
     def _coefficients(self, q: float, observed: np.ndarray) -> tuple[Any, np.ndarray, np.ndarray, float]:
-        """S, D, D without the gain of sliding, and S without friction, at the separations. S/q is interpolated."""
+        """Returns S, D, D without the gain of sliding, and S without friction, at the separations. S/q is interpolated."""
         table = self.stiffness
         zz, xx, xz, free = (q * np.interp(q, table[:, 0], column) for column in (table[:, 1:] / table[:, :1]).T)
         x = q * self.flat.rings[:, 0]
@@ -192,12 +193,12 @@ class Flow:
         return zz - xz**2 / (xx + np.maximum(sideways, 0)), tilt - gain, unrelieved, free
 
     def _solve(self, weight: np.ndarray, right_side: np.ndarray) -> np.ndarray:
-        """x of x - weight x″ = right_side at the inner points, x = 0 at both ends."""
+        """Solves x - weight x″ = right_side for x at the inner points, x = 0 at both ends."""
         lower, upper = weight * self.left, weight * self.right
         return dgtsv(-lower[1:], 1 + lower + upper, -upper[:-1], right_side)[3]
 
     def _step_potential(self, f: np.ndarray, start: np.ndarray, dt: float, S: np.ndarray, D: np.ndarray) -> np.ndarray:
-        """f of f - dt F(f″) = start by Newton's method; the ends of f are given."""
+        """Solves f - dt F(f″) = start for f by Newton's method; the ends of f are given."""
         S, D, small, f = S[1:-1], D[1:-1], 1e-10 * self.flat.depth, f.copy()
         for iteration in range(1000):
             bend = self._bend(f)
@@ -211,8 +212,8 @@ class Flow:
         raise NoSolution("Newton’s method has not converged; this is a defect of the solver, please report the scene")
 
     def _step_observables(self, x: np.ndarray, f: np.ndarray, dt: float, at: tuple) -> np.ndarray:
-        """x - dt W x″ of all columns, W = ½ [(S + D)/(S + f″)]². It is the equation of a small change of φ too: what a
-        term of the rate has contributed to φ follows with that term added."""
+        """Computes x - dt W x″ of all columns, W = ½ [(S + D)/(S + f″)]². It is the equation of a small change of φ too: the
+        contribution of a term of the rate to φ follows with that term added."""
         S, D, unrelieved = (values[1:-1] for values in at[:3])
         bend, right_side = self._bend(f), x[1:-1].copy(order="F")
         weight = 0.5 * dt * ((S + D) / _total(S, D, bend)) ** 2
@@ -225,7 +226,7 @@ class Flow:
         return x
 
     def run(self) -> None:
-        """Alexander's two stages. Observables enter the coefficients of φ; at the stages they are extrapolated from the
+        """Runs Alexander's two stages. Observables enter the coefficients of φ; at the stages they are extrapolated from the
         last two steps, which keeps the order."""
         ratio, older, older_step = (1 - STAGE) / STAGE, self.observed, 0.0
         for q, inside, step in zip(self.q[1:], self.inside, np.diff(self.variance)):
@@ -252,7 +253,7 @@ class Flow:
 
 
 def _parabola(x: np.ndarray, y: np.ndarray, at: float | None = None) -> tuple[float, float]:
-    """Through three points: where it is extreme between them, or the place that is given, and its value there."""
+    """Returns the extremum of the parabola through three points between them, or the given place, and the value there."""
     a, b = np.diff(y) / np.diff(x)
     bend = (b - a) / (x[2] - x[0])
     if at is None:
@@ -261,7 +262,7 @@ def _parabola(x: np.ndarray, y: np.ndarray, at: float | None = None) -> tuple[fl
 
 
 def _state_of(flow: Flow, pressure: float) -> np.ndarray:
-    """γ_eff, contact, separation, largest tension, tilt and stiffening, on the branch from the minimum of φ."""
+    """Returns γ_eff, contact, separation, largest tension, tilt and stiffening, on the branch from the minimum of φ."""
     u, phi = flow.u, flow.phi
     least = int(np.argmin(phi))
     slopes, middles = np.diff(phi) / np.diff(u), (u[1:] + u[:-1]) / 2
@@ -289,7 +290,7 @@ has cost before sites slide, and lateral forces by a stiffer block."""
 
 
 def state(rough: dict[str, Any], quick: bool = False) -> State:
-    """Of what the program says of a scene; quick: on two grids, known to about 1e-3. Raises NoSolution."""
+    """Computes the state from the program's input of a scene; quick: on two grids, known to about 1e-3. Raises NoSolution."""
     if "note" in rough:
         raise NoSolution(rough["note"])
     spectrum, flat = Spectrum(rough["spectrum"], rough["q_L"]), Flat(rough["flat"])
@@ -329,8 +330,8 @@ def state(rough: dict[str, Any], quick: bool = False) -> State:
 
 
 def expected_error(found: State, rough: dict[str, Any]) -> tuple[float, float]:
-    """Of the ratio and the contact fraction: within these 19 of 20 simulated surfaces lie at zero load (calibrated;
-    docs/explanation/theory.md has how)."""
+    """Returns the expected errors of the ratio and the contact fraction: 19 of 20 simulated surfaces lie within them at zero
+    load (calibrated; docs/explanation/theory.md has how)."""
     spectrum, flat = Spectrum(rough["spectrum"], rough["q_L"]), Flat(rough["flat"])
     scatter = (1 - min(max(found.ratio, 0.0), 1.0)) / math.sqrt(spectrum.waves)
     few, few_contact = (0.5, 0.8) if rough["realised"] else (1.5, 1.1)

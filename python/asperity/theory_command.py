@@ -14,6 +14,7 @@ import h5py
 from . import files, program, terminal, theories
 from .errors import SceneError
 from .result import Values
+from .scene import inputs_of
 from .stated_number import cut, with_error
 
 STATUS = {
@@ -24,19 +25,19 @@ STATUS = {
 
 
 def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
-    """Where the result goes, by the rules of the program (io/result_directory.hpp), and what to say of it."""
+    """Returns the directory of the result, by the rules of the program (io/result_directory.hpp), and the message about it."""
     place = files.chosen(asked, f"results/{name}-theory")
     if not (place / "result.json").exists() and not (place / "run.journal").exists():
         return place, []
     if asked is not None:
-        raise SceneError(str(place), "already holds a result", "results are not written over",
+        raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                          "name another directory (--out), or remove this one")
     free = files.numbered(place, lambda one: (one / "result.json").exists())
     return free, [f"{place} already holds a result; this one goes to {free}"]
 
 
-def _write_profile(path: Path, columns: list[dict[str, Any]]) -> None:
-    with files.replacing(path) as beside, h5py.File(beside, "w") as file:
+def _write_profile(out: files.Outputs, columns: list[dict[str, Any]]) -> None:
+    with out.replacing("theory.h5") as beside, h5py.File(beside, "w") as file:
         for column in columns:
             made = file.create_dataset(f"profile/{column['name']}", data=column["values"])
             made.attrs["unit"], made.attrs["meaning"] = column["unit"], column["meaning"]
@@ -48,7 +49,7 @@ def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
 
 
 def _text(point: Values) -> str:
-    """What is printed."""
+    """Returns the printed text."""
     flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
@@ -127,9 +128,10 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
         print(json.dumps(point, ensure_ascii=False))
         return 0
     place, said = _directory(out, values.text("name"))
-    with files.in_use(place):
-        _write_profile(place / "theory.h5", profile)
-        files.write(place / "result.json", files.sealed_json(point))
+    names = ("theory.h5", "result.json")
+    with files.in_use(place), files.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
+        _write_profile(written, profile)
+        written.write("result.json", files.sealed_json(point))
     print(text)
     for note in filter(None, [*notes, *said]):
         print(f"  note: {note}")

@@ -13,7 +13,7 @@ MILLIJOULE = 1e20 * ELECTRONVOLT
 
 
 def shown(unit: str) -> str:
-    """A unit as people write it: meV/Å^2 as meV/Å²."""
+    """Returns a unit as people write it: meV/Å^2 as meV/Å²."""
     for power, sign in (("^2", "²"), ("^3", "³"), ("^4", "⁴")):
         unit = unit.replace(power, sign)
     return unit

@@ -32,7 +32,7 @@ LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r_min"}
 
 
 def joined(first: Setting, then: Setting) -> Setting:
-    """Later settings of a key take the place of earlier ones."""
+    """Returns the settings joined; later settings of a key replace earlier ones."""
     later = {one.partition("=")[0] for one in then}
     return [one for one in first if one.partition("=")[0] not in later] + then
 
@@ -58,8 +58,8 @@ class Variations:
     """The settings of a scene that can be varied, and to what."""
 
     def __init__(self, keys: dict[str, Any], longest_timestep: float):
-        """keys: the scene as it is used; longest_timestep: its stability limit, fs. Raises SceneError for a scene whose
-        runs cannot be compared."""
+        """Sets the scene. keys: the scene as it is used; longest_timestep: its stability limit, fs. Raises SceneError for a
+        scene whose runs cannot be compared."""
         self.scene = scene = Values(keys)
         self._refuse((("drive.temperature", scene.number("drive.temperature"),
                        "differences between runs would be those of their noise", "measure the same scene at 0 K"),
@@ -89,7 +89,7 @@ class Variations:
                        "none at finite strain", fix),))
 
     def own(self, key: str) -> float:
-        """A number of the scene, or what its word stands for; 0: it has none."""
+        """Returns a number of the scene, or that of its word; 0: it has none."""
         word = self.scene.text(key)
         if key == "surface.q_max" and word == "nyquist":
             return float(self.sites // 2)
@@ -99,7 +99,7 @@ class Variations:
 
     @property
     def zero(self) -> float:
-        """Where the potential is zero, Å; of a table 0."""
+        """Zero of the potential, Å; 0 for a table."""
         shift = math.log(2) / self.own("interface.morse_a") if self.scene.text("interface.potential") == "morse" else 0.0
         return self.own(LENGTHS.get(self.scene.text("interface.potential"), "")) - shift
 
@@ -114,7 +114,7 @@ class Variations:
         return self.at(key, *(f * self.own(key) for f in factors))
 
     def stable(self, *factors: float) -> list[Choice]:
-        """Time steps below the limit."""
+        """Returns the time steps below the limit."""
         return self.scaled("drive.timestep", *(f for f in factors
                                                if f * self.own("drive.timestep") < 0.9 * self.longest_timestep))
 
@@ -144,7 +144,7 @@ class Runs:
         self.known: dict[tuple[str, ...], Job] = {}
 
     def jobs(self, rows: list[Variation]) -> list[Job]:
-        """The run of each row, checked. Raises SceneError with all that is wrong."""
+        """Returns the run of each row, checked. Raises SceneError with all mistakes."""
         new = {(row.scene, *row.setting): row for row in rows if (row.scene, *row.setting) not in self.known}
         for file in dict.fromkeys(row.scene for row in new.values()):
             some = {key: row for key, row in new.items() if row.scene == file}

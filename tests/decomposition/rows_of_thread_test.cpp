@@ -3,6 +3,7 @@
 //
 // A field's rows are first touched by the threads that work on them.
 #include "decomposition/field.hpp"
+#include "support/threads.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,10 +15,9 @@
 using namespace asperity;
 
 TEST(RowsOfThread, EveryRowIsTouchedOnceByTheThreadThatWorksOnIt) {
-    const int usual = omp_get_max_threads();
     for (const int threads : {1, 2, 3, 5})
         for (const int ny : {1, 7, 8, 20, 24, 41}) {
-            omp_set_num_threads(threads);
+            const test::Threads own(threads);
             constexpr int halo = 2, planes = 3;
             const auto rows = static_cast<std::size_t>(ny + 2 * halo);
             std::vector<int> works(static_cast<std::size_t>(ny), -1);
@@ -43,12 +43,10 @@ TEST(RowsOfThread, EveryRowIsTouchedOnceByTheThreadThatWorksOnIt) {
                     EXPECT_EQ(touches[row], works[inside]) << threads << ' ' << ny << ' ' << y;
                 }
         }
-    omp_set_num_threads(usual);
 }
 
 TEST(RowsOfThread, AFieldIsZeroEverywhere) {
-    const int usual = omp_get_max_threads();
-    omp_set_num_threads(3);
+    const test::Threads three(3);
     for (const int ny : {1, 9, 24}) {
         Tile tile{};
         tile.nx = 13, tile.ny = ny;
@@ -60,5 +58,4 @@ TEST(RowsOfThread, AFieldIsZeroEverywhere) {
             std::fill(all.begin(), all.end(), 1.0);
         }
     }
-    omp_set_num_threads(usual);
 }

@@ -13,10 +13,9 @@
 #include "support/elastic_operator.hpp"
 #include "support/nodes.hpp"
 #include "support/spectral_lattice.hpp"
+#include "support/threads.hpp"
 
 #include <gtest/gtest.h>
-
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -338,9 +337,8 @@ TEST(BlockStep, IsTheForcesThenAKickThenADrift) {
         start.exchange();
         start.interpolate();
         start.forces(force);
-        const int usual = omp_get_max_threads();
         for (int threads : {1, 2, 3, 7}) {
-            omp_set_num_threads(threads);
+            const test::Threads own(threads);
             Block block(options, Communicator(), test::serial_grid(options));
             for (std::size_t l = 0; l < speed.size(); ++l) {
                 const Block::Fields fields = block.fields(block.levels()[l]);
@@ -369,7 +367,6 @@ TEST(BlockStep, IsTheForcesThenAKickThenADrift) {
                             }
                 }
         }
-        omp_set_num_threads(usual);
     }
 }
 

@@ -17,6 +17,21 @@ Case case_with(const Keys& keys) {
     return read_case_text("[surface]\nsites = 16\nrms = 1.0\n", "test.toml", keys);
 }
 
+/// What an effect leaves in a result: a phase of its steps, a data set, or a number.
+struct Trace {
+    Effect Effects::*effect;
+    Keys scene; ///< of both runs
+    const char *on, *off;
+    const char* leaves; ///< "run.phases.x" and the like in result.json, "/x" in run.h5
+};
+
+/// Returns whether the trace is there; a number that is zero is none.
+bool leaves(const test::Written& run, const std::string& what) {
+    if (what.front() == '/') return run.file->exists(what);
+    const io::Json* const found = io::find(run.json, what);
+    return found && !(found->is_number() && found->get<double>() == 0.0);
+}
+
 } // namespace
 
 TEST(Effects, EachIsSwitchedByItsKey) {
@@ -57,24 +72,49 @@ TEST(Effects, EachIsSwitchedByItsKey) {
 }
 
 TEST(Effects, OffMakesNoCall) {
-    // Two runs of 20 steps in contact: the phases of their steps, their files and their sums.
-    const auto run_with = [](Keys keys) {
-        keys.insert(keys.end(), {"block.thickness=32", "drive.max_steps=20", "output.series=1",
-                                 "drive.velocity=400", "drive.ramp=0"});
-        return test::Written(case_with(keys).scene);
+    // Short runs, each with and without the effect's key. An effect that is off leaves no trace.
+    const Keys moving = {"block.thickness=8",  "block.model=lattice", "drive.max_steps=20",
+                         "output.series=1",    "output.fields=[]",    "output.checkpoint=none",
+                         "drive.velocity=400", "drive.ramp=0"},
+               still = {"block.thickness=16", "drive.mode=quasistatic",
+                        "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
+               state = {"block.thickness=16", "drive.path=relax"};
+    const std::vector<Trace> traces = {
+        {&Effects::inertia,
+         {"block.thickness=16", "drive.max_steps=20"},
+         "",
+         "drive.mode=quasistatic",
+         "run.phases.exchange"},
+        {&Effects::damping, moving, "drive.damping=0.2", "drive.damping=0", "energy.damped"},
+        {&Effects::temperature, moving, "drive.temperature=100", "", "run.phases.thermostat"},
+        {&Effects::coarse_levels,
+         {"block.thickness=32", "drive.max_steps=20"},
+         "",
+         "block.model=lattice",
+         "run.phases.interpolate"},
+        {&Effects::sliding, moving, "drive.path=[\"approach\", \"slide x 1 Å\"]", "",
+         "/series/slide_x"},
+        {&Effects::branches, still, "block.prony=[[2.0, \"1 ns\"]]", "", "/series/branch_energy"},
+        {&Effects::relaxation,
+         {"block.thickness=8", "block.model=lattice", "drive.max_steps=20"},
+         "drive.path=relax",
+         "block.strain=finite",
+         "binding_energy"},
+        {&Effects::observation,
+         {"block.thickness=16"},
+         "drive.max_steps=5",
+         "drive.path=relax",
+         "run.phases.observe"},
+        {&Effects::maps, moving, "output.fields=[\"every:5\"]", "", "/fields"},
+        {&Effects::trajectory, moving, "output.trajectory=5", "", "/particles"},
+        {&Effects::checkpoints, moving, "output.checkpoint=0.0001", "", "run.phases.checkpoint"},
     };
-    const test::Written off = run_with({"drive.damping=0", "block.model=lattice",
-                                        "output.fields=[]", "output.checkpoint=none"}),
-                        on = run_with({"drive.damping=0.2", "drive.temperature=100",
-                                       "output.fields=[\"every:5\"]", "output.trajectory=5"});
-    for (const char* phase : {"thermostat", "interpolate", "checkpoint"}) {
-        EXPECT_FALSE(off.holds(std::string("run.phases.") + phase)) << phase;
-        EXPECT_TRUE(on.holds(std::string("run.phases.") + phase)) << phase;
-    }
-    for (const char* group : {"/fields", "/particles"}) {
-        EXPECT_FALSE(off.file->exists(group)) << group;
-        EXPECT_TRUE(on.file->exists(group)) << group;
-    }
-    EXPECT_EQ(off("energy.damped"), 0.0);
-    EXPECT_NE(on("energy.damped"), 0.0); // net of the noise: of either sign
+    for (const Trace& trace : traces)
+        for (const bool on : {true, false}) {
+            Keys keys = trace.scene;
+            if (const char* key = on ? trace.on : trace.off; *key) keys.emplace_back(key);
+            const Case c = case_with(keys);
+            ASSERT_EQ((c.effects.*trace.effect).on, on) << trace.leaves;
+            EXPECT_EQ(leaves(test::Written(c.scene), trace.leaves), on) << trace.leaves;
+        }
 }

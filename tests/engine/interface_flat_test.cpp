@@ -7,7 +7,6 @@
 #include "support/swept.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -17,9 +16,6 @@ namespace {
 
 constexpr double a = 2.6;
 constexpr double r0 = 3.28;
-
-// Boxes of a few sites: threads would only wait for each other.
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 InterfaceOptions with_cutoff(double cutoff, bool tail = false) {
     InterfaceOptions o;

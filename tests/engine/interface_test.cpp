@@ -8,9 +8,9 @@
 #include "engine/interface/interface_stiffness.hpp"
 #include "support/cases.hpp"
 #include "support/swept.hpp"
+#include "support/threads.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,9 +25,6 @@ namespace {
 constexpr double a = 2.6;
 constexpr double r0 = 3.28;
 using test::Outcome, test::same_bits, test::scattered, test::State, test::sweep;
-
-// Boxes of a few sites: threads would only wait for each other, but where they are what is tested.
-[[maybe_unused]] const bool one_thread = (omp_set_num_threads(1), true);
 
 void expect_close(const Outcome& reference, const Outcome& other, const std::string& what) {
     double worst = 0.0;
@@ -218,10 +215,11 @@ TEST(InterfaceSweep, GivesTheSameBitsOnAnyTilesAndThreads) {
                 for (auto [nx, ny] : {std::pair{17, 40}, {40, 16}, {11, 13}, {8, 8}, {3, 1}})
                     EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, nx, ny)))
                         << n << ' ' << m << ' ' << nx << ' ' << ny;
-                omp_set_num_threads(2);
-                EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true)));
-                EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, 21, 14)));
-                omp_set_num_threads(1);
+                {
+                    const test::Threads two(2);
+                    EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true)));
+                    EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true, 21, 14)));
+                }
                 o.skip = false;
                 EXPECT_TRUE(same_bits(whole, sweep(s, state, o, 9.0, true))) << "skip";
             }

@@ -89,7 +89,7 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     const Surface surface = test::self_affine(32, 1.0);
     SpectralBlock block(options, Communicator());
     InterfaceOptions both = test::paper_interface();
-    both.rough_too = true;
+    both.mixed_on_request = true;
     const Interface interface(surface, block.tile(), options.spacing, both);
     const double height = height_of_strongest_attraction(
         block, interface, surface.statistics.lowest, test::paper_scales().length);

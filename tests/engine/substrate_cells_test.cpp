@@ -92,7 +92,7 @@ TEST(SubstrateCells, SameBitsOnAnyTile) {
                 EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true, nx, ny)));
             o.skip = false;
             EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true)));
-            o.mixed = o.rough_too = true; // over a lattice alone
+            o.mixed = o.mixed_on_request = true; // over a lattice alone
             EXPECT_TRUE(same_bits(whole, sweep(surface, state, o, height, true)));
         }
 }

@@ -127,7 +127,7 @@ class Bench:
             where = "run.h5" if found[0] != data else "result.json"
             self.fail(f"{what}: other bits in {where} of {out}")
             return False
-        left = sorted(set(os.listdir(out)) - {"result.json", "run.h5", "checkpoint-damaged.h5"})
+        left = sorted(set(os.listdir(out)) - {"result.json", "run.h5", "checkpoint-damaged.h5", ".asperity-files.json"})
         if left:
             self.fail(f"{what}: left over: {left}")
         shutil.rmtree(out)

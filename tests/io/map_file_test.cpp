@@ -102,7 +102,7 @@ std::string hdf5(const Scratch& scratch, double scale, const std::function<void(
 TEST(MapFile, SameMapInEveryFormat) {
     const Scratch scratch;
     const auto expect_sized = [&](const std::string& file, const std::string& unit = "auto") {
-        const HeightMap map = read_map_file(file, unit);
+        const HeightMap map = read_map_file(file, {unit});
         expect_the_map(map, "HDF5");
         EXPECT_EQ(map.format, "HDF5");
         EXPECT_NEAR(map.width.value_or(0.0), 10.0 * pixel_nm * n, 1e-9);
@@ -133,7 +133,7 @@ TEST(MapFile, SameMapInEveryFormat) {
     expect_sized(bare, "nm");
     EXPECT_EQ(refused(bare).fix, "say which it is: surface.file_unit = \"nm\"");
     EXPECT_EQ(
-        read_map_file(hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "unit", "m"); }), "nm")
+        read_map_file(hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "unit", "m"); }), {"nm"})
             .heights[0],
         10.0 * height(0, 0));
     EXPECT_EQ(refused(hdf5(scratch, 1.0, [&](Hdf5File& file) { set(file, "unit", "V"); })).what,
@@ -142,17 +142,17 @@ TEST(MapFile, SameMapInEveryFormat) {
     for (const char* type : {"<f8", ">f8"})
         for (const bool columns_first : {false, true})
             expect_the_map(
-                read_map_file(scratch.write("m.npy", numpy<double>(type, columns_first)), "nm"),
+                read_map_file(scratch.write("m.npy", numpy<double>(type, columns_first)), {"nm"}),
                 type);
-    expect_the_map(read_map_file(scratch.write("m.npy", numpy<float>(">f4", false)), "nm"), "f4",
+    expect_the_map(read_map_file(scratch.write("m.npy", numpy<float>(">f4", false)), {"nm"}), "f4",
                    1e-5);
     expect_the_map(
-        read_map_file(scratch.write("m.npy", numpy<std::int32_t>("<i4", true, 1e6)), "fm"), "i4",
+        read_map_file(scratch.write("m.npy", numpy<std::int32_t>("<i4", true, 1e6)), {"fm"}), "i4",
         1e-4);
     for (const char* separator : {" ", "\t", " \t "})
         expect_the_map(read_map_file(scratch.write("m.txt", "\xef\xbb\xbf# rms: 3\n" +
                                                                 matrix(nanometres, separator)),
-                                     "nm"),
+                                     {"nm"}),
                        separator);
     const HeightMap map = read_height_map(scratch / "m.txt");
     ASSERT_EQ(map.notes.size(), 1u);
@@ -199,7 +199,8 @@ TEST(MapFile, MissingPoints) {
             },
             " ");
     };
-    for (const char* hole : {"nan", "NaN", "inf", "1e999"}) {
+    for (const char* hole :
+         {"nan", "NaN", "inf", "1e999", "1.7976931348623157e308", "-3.4e38", "1.70141e38"}) {
         const std::string file = scratch.write("m.txt", holed(hole));
         const Problem p = refused(file);
         EXPECT_TRUE(p.where.ends_with("m.txt:3:4")) << p.where;
@@ -244,12 +245,114 @@ TEST(MapFile, MapsThatAreNotSquare) {
 
 TEST(MapFile, HeightsThatNoSurfaceHas) {
     const Scratch scratch;
-    const Problem p = refused(scratch.write("m.txt", "1e200 -1e200\n-1e200 1e200\n"));
-    EXPECT_EQ(p.what, "a height of the map is 1e+200 Å");
+    const Problem p = refused(scratch.write("m.txt", "1e20 -1e20\n-1e20 1e20\n"));
+    EXPECT_EQ(p.what, "a height of the map is 1e+20 Å");
     EXPECT_EQ(refused(scratch.write("m.txt", "1e5 2\n3 4\n"), {"m"}).what,
               "a height of the map is 1e+15 Å");
     EXPECT_EQ(refused(scratch.write("m.txt", std::string("1 2\n3\0 4\n", 9))).what,
               "the height map is no text");
+}
+
+/// What the scene says of unit and size holds; a note names what the file says, if that differs.
+TEST(MapFile, TheSceneHoldsOverTheFileAndANoteSaysSo) {
+    const Scratch scratch;
+    const auto file = [&](const char* unit, double size, double scale) {
+        return hdf5(scratch, 1.0, [&](Hdf5File& opened) {
+            opened.write_attribute("/heights", "unit", unit);
+            opened.write_attribute("/heights", "size_x", size);
+            opened.write_attribute("/heights", "scale", scale);
+        });
+    };
+    const std::string agreeing = file("nm", 15.0, 0.5);
+    for (const MapOptions& said :
+         {MapOptions{}, MapOptions{"nm"}, MapOptions{"nm", false, false, 150.0}}) {
+        const HeightMap map = read_map_file(agreeing, said);
+        EXPECT_EQ(map.heights[0], 5.0 * height(0, 0)); // the scale belongs to the numbers
+        EXPECT_EQ(map.width, 150.0);
+        EXPECT_TRUE(map.doubts.empty()) << map.doubts[0];
+    }
+    const HeightMap other = read_map_file(agreeing, {"pm", false, false, 300.0});
+    EXPECT_EQ(other.heights[0], 0.005 * height(0, 0));
+    EXPECT_EQ(other.width, 300.0);
+    ASSERT_EQ(other.doubts.size(), 2u);
+    EXPECT_EQ(other.doubts[0],
+              "the file says that the map is 150 Å wide, and 300 Å are taken (surface.file_size)");
+    EXPECT_EQ(other.doubts[1],
+              "the file says that its heights are in nm, and pm is taken (surface.file_unit)");
+    // What the file says is not needed, and not refused: a size of 0, a unit that is no length.
+    EXPECT_EQ(read_map_file(file("nm", 0.0, 1.0), {"auto", false, false, 300.0}).width, 300.0);
+    EXPECT_EQ(refused(file("nm", 0.0, 1.0)).fix,
+              "say it: surface.file_size = \"100 nm\", its edge");
+    EXPECT_EQ(read_map_file(file("V", 15.0, 1.0), {"nm"}).width, 150.0);
+    EXPECT_EQ(refused(file("V", 15.0, 1.0), {"auto", false, false, 300.0}).fix,
+              "say which it is: surface.file_unit = \"nm\"");
+    // UTF-8 read as Latin-1, as files of SUR have it.
+    EXPECT_EQ(read_map_file(file("\xc3\x82\xc2\xb5m", 15.0, 1.0)).width, 150000.0);
+    for (const double scale : {0.0, -1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+        for (const char* unit : {"auto", "nm"})
+            EXPECT_NE(refused(file("nm", 15.0, scale), {unit}).what.find("is no factor"),
+                      std::string::npos);
+}
+
+TEST(MapFile, DoubtsOnTheFile) {
+    const Scratch scratch;
+    const auto doubts = [&](const std::function<double(int, int)>& at, int columns, int rows,
+                            double size = 0.0) {
+        std::string text;
+        for (int y = 0; y < rows; ++y)
+            for (int x = 0; x < columns; ++x)
+                text += fmt::format("{}{}", at(x, y), x + 1 < columns ? " " : "\n");
+        MapOptions said{"Å"};
+        if (size > 0.0) said.size = size;
+        const std::vector<std::string> found =
+            read_map_file(scratch.write("m.txt", text), said).doubts;
+        return found.empty() ? "" : found.size() > 1 ? "several" : found[0];
+    };
+    const auto wavy = [](int x, int y) {
+        return std::sin(0.5 * x + 0.3 * y) + std::cos(0.2 * x * y);
+    };
+    EXPECT_EQ(doubts(wavy, 32, 32), "");
+    EXPECT_EQ(doubts([](int, int) { return 1.0; }, 32, 32), "");
+    EXPECT_EQ(doubts([](int x, int y) { return x == 3 && y < 2 ? 8.0 : 0.0; }, 32, 32),
+              "");                                                                  // a spike
+    EXPECT_EQ(doubts([](int x, int) { return x < 16 ? 0.0 : 300.0; }, 32, 32), ""); // a step
+    for (const double hole : {-9999.0, -32768.0, 99999.0}) {
+        const std::string said =
+            doubts([&](int x, int y) { return x == 3 && y < 2 ? hole : wavy(x, y); }, 32, 32);
+        EXPECT_TRUE(said.starts_with(fmt::format("2 points have the height {:.6g} Å", hole)))
+            << said;
+    }
+    for (const int parts : {2, 3, 4}) {
+        const int of_each = 48 / parts;
+        const std::string said = doubts(
+            [&](int x, int y) {
+                return wavy(x, y) * (y / of_each % 2 ? 0.1 : 1.0) + 60.0 * (y / of_each);
+            },
+            48, 48);
+        EXPECT_NE(said.find(fmt::format("may hold {} maps on top of one another", parts)),
+                  std::string::npos)
+            << said;
+    }
+    for (const double wrong : {0.5, 160e10})
+        EXPECT_NE(doubts(wavy, 32, 32, wrong).find("check the unit of its size"),
+                  std::string::npos);
+}
+
+TEST(MapFile, BlocksOfATextAreNoMap) {
+    const Scratch scratch;
+    const std::string block = matrix(nanometres, " ");
+    for (const char* between : {"\n", "\n\n", "# Phase\n", "# ----\n\n"}) {
+        const std::string file = scratch.write("m.txt", block + between + block);
+        EXPECT_EQ(refused(file).what, "holds 2 blocks of 6 rows");
+        EXPECT_TRUE(refused(file).fix.starts_with("convert it first: asperity convert " + file))
+            << refused(file).fix;
+    }
+    // One map, however it is spaced.
+    std::string spaced = "# a map\n\n";
+    for (const char c : block)
+        spaced += c == '\n' ? std::string("\n\n") : std::string(1, c);
+    expect_the_map(read_map_file(scratch.write("m.txt", spaced), {"nm"}), "spaced");
+    expect_the_map(read_map_file(scratch.write("m.txt", block + "\n# end\n"), {"nm"}), "end");
 }
 
 TEST(MapFile, NumpyThatIsDamaged) {
@@ -358,13 +461,23 @@ TEST(MapFile, Hdf5OfAnotherProgram) {
     EXPECT_EQ(map.heights, (std::vector<double>{10, 20, 30, 40}));
     EXPECT_EQ(map.width, 60.0);
     EXPECT_TRUE(map.source.ends_with("m.h5:/scan/topography")) << map.source;
-    EXPECT_EQ(read_map_file(write([](Hdf5File&) {}), "nm").heights[0], 10.0);
+    EXPECT_EQ(read_map_file(write([](Hdf5File&) {}), {"nm"}).heights[0], 10.0);
     const std::string two = write([](Hdf5File& file) {
         file.write<double>("/error", {1, 1}, std::vector<double>{1.0});
     });
     const Problem p = refused(two);
     EXPECT_EQ(p.what, "holds more than one map");
     EXPECT_EQ(p.fix, fmt::format("name one: file = \"{}:/error\"", two));
+    // Numbers of instruments mean nothing without what stands beside them.
+    for (const char* sign : {"/Measurement_000/Channel_000/Height", "/pixel_to_nm_scaling"}) {
+        const std::string jpk =
+            write([&](Hdf5File& file) { file.write<double>(sign, {1}, std::vector<double>{1.0}); });
+        EXPECT_TRUE(refused(jpk).fix.starts_with("convert it first: asperity convert ")) << sign;
+    }
+    const std::string frames = write([](Hdf5File& file) {
+        file.write<double>("/heights", {2, 2, 2}, std::vector<double>(8));
+    });
+    EXPECT_TRUE(refused(frames).fix.ends_with(" --channel 1")) << refused(frames).fix;
     EXPECT_EQ(read_map_file(two + ":/scan/topography").rows, 2u);
 }
 

@@ -3,6 +3,7 @@
 //
 // Whose a result directory is, and which one is taken.
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "io/result.hpp"
 #include "io/result_directory.hpp"
 
@@ -130,8 +131,22 @@ TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
     EXPECT_TRUE(holds(refusal({path, "x"}), "unfinished"));
     write("result.json", R"({"failure": {"exit_code": 4}, "run": {}})");
     EXPECT_TRUE(holds(refusal({path, "x"}), "unfinished"));
-    write("x.part", "left over");
-    EXPECT_EQ(refusal({path, "x", false, true}), "");
+    // A restart removes the files that the record calls unfinished, and no others.
+    const std::vector<std::string> files = {"run.journal", "run.h5", "result.json"};
+    const std::string refused = refusal({path, "x", false, true, files});
+    EXPECT_TRUE(holds(refused, "2 ") && holds(refused, "a/run.journal: is there already") &&
+                holds(refused, "a/result.json: is there already") && holds(refused, "no record"))
+        << refused;
+    write(".asperity-files.json",
+          sealed_json({{"files", {{"run.journal", "unfinished"}, {"result.json", "unfinished"}}}}));
+    write("run.h5.12.part", "left over");
+    write("x.part", "of another program");
+    write("run.h5.old.part", "of another program");
+    EXPECT_EQ(refusal({path, "x", false, true, files}), "");
+    for (const char* file : {"x.part", "run.h5.old.part"}) {
+        EXPECT_EQ(contents(scratch / ("a/" + std::string(file))), "of another program");
+        std::filesystem::remove(path + "/" + file);
+    }
     EXPECT_TRUE(std::filesystem::is_empty(path)) << "--restart leaves something";
     // A result is never thrown away.
     write("result.json", R"({"run": {}})");
@@ -149,6 +164,70 @@ TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
     EXPECT_THROW(Directory::make((scratch / "file") + "/sub"), FileError);
 }
 
+TEST(ResultDirectory, KeepsWhatTheRecordDoesNotName) {
+    const Scratch scratch;
+    const std::string path = scratch / "a", kept = path + "/run.h5";
+    std::filesystem::create_directories(path);
+    const ResultRequest request{path, "x", false, false, {"run.h5"}, {scratch / "map.h5"}};
+    const auto is_kept = [&](const char* why) {
+        const std::string before = std::filesystem::is_directory(kept) ? "" : contents(kept);
+        const std::string text = refusal(request);
+        EXPECT_TRUE(holds(text, "2 ") && holds(text, "a/run.h5: is there already") &&
+                    holds(text, why))
+            << text;
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::symlink_status(kept)));
+        if (!before.empty()) {
+            EXPECT_EQ(contents(kept), before);
+        }
+        EXPECT_FALSE(std::filesystem::exists(path + "/run.lock"));
+        std::filesystem::remove(kept);
+    };
+    scratch.write("a/run.h5", "by hand");
+    is_kept("no record");
+    std::filesystem::create_symlink("nowhere", kept);
+    is_kept("symbolic link");
+    std::filesystem::create_directory(kept);
+    is_kept("no regular file");
+    {
+        const ResultDirectory place(request);
+        scratch.write("a/run.h5", "ours");
+    }
+    EXPECT_TRUE(holds(refusal(request), "belongs to an earlier result"));
+    scratch.write("a/run.h5", "changed");
+    is_kept("was changed");
+    scratch.write("a/other", "by hand");
+    const ResultRequest other{path, "x", false, false, {"other"}};
+    EXPECT_TRUE(holds(refusal(other), "no record") ||
+                holds(refusal(other), "not one of the files"));
+    // A command that does not come to its end may be repeated, but never over its input.
+    try {
+        const ResultDirectory place(request);
+        scratch.write("a/run.h5", "half");
+        throw FileError(kept, "cannot be written", "");
+    } catch (const FileError&) {
+    }
+    EXPECT_EQ(refusal(request), "");
+    std::filesystem::create_directories(path);
+    scratch.write("map.h5", "the map");
+    for (const bool symbolic : {false, true}) {
+        std::filesystem::remove(kept);
+        if (symbolic)
+            std::filesystem::create_symlink("../map.h5", kept);
+        else
+            std::filesystem::create_hard_link(scratch / "map.h5", kept);
+        scratch.write("a/.asperity-files.json",
+                      sealed_json({{"files", {{"run.h5", "unfinished"}}}}));
+        is_kept("which the command reads");
+        EXPECT_EQ(contents(scratch / "map.h5"), "the map");
+    }
+    scratch.write("a/.asperity-files.json", "by hand");
+    EXPECT_TRUE(holds(refusal(request), "is no record of the files"));
+    EXPECT_EQ(contents(path + "/.asperity-files.json"), "by hand");
+    scratch.write("a/run.lock", "by hand");
+    EXPECT_TRUE(holds(refusal(request), "not the lock of a run"));
+    EXPECT_EQ(contents(path + "/run.lock"), "by hand");
+}
+
 TEST(ResultDirectory, NumbersItsDirectories) {
     const Scratch scratch;
     const auto before = std::filesystem::current_path();
@@ -164,7 +243,10 @@ TEST(ResultDirectory, NumbersItsDirectories) {
         EXPECT_EQ(place.notes().at(0),
                   "results/gold already holds a result; this one goes to results/gold-3");
     }
-    EXPECT_EQ(ResultDirectory({"", "gold", true}).path(), "results/gold-2");
+    EXPECT_TRUE(holds(refusal({"", "gold", true}), "results/gold-2 holds a result"));
+    std::filesystem::create_directories("results/gold-3");
+    std::ofstream("results/gold-3/run.journal") << "x";
+    EXPECT_EQ(ResultDirectory({"", "gold", true}).path(), "results/gold-3");
     std::filesystem::current_path(before);
 }
 

@@ -78,25 +78,41 @@ TEST(ThermalNoise, NumbersAreNormalAndIndependent) {
         EXPECT_NEAR(product / count, 0.0, 4.0 * sigma);
 }
 
-TEST(ThermalNoise, HeatIsTheEnergyGivenToVelocityAndDisplacement) {
+TEST(ThermalNoise, EnergiesAreThoseBeforeAndAfterFrictionAndNoise) {
     const double gamma = 0.004, dt = 5.0, m = 300.0;
-    const ThermalNoise noise{7, 11, 0.02, 1.0 + 0.5 * gamma * dt, dt};
+    const double medium = 4e-4; // Å/fs
+    const ThermalNoise noise{7, 11, 0.02, 1.0 + 0.5 * gamma * dt, dt, medium};
     const Triple<double> xi = {0.3, -1.2, 0.8}, force = {0.5, -0.02, 0.1}; // eV/Å
     const Triple<double> old = {1e-3, 2e-3, -1e-3};
-    // The step's kick: m (v - old) = dt (F - gamma m (v + old)/2).
-    const auto kicked = [&](double v, double f) {
-        return ((1.0 - 0.5 * gamma * dt) * v + dt * f / m) / (1.0 + 0.5 * gamma * dt);
+    // The step's kick: m (v - old) = dt (F - gamma m ((v + old)/2 - V)).
+    const auto kicked = [&](double v, double f, double of_medium) {
+        return ((1.0 - 0.5 * gamma * dt) * v + dt * f / m + gamma * dt * of_medium) /
+               (1.0 + 0.5 * gamma * dt);
     };
-    Triple<double> v = {kicked(old.x, force.x), kicked(old.y, force.y), kicked(old.z, force.z)};
+    Triple<double> v = {kicked(old.x, force.x, 0.0), kicked(old.y, force.y, 0.0),
+                        kicked(old.z, force.z, medium)};
     Triple<double> u = {0.1, 0.2, 0.3};
     const Triple<double> v0 = v, u0 = u;
     const auto dot = [](const Triple<double>& a, const Triple<double>& b) {
         return a.x * b.x + a.y * b.y + a.z * b.z;
     };
-    const double before = 0.5 * m * dot(v, v);
-    const double heat = add_noise(noise, m, xi, old, v, u);
-    const Triple<double> moved = {u.x - u0.x, u.y - u0.y, u.z - u0.z};
-    EXPECT_NEAR(heat, 0.5 * m * dot(v, v) - before - 0.5 * dot(force, moved), 1e-15);
+    const NoiseEnergies given = add_noise(noise, m, xi, old, v, u);
+    // Half a kick of the force alone before friction and noise, and half a kick after them.
+    const auto half_kick = [&](const Triple<double>& a, double sign) {
+        const double by = sign * 0.5 * dt / m;
+        return Triple<double>{a.x + by * force.x, a.y + by * force.y, a.z + by * force.z};
+    };
+    const Triple<double> p = half_kick(old, 1.0), after = half_kick(v, -1.0);
+    const auto mean = [](const Triple<double>& a, const Triple<double>& b) {
+        return Triple<double>{0.5 * (a.x + b.x), 0.5 * (a.y + b.y), 0.5 * (a.z + b.z)};
+    };
+    const Triple<double> w = mean(old, v0);
+    const double kinetic = 0.25 * m * (dot(p, p) + dot(after, after));
+    EXPECT_NEAR(given.kinetic, kinetic - 0.5 * m * dot(w, w), 1e-15);
+    const Triple<double> slip = {w.x, w.y, w.z - medium}; // friction without noise: kick.hpp
+    const double friction = -gamma * dt * m * dot(w, slip);
+    EXPECT_NEAR(given.heat, 0.5 * m * (dot(after, after) - dot(p, p)) - friction, 1e-15);
+    EXPECT_GT(std::abs(given.heat), 1e-3) << "the case must tell";
     const double sigma = std::sqrt(noise.strength / m) / noise.drag;
     EXPECT_NEAR(v.x, v0.x + sigma * 0.3, 1e-15);
     EXPECT_NEAR(u.y, u0.y + dt * sigma * -1.2, 1e-15);

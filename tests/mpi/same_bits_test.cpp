@@ -12,10 +12,10 @@
 // two and four ranks cut four of them and hold the last one whole.
 #include "decomposition/halo_exchange.hpp"
 #include "support/cases.hpp"
+#include "support/threads.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <array>
 #include <cmath>
@@ -135,18 +135,6 @@ void expect_same(const Trace& mine, const Trace& expected) {
     EXPECT_EQ(mine.records, expected.records);
 }
 
-/// OpenMP threads for as long as it lives.
-class Threads {
-public:
-    explicit Threads(int n) : before_(omp_get_max_threads()) { omp_set_num_threads(n); }
-    ~Threads() { omp_set_num_threads(before_); }
-    Threads(const Threads&) = delete;
-    Threads& operator=(const Threads&) = delete;
-
-private:
-    int before_;
-};
-
 class SameBits : public testing::TestWithParam<Stack> {};
 
 } // namespace
@@ -154,17 +142,17 @@ class SameBits : public testing::TestWithParam<Stack> {};
 TEST_P(SameBits, OfARunOnAnyRanksAndThreads) {
     const Stack& stack = GetParam();
     const Trace expected = from_root([&] {
-        const Threads one(1);
+        const test::Threads one(1);
         return run(stack, Communicator());
     });
     EXPECT_GT(expected.in_contact, 100) << "the scene must touch, or nothing is tested";
     {
-        const Threads one(1);
+        const test::Threads one(1);
         expect_same(run(stack, world()), expected);
     }
     // Two cores: no more than four workers at once, and those on one stack.
     if (world().size() > 2 || (world().size() == 2 && stack.name != stacks[0].name)) return;
-    const Threads two(2);
+    const test::Threads two(2);
     expect_same(run(stack, world()), expected);
 }
 
@@ -173,16 +161,16 @@ TEST_P(SameBits, OfARelaxationOnAnyRanksAndThreads) {
     if (stack.temperature > 0.0 || stack.finite)
         return; // no other block than the shallow one; none
     const Trace expected = from_root([&] {
-        const Threads one(1);
+        const test::Threads one(1);
         return relaxation(stack, Communicator());
     });
     EXPECT_GT(expected.in_contact, 50);
     {
-        const Threads one(1);
+        const test::Threads one(1);
         expect_same(relaxation(stack, world()), expected);
     }
     if (world().size() > 1) return;
-    const Threads two(2);
+    const test::Threads two(2);
     expect_same(relaxation(stack, world()), expected);
 }
 

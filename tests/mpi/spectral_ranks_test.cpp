@@ -16,6 +16,7 @@
 #include <numbers>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -43,23 +44,25 @@ SiteField<T> field_on(const Slab& slab, int components) {
 /// Both ways, from and to fields and waves.
 template <class T>
 void forward(const SurfaceTransform<T>& by, const SiteField<T>& field, Waves<T>& waves) {
+    SiteRows<T> rows = by.from_sites();
     for (int y = 0; y < waves.slab().rows; ++y) {
         for (std::size_t c = 0; c < field.size(); ++c)
-            std::copy_n(field[c].plane(0).line(y), waves.slab().sites, by.rows()[c]);
-        by.put_rows(y);
+            std::copy_n(field[c].plane(0).line(y), waves.slab().sites, rows.own()[c]);
+        rows.put(y);
     }
-    by.to_blocks();
+    const WaveBlocks<T> blocks = std::move(rows).to_blocks();
     for (int b = 0; b < waves.blocks(); ++b)
-        std::copy_n(by.get_block(b), waves.length(), waves.block(b));
+        std::copy_n(blocks.get(b), waves.length(), waves.block(b));
 }
 template <class T>
 void backward(const SurfaceTransform<T>& by, const Waves<T>& waves, SiteField<T>& field) {
+    WaveBlocks<T> blocks = by.from_waves();
     for (int b = 0; b < waves.blocks(); ++b)
-        by.put_block(b, waves.block(b));
-    by.to_rows();
+        blocks.put(b, waves.block(b));
+    const SiteRows<T> rows = std::move(blocks).to_rows();
     for (int y = 0; y < waves.slab().rows; ++y)
         for (std::size_t c = 0; c < field.size(); ++c)
-            std::copy_n(by.get_rows(y)[c], waves.slab().sites, field[c].plane(0).line(y));
+            std::copy_n(rows.get(y)[c], waves.slab().sites, field[c].plane(0).line(y));
 }
 /// The waves that the ranks of `part` have between them are those of `whole`.
 template <class T>
@@ -166,30 +169,35 @@ void transform_like_one_rank(double tolerance, int components) {
         backward(shared, part, mine);
         expect_times(n2);
         // From the room where waves are written, sixteen times smaller, and on from there.
-        for (int b = 0; b < part.blocks(); ++b) {
-            combine_row(0.0625, part.block(b), 0.0, shared.room(), static_cast<int>(part.length()));
-            shared.put_block(b, shared.room());
-        }
-        shared.to_rows();
-        for (int y = 0; y < slab.rows; ++y) {
-            T* const* rows = shared.get_rows(y);
-            for (int c = 0; c < components; ++c)
-                for (int x = 0; x < sites; ++x)
-                    rows[c][x] *= T(16.0 / n2);
-            shared.put_rows(y);
-        }
-        shared.to_blocks();
         Waves<T> back(slab, components);
-        for (int b = 0; b < back.blocks(); ++b) {
-            T* const block = shared.get_block(b);
-            std::copy_n(block, back.length(), back.block(b));
-            shared.put_block(b, block); // as it is, or changed
+        {
+            WaveBlocks<T> smaller = shared.from_waves();
+            for (int b = 0; b < part.blocks(); ++b) {
+                combine_row(0.0625, part.block(b), 0.0, smaller.room(),
+                            static_cast<int>(part.length()));
+                smaller.put(b, smaller.room());
+            }
+            SiteRows<T> rows = std::move(smaller).to_rows();
+            for (int y = 0; y < slab.rows; ++y) {
+                T* const* own = rows.get(y);
+                for (int c = 0; c < components; ++c)
+                    for (int x = 0; x < sites; ++x)
+                        own[c][x] *= T(16.0 / n2);
+                rows.put(y);
+            }
+            WaveBlocks<T> blocks = std::move(rows).to_blocks();
+            for (int b = 0; b < back.blocks(); ++b) {
+                T* const block = blocks.get(b);
+                std::copy_n(block, back.length(), back.block(b));
+                blocks.put(b, block); // as it is, or changed
+            }
+            const SiteRows<T> last = std::move(blocks).to_rows();
+            EXPECT_THROW(shared.from_sites(), std::logic_error); // one transform at a time
+            for (int y = 0; y < slab.rows; ++y)
+                for (int c = 0; c < components; ++c)
+                    std::copy_n(last.get(y)[c], sites,
+                                mine[static_cast<std::size_t>(c)].plane(0).line(y));
         }
-        shared.to_rows();
-        for (int y = 0; y < slab.rows; ++y)
-            for (int c = 0; c < components; ++c)
-                std::copy_n(shared.get_rows(y)[c], sites,
-                            mine[static_cast<std::size_t>(c)].plane(0).line(y));
         expect_times(n2);
         combine(-1.0, part, 1.0, back);
         EXPECT_LT(dot(back, back), 100.0 * tolerance * tolerance * dot(part, part));

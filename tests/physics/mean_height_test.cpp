@@ -181,7 +181,7 @@ TEST(MeanHeight, SurfaceFallsWhereItsLongestWaveGetsUnstable) {
                      test::Friction::without);
             const OneDimension one{c};
             const double stiffness =
-                SpectralBlock(c.options, Communicator(), true).stiffness(1, 0).zz;
+                SpectralBlock(c.options, Communicator(), true).acting_stiffness(1, 0).zz;
             const auto slope = [&](double z) {
                 constexpr double h = 1e-3;
                 return (one.force(z + h) - one.force(z - h)) / (2.0 * h * c.sites());

@@ -78,10 +78,11 @@ TEST(Rate, TheModulusFallsByItsSeries) {
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x)
             block.layer().z.plane(0)(x, y) = rest.layer().z.plane(0)(x, y) = displacement(random);
-    rest.apply_constraint(Constraint::top(-0.2));
+    rest.hold(Constraint::top(-0.2));
     Waves<double> g = block.new_waves<double>(), expected = rest.new_waves<double>();
     rest.gradient(expected);
-    const double lift = rest.stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
+    const double lift =
+        rest.acting_stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
     // At rest there, and from here moved by the top.
     block.constrain(Constraint::top(0.3));
     block.begin_step(std::numeric_limits<double>::infinity());
@@ -110,7 +111,7 @@ TEST(Rate, TheModulusFallsByItsSeries) {
 TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
     SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
     block.constrain(Constraint::top(0.0));
-    const double spring = 64.0 * block.stiffness(0, 0).zz;
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz;
     std::mt19937 random(5);
     std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-6.0, 6.0);
     std::vector<double> h(two.size(), 0.0);
@@ -120,7 +121,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         const double scale = i % 2 ? 1.0 : 1e-3;
         block.begin_step(dt);
         block.set_uniform(scale * next);
-        const BranchEnergies branches = block.branch_energies();
+        const auto [elastic, branches] = block.energies();
         const double rate = (scale * next - w) / dt;
         double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
         for (std::size_t k = 0; k < two.size(); ++k) {
@@ -133,12 +134,97 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         }
         EXPECT_NEAR(branches.stored, energy, 1e-12 * (1.0 + energy));
         EXPECT_GE(branches.dissipated, 0.0);
-        const double now = block.elastic_energy() + branches.stored;
+        const double now = elastic + branches.stored;
         EXPECT_NEAR(now - stored + branches.dissipated, work, 1e-11 * (1.0 + std::abs(work)))
             << "dt " << dt;
         stored = now;
         w = scale * next;
         block.end_step();
+    }
+}
+
+/// A step that continues another one: the layer goes along the parabola through three places. The
+/// branches' springs by their closed form, works and losses by Simpson's rule.
+TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
+    SpectralBlock block(relaxing(8, 4, two), Communicator(), true);
+    block.constrain(Constraint::top(0.0));
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-3.0, 1.3);
+    for (int i = 0; i < 40; ++i) {
+        const double first = 3000.0 * std::pow(10.0, exponent(random)),
+                     dt = first * std::pow(2.0, place(random));
+        const double d0 = place(random), d = place(random);
+        block.set_uniform(0.0);
+        block.begin_step(std::numeric_limits<double>::infinity());
+        block.end_step();
+        block.begin_step(first);
+        block.set_uniform(d0);
+        block.end_step();
+        const double curvature = 2.0 * (d / dt - d0 / first) / (dt + first); // Å/fs^2
+        const auto rate = [&](double s) { return d / dt + curvature * (s - 0.5 * dt); };
+        block.begin_step(dt, first);
+        block.set_uniform(d0 + d);
+        const BranchEnergies branches = block.energies().branches;
+        double stored = 0.0, dissipated = 0.0, force = spring * (d0 + d);
+        for (const auto& [r, tau] : two) {
+            const double h0 = d0 * tau / first * -std::expm1(-first / tau);
+            const auto h = [&, tau = tau](double s) {
+                const double left = -std::expm1(-s / tau);
+                return h0 * (1.0 - left) + rate(0.0) * tau * left +
+                       curvature * tau * (s - tau * left);
+            };
+            const int panels = 20000;
+            double loss = 0.0;
+            for (int j = 0; j <= panels; ++j) {
+                const double weight = j == 0 || j == panels ? 1.0 : j % 2 ? 4.0 : 2.0;
+                loss += weight * std::pow(h(dt * j / panels), 2) * dt / panels / 3.0;
+            }
+            stored += 0.5 * spring * r * h(dt) * h(dt);
+            dissipated += spring * r * loss / tau;
+            force += spring * r * h(dt);
+        }
+        EXPECT_NEAR(block.top_force(), force, 1e-9 * (1.0 + std::abs(force))) << dt;
+        EXPECT_NEAR(branches.stored, stored, 1e-9 * (1.0 + stored)) << dt;
+        EXPECT_NEAR(branches.dissipated, dissipated, 1e-9 * (1.0 + dissipated)) << dt;
+        block.end_step();
+    }
+}
+
+/// Along w = (t/T)^3 from rest: what is wrong with h, against its closed form, falls with the third
+/// power of the step, and so does twice the sum of the errors that the steps state, which holds it.
+TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
+    const std::vector<Branch> one = {{2.0, 1000.0}};
+    SpectralBlock block(relaxing(8, 4, one), Communicator(), true);
+    block.constrain(Constraint::top(0.0));
+    const double spring = 64.0 * block.acting_stiffness(0, 0).zz, tau = 1000.0;
+    for (const double span : {500.0, 3000.0, 20000.0}) {
+        const double x = span / tau;
+        // of dh/ds + x h = 3 s^2 at s = 1
+        const double h = 3.0 * (1.0 / x - 2.0 / (x * x) - 2.0 * std::expm1(-x) / (x * x * x));
+        std::vector<double> wrong, judged;
+        for (const int n : {40, 80, 160}) {
+            block.set_uniform(0.0);
+            block.begin_step(std::numeric_limits<double>::infinity());
+            block.end_step();
+            double error = 0.0;
+            BranchEnergies branches;
+            for (int i = 1; i <= n; ++i) {
+                block.begin_step(span / n, i == 1 ? HUGE_VAL : span / n);
+                block.set_uniform(std::pow(static_cast<double>(i) / n, 3));
+                branches = block.energies().branches;
+                error += branches.error;
+                block.end_step();
+            }
+            const double there = std::sqrt(branches.stored / spring); // ratio 2: 1/2 S r h^2
+            wrong.push_back(2.0 * spring * h * std::abs(there - h));
+            judged.push_back(error);
+            EXPECT_LT(wrong.back(), 2.0 * judged.back()) << span << " " << n;
+        }
+        for (std::size_t i = 1; i < wrong.size(); ++i) {
+            EXPECT_LT(wrong[i], 0.16 * wrong[i - 1]) << span;
+            EXPECT_LT(judged[i], 0.16 * judged[i - 1]) << span;
+        }
     }
 }
 
@@ -149,7 +235,7 @@ TEST(Rate, APathIsTheMotionOfOneCoordinate) {
     test::PathCase reference(relaxing(8, 3, two), test::flat_surface(8), smooth);
     const double start = reference.interface.start_height();
     const double spring = reference.spring() / 64.0, down = start - 2.0;
-    const SmearedWall<LennardJones>::In<double> law(smooth);
+    const SmearedWall<LennardJones>::Terms<double> law(smooth);
     struct State {
         double u;
         std::vector<double> h;
@@ -241,20 +327,24 @@ TEST(Rate, SlowAndFastPathsAreElasticOnes) {
         }
 }
 
-/// Where it cannot jump, what is put in is there or was dissipated by the block, which gives
-/// nothing back; the smaller the tolerance the closer.
+/// If the block cannot jump, the work is stored or dissipated by the block, which gives nothing
+/// back: to the stated uncertainty, which falls with the tolerance.
 TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
-    std::vector<double> gaps;
+    std::vector<double> stated;
     for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
         test::PathCase c(relaxing(16, 4, two), test::self_affine(16, 0.5), hard);
         QuasistaticPath path = path_of(c, 1e-3, tolerance, 0.25, top);
         path.start();
+        double uncertainty = 0.0;
         std::vector<StepRecord> points = lead(path, 2.0 - c.interface.start_height());
+        uncertainty += path.uncertainty();
         path.begin({Segment::hold, 5000.0});
         for (const StepRecord& r : points_of(path))
             points.push_back(r);
+        uncertainty += path.uncertainty();
         for (const StepRecord& r : lead(path, 0.0))
             points.push_back(r);
+        uncertainty += path.uncertainty();
         for (std::size_t i = 1; i < points.size(); ++i)
             EXPECT_GE(points[i].relaxed, points[i - 1].relaxed);
         const StepRecord& end = points.back();
@@ -262,10 +352,13 @@ TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
         EXPECT_GT(end.relaxed, 0.1 * std::abs(end.work));
         const double gap = end.work - test::energy(end) - end.relaxed;
         EXPECT_LT(std::abs(gap), tolerance * c.sites() * 40.0);
-        gaps.push_back(std::abs(gap) / end.relaxed);
+        EXPECT_LT(std::abs(gap), uncertainty);
+        EXPECT_LT(std::abs(gap), 5e-3 * end.relaxed);
+        stated.push_back(uncertainty / end.relaxed);
     }
-    EXPECT_LT(gaps.back(), 1e-3);
-    EXPECT_LT(gaps.back(), 0.1 * gaps.front());
+    EXPECT_LT(stated[1], 0.3 * stated[0]);
+    EXPECT_LT(stated[2], 0.3 * stated[1]);
+    EXPECT_LT(stated[2], 2e-3);
 }
 
 /// Pressed to and fro by u0 it loses n pi a_n^2 S''(n w) in a cycle, of each harmonic of a
@@ -299,4 +392,53 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         }
         EXPECT_NEAR(path.now().relaxed - before, expected, 2e-3 * expected) << period;
     }
+}
+
+/// Approach, rest and pull-off over a flat and a rough surface, at both controls and velocities
+/// over six decades: works, what the block dissipated and what was lost differ by no more than they
+/// may be wrong by from those at a hundredth of the tolerance; what they add up to is what is
+/// stored; and no velocity takes many more points than another, for the block goes through an
+/// instability in the same number of steps however slowly it is led.
+TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
+    struct Sums {
+        double work = 0.0, relaxed = 0.0, lost = 0.0, uncertainty = 0.0, gap = 0.0, scale = 0.0;
+        long long points = 0;
+    };
+    const std::vector<Branch> branches = {{3.0, 1000.0}, {1.0, 10000.0}};
+    for (const auto along : {top, height})
+        for (const bool rough : {false, true}) {
+            BlockOptions options = relaxing(8, along == top ? 24 : 8, branches);
+            options.young *= 0.2;
+            const Surface surface = rough ? test::self_affine(8, 0.6) : test::flat_surface(8);
+            const auto cycle = [&](double velocity, double tolerance) {
+                test::PathCase c(options, surface);
+                QuasistaticPath path = path_of(c, velocity, tolerance, 0.5, along);
+                path.start();
+                Sums sums;
+                for (const Segment& segment :
+                     {Segment{Segment::approach}, Segment{Segment::hold, 3e4},
+                      Segment{Segment::pull_off}}) {
+                    path.begin(segment);
+                    sums.points += static_cast<long long>(points_of(path).size()) - 1;
+                    const double lost = path.dissipation().in_segment;
+                    const double gap = path.work() - path.stored() - path.relaxed() - lost;
+                    sums.work += path.work();
+                    sums.relaxed += path.relaxed();
+                    sums.lost += lost;
+                    sums.uncertainty += path.uncertainty();
+                    sums.gap = std::max(sums.gap, std::abs(gap) - path.uncertainty());
+                    sums.scale = std::max(sums.scale, std::abs(path.work()));
+                }
+                return sums;
+            };
+            for (const double velocity : {1e-7, 1e-5, 1e-3, 1e-1}) {
+                const Sums usual = cycle(velocity, 1e-3), close = cycle(velocity, 1e-5);
+                const double may = usual.uncertainty + close.uncertainty;
+                EXPECT_NEAR(usual.work, close.work, may) << velocity << rough;
+                EXPECT_NEAR(usual.relaxed + usual.lost, close.relaxed + close.lost, may)
+                    << velocity << rough;
+                EXPECT_LT(usual.gap, 1e-9 * usual.scale) << velocity << rough;
+                EXPECT_LT(usual.points, rough ? 3000 : 600) << velocity;
+            }
+        }
 }

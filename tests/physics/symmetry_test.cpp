@@ -12,7 +12,7 @@
 #include "support/cases.hpp"
 #include "support/nodes.hpp"
 
-#include "engine/block/spectral_block.hpp"
+#include "engine/waves/spectral_block.hpp"
 
 #include <gtest/gtest.h>
 
@@ -164,7 +164,7 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
                     }
                     auto g = block.new_waves<double>();
                     const auto energy = [&] {
-                        return block.elastic_energy() +
+                        return block.energies().elastic +
                                interface
                                    .sweep(block.lowest_layer(), block.interface_force(), 3.7,
                                           {.observe = true})

@@ -16,6 +16,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -43,7 +44,6 @@ public:
                     allowed);
         EXPECT_NEAR(of("work_of_drive.pull_off") + of("work_of_drive.approach"), of("lost.cycle"),
                     allowed);
-        EXPECT_NEAR(of("lost.cycle"), of("lost.approach") + of("lost.pull_off") + out, 1e-9);
         // Segments say the same.
         const auto segment = [&](std::size_t k, const char* name) {
             return json["segments"][k].at(name).get<double>();
@@ -60,7 +60,8 @@ public:
     void expect_printed_balance() const {
         const Path& of = *this;
         const double left = of("energy.work") - of("energy.kinetic") - of("energy.elastic") -
-                            of("energy.interface") - of("energy.damped");
+                            of("energy.interface") - of("energy.damped") -
+                            (holds("energy.time_step") ? of("energy.time_step") : 0.0);
         double largest = 0.0;
         for (const char* column : {"work", "elastic_energy", "interface_energy", "kinetic_energy"})
             if (file->exists(std::string("/series/") + column))
@@ -117,9 +118,19 @@ TEST(Works, WithoutTimeTheDrivesWorkAndTheLossesMakeTheState) {
 
     const Path held(scene(rough, 96, drive + "\"mean-height\""));
     held.expect_identities(0.02);
-    for (const char* branch : {"approach", "pull_off"})
-        EXPECT_EQ(held(fmt::format("work_of_interface.{}", branch)),
-                  -held(fmt::format("work_of_drive.{}", branch)));
+    // The works of both are the integral of the force over the mean height, which does not jump.
+    const std::vector<double> force = held.series("force"), height = held.series("mean_height"),
+                              of_segment = held.series("segment");
+    std::array<double, 2> integral{};
+    for (std::size_t i = 1; i < force.size(); ++i)
+        integral[static_cast<std::size_t>(of_segment[i])] +=
+            0.5 * (force[i] + force[i - 1]) * (height[i] - height[i - 1]);
+    for (const std::size_t k : {0, 1}) {
+        const char* const branch = k == 0 ? "approach" : "pull_off";
+        const double expected = held.per_area(integral[k]), allowed = 0.005 * held.state();
+        EXPECT_NEAR(held(fmt::format("work_of_interface.{}", branch)), expected, allowed);
+        EXPECT_NEAR(held(fmt::format("work_of_drive.{}", branch)), -expected, allowed);
+    }
     EXPECT_LT(held("lost.cycle"), 0.2 * top("lost.cycle"))
         << "held so, the block does not snap as a whole";
 }

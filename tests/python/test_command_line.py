@@ -7,6 +7,8 @@ import os
 import re
 from pathlib import Path
 
+import asperity
+import h5py
 import pytest
 from conftest import command
 
@@ -98,3 +100,32 @@ def test_a_run_that_does_not_fit_writes_nothing(place):
     command("run", "plain.toml", "--set", "block.model=lattice", "block.thickness=1000000", "--out", "none", expect=2,
             says=["the run does not fit into memory", 'block.model = "multiscale"'])
     assert not Path("none").exists()
+
+
+def test_a_run_in_parts_has_the_rows_of_one(place):
+    """Stopped by drive.max_steps between two rows of the series, and resumed."""
+    scene = '[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 16\n[drive]\nvelocity = 100\n'
+    Path("scene.toml").write_text(scene)
+    command("run", "scene.toml", "--set", "drive.max_steps=600", "--out", "whole")
+    command("run", "scene.toml", "--set", "drive.max_steps=250", "--out", "parts", expect=75)
+    command("run", "scene.toml", "--set", "drive.max_steps=600", "--out", "parts", "--resume")
+    whole, parts = (h5py.File(f"{name}/run.h5")["series"] for name in ("whole", "parts"))
+    assert whole.keys() == parts.keys()
+    for name in whole:
+        assert (whole[name][()] == parts[name][()]).all(), name
+    assert 249 not in parts["step"][()]
+
+
+def test_a_load_on_a_warm_block_ends_by_its_average(place):
+    scene = ('[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 16\n[drive]\npath = ["approach", "load 500 MPa", "pull-off"]\n'
+             'velocity = 20\ntemperature = 200\ndamping = 1\nseed = {}\n')
+    ends = []
+    for seed in (1, 2, 3):
+        Path("warm.toml").write_text(scene.format(seed))
+        command("run", "warm.toml", "--out", f"warm{seed}", says="ends by its average over 0.872 ps")
+        result = asperity.load(f"warm{seed}")
+        segment = next(s for s in result.segments if "load" in s["name"])
+        assert segment["pressure_averaged_over"] == pytest.approx(0.872, abs=0.01)
+        assert 30 < segment["pressure_scatter"] < 500  # what a single step is wrong by
+        ends.append(segment["pressure"])
+    assert ends == pytest.approx([500.0] * 3, abs=5.0)

@@ -9,12 +9,12 @@ import asperity
 
 # From the bottom to the top: text, files and program, data, execution, drawing, pages, the user's forms.
 ORDER = """errors units terminal
-    files program scene convert maps
-    result grid theory sphere crack theories
+    files program scene channels map_arrays map_text atoms_files convert maps
+    result grid theory sphere theories
     pool runs tables sweeps variations cost_parameters cost stated_number missing_waves estimate_parts estimates
     plots.__init__ plots.style plots.run plots.sweep
     page sentences report report_cost report_estimate measured report_sweep export commands theory_command
-    forms engine state_search __init__ __main__""".split()
+    forms engine crack state_search __init__ __main__""".split()
 PLACE = {name: place for place, name in enumerate(ORDER)}
 
 

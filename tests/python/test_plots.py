@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import asperity
-from asperity import theories, units
+from asperity import files, theories, units
 from asperity.plots import style
 from asperity.plots import run as run_plots
 from conftest import SMALL
@@ -114,8 +114,11 @@ def test_curves_can_be_told_apart_in_grey(path_run, name):
 
 def test_files_hold_the_curves(path_run, tmp_path):
     fig = style.make(lambda ax: run_plots.separation(path_run, ax))
-    written = style.save(fig, tmp_path / "separation")
-    assert [p.name for p in written] == ["separation.png", "separation.pdf", "separation.svg"]
+    names = style.files_of("separation")
+    assert names == ["separation.png", "separation.pdf", "separation.svg"]
+    with files.outputs(tmp_path, names) as out:
+        style.save(fig, out, "separation")
+    written = [tmp_path / name for name in names]
     picture = matplotlib.image.imread(written[0])
     assert picture.shape[1] > 800 and picture[..., :3].std() > 0.05
     assert written[1].read_bytes().startswith(b"%PDF-") and b"/Subtype /Image" not in written[1].read_bytes()  # vectors

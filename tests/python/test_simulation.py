@@ -556,3 +556,23 @@ def test_examples(name, tmp_path):
         contact = [float(line.split()[6]) for line in done.stdout.splitlines() if "GPa" in line]
         contact = numpy.array(contact).reshape(4, 20)
         assert (contact[::2, ::-1] >= contact[1::2] - 0.2).all() and (contact[::2, ::-1] > contact[1::2] + 20.0).any()
+
+
+def test_statics_goes_on_after_a_load_that_it_cannot_reach():
+    statics = asperity.Statics({"surface": {"sites": 16, "rms": 0.6}, "block": {"thickness": 16}})
+    statics.mean_height = 5.0
+    before, u = statics.relax(), statics.copy()
+    for load in ("-1e5 MPa", -1e6):
+        statics.load = load
+        with pytest.raises(asperity.PhysicsError, match="did not reach the pull"):
+            statics.relax()
+        assert repr(statics.now) == repr(before)
+        assert (statics.copy().u == u.u).all()
+        assert repr(statics.relax()) == repr(before)  # without a target
+    statics.mean_height = 4.5
+    after = statics.relax()
+    other = asperity.Statics({"surface": {"sites": 16, "rms": 0.6}, "block": {"thickness": 16}})
+    for height in (5.0, 4.5):
+        other.mean_height = height
+        there = other.relax()
+    assert repr(after) == repr(there)

@@ -15,6 +15,7 @@ import rate  # noqa: E402
 import rings  # noqa: E402
 import jumps  # noqa: E402
 import stated_errors  # noqa: E402
+import tables  # noqa: E402
 
 
 def test_rings_without_adhesion_are_hertz():
@@ -79,3 +80,13 @@ def test_a_crack_moves_as_in_one_dimension(release):
     mine, other = rate.asperity_strip(256, 32, release, 2.0), rate.strip(256, 32, release, 0.5)
     assert mine * (release - 1) > 0  # opens above the work of adhesion, closes below
     assert mine == pytest.approx(other, rel=0.06)
+
+
+def test_errors_of_tables_are_covered_by_what_is_stated(results):
+    chosen = [tables.Case("lennard-jones", rows=24), tables.Case("lennard-jones", rows=96), tables.Case("morse", "ratios", 40),
+              tables.Case("morse stiff", "uneven", 200), tables.Case("lennard-jones", rows=300, noise=2e-3),
+              tables.Case("morse stiff", rows=150, noise=1e-7)]
+    coarse, *fine, noisy, faint = tables.compared(results / "tables", 16, chosen)
+    assert "do not determine a curve" in coarse["refused"] and "do not determine a curve" in noisy["refused"]
+    for row in (*fine, faint):
+        assert max(row["delta_gamma"], row["binding_energy"]) <= row["stated"] <= 0.01

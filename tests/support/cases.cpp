@@ -173,7 +173,7 @@ SpectralDisplacement random_displacement(const SpectralBlock& block, std::mt1993
             for (int x = 0; x < block.tile().nx; ++x)
                 f.plane(0)(x, y) = static_cast<float>(normal(random));
     const double n = block.options().sites;
-    block.to_waves(d.sites, d.waves);
+    to_waves(d.sites, block.transform<float>(), d.waves);
     combine(0.0, d.waves, 1.0 / (n * n), d.waves);
     return d;
 }
@@ -189,7 +189,7 @@ std::uint64_t mix(std::uint64_t hash, const StepRecord& r) {
     if (!r.observed) return hash;
     for (double value : {r.interface_energy, r.elastic_energy, r.kinetic_energy, r.closest,
                          static_cast<double>(r.in_contact), static_cast<double>(r.repulsive),
-                         r.work, r.damped, r.interface_work, r.residual})
+                         r.work, r.damped, r.interface_work, r.residual, r.time_step_energy})
         hash = mix(hash, value);
     return hash;
 }

@@ -4,9 +4,9 @@
 // The paper's material and small scenes, in the engine's units, without going through a scene file.
 #pragma once
 
-#include "engine/block/spectral_block.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/equilibrium/zero_load.hpp"
+#include "engine/waves/spectral_block.hpp"
 
 #include <algorithm>
 #include <array>

@@ -17,6 +17,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 namespace asperity::test {
 namespace {
@@ -30,6 +31,16 @@ class FailuresOnly : public testing::EmptyTestEventListener {
             std::fprintf(stderr, "rank %d: %s:%d: %s\n", world().rank(), result.file_name(),
                          result.line_number(), result.summary());
     }
+};
+
+/// Fails a test that leaves another number of threads to the next one.
+class ThreadsAreRestored : public testing::EmptyTestEventListener {
+    void OnTestStart(const testing::TestInfo&) override { before_ = omp_get_max_threads(); }
+    void OnTestEnd(const testing::TestInfo&) override {
+        EXPECT_EQ(omp_get_max_threads(), before_) << "see support/threads.hpp";
+        omp_set_num_threads(before_);
+    }
+    int before_ = 1;
 };
 
 /// The names of all tests of the named files ("block_test"), as a filter; removes from `missing`
@@ -75,8 +86,9 @@ int main(int argc, char** argv) {
         if (!missing.empty()) return 2;
         testing::GTEST_FLAG(filter) = filter;
     }
+    auto& listeners = testing::UnitTest::GetInstance()->listeners();
+    listeners.Append(new test::ThreadsAreRestored);
     if (!session.world().root()) {
-        auto& listeners = testing::UnitTest::GetInstance()->listeners();
         delete listeners.Release(listeners.default_result_printer());
         listeners.Append(new test::FailuresOnly);
     }

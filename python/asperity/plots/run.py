@@ -24,13 +24,13 @@ TOP = "displacement of the top plane (Å)"
 
 
 def _columns(run: Result, *names: str) -> list[np.ndarray]:
-    """Columns of the series, if all are there and there is a curve to draw."""
+    """Returns columns of the series, if all exist and there is a curve to draw."""
     columns = [run.series[name] for name in names if name in run.series]
     return columns if len(columns) == len(names) and len(columns[0]) > 1 else []
 
 
 def force_unit(run: Result) -> tuple[float, str]:
-    """What forces are divided by (eV/Å) and the axis label: nN, or GPa, MPa, kPa where the area means something."""
+    """Returns the divisor of forces (eV/Å) and the axis label: nN, or GPa, MPa, kPa if the area is meaningful."""
     if run.curved or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
     area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
@@ -41,7 +41,7 @@ def force_unit(run: Result) -> tuple[float, str]:
 
 
 def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
-    """A curve for each segment of the path, and one of what a script led."""
+    """Draws a curve for each segment of the path, and one for the part led by a script."""
     labels: set[str] = set()
     others = 0
     for number, words in (*enumerate(run.segment_names), (-1, BY_HAND)):
@@ -57,7 +57,7 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
 
 
 def separation(run: Result, ax: Axes) -> bool:
-    """Force of the substrate over the mean separation, both ways; of a sphere beside smooth ones."""
+    """Draws the force of the substrate over the mean separation, both ways; for a sphere beside smooth ones."""
     if not (columns := _columns(run, "mean_height", "force", "segment")):
         return False
     height, force, _ = columns
@@ -81,7 +81,7 @@ def separation(run: Result, ax: Axes) -> bool:
 
 
 def loading(run: Result, ax: Axes) -> bool:
-    """Force over the displacement of the driven top plane: what a testing machine records."""
+    """Draws the force over the displacement of the driven top plane, as a testing machine records it."""
     columns = _columns(run, "top_displacement", "top_force", "segment")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
     if not columns or run.key("drive.control") == "mean-height":
@@ -91,7 +91,7 @@ def loading(run: Result, ax: Axes) -> bool:
 
 
 def contact(run: Result, ax: Axes) -> bool:
-    """Contact fraction and fraction of repulsive sites over the displacement of the top plane."""
+    """Draws contact fraction and fraction of repulsive sites over the displacement of the top plane."""
     columns = _columns(run, "top_displacement", "contact_fraction", "repulsive_fraction", "segment")
     if not columns or not _by_segment(ax, run, *columns[:2], ", in contact"):
         return False
@@ -105,7 +105,7 @@ def contact(run: Result, ax: Axes) -> bool:
 
 
 def friction(run: Result, ax: Axes) -> bool:
-    """Force against each slide of the path, over its distance."""
+    """Draws the force against each slide of the path over its distance."""
     unit, label = force_unit(run)
     drawn = False
     for number, words in enumerate(run.segment_names):
@@ -123,7 +123,7 @@ def friction(run: Result, ax: Axes) -> bool:
 
 
 def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
-    """Times in a unit of their size, and the label of the axis."""
+    """Returns times in a unit of their size, and the label of the axis."""
     for size, unit in ((1e6, "µs"), (1e3, "ns")):
         if np.abs(picoseconds).max(initial=0.0) >= 3 * size:
             return picoseconds / size, f"time ({unit})"
@@ -131,7 +131,7 @@ def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def energy(run: Result, ax: Axes) -> bool:
-    """The energies along the path, per nominal area (meV/Å²) or, of a sphere, whole (eV)."""
+    """Draws the energies along the path, per nominal area (meV/Å²) or, for a sphere, whole (eV)."""
     timed = "time" in run.series
     along = _columns(run, "time" if timed else "step")
     if not along or not run.edge:
@@ -152,7 +152,7 @@ def energy(run: Result, ax: Axes) -> bool:
 
 
 def balance(run: Result, ax: Axes) -> bool:
-    """The error of the energy balance over time."""
+    """Draws the error of the energy balance over time."""
     if not (columns := _columns(run, "time", "balance_error")):
         return False
     largest = np.abs(columns[1][np.isfinite(columns[1])]).max(initial=0.0)
@@ -163,7 +163,7 @@ def balance(run: Result, ax: Axes) -> bool:
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
-    """The radially averaged power spectrum C(q) of the surface, realised and target."""
+    """Draws the radially averaged power spectrum C(q) of the surface, realised and target."""
     found = run.substrate.spectrum if run.substrate else None
     if found is None or not (found[1] > 0).any():  # flat
         return False
@@ -175,7 +175,7 @@ def spectrum(run: Result, ax: Axes) -> bool:
 
 
 def roughness(run: Result, ax: Axes) -> bool:
-    """γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
+    """Draws γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.persson.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
@@ -201,7 +201,7 @@ def roughness(run: Result, ax: Axes) -> bool:
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
-    """The theories of the run's scene at 16 roughnesses up to 1.8 times its own; [] without one."""
+    """Returns the theories of the run's scene at 16 roughnesses up to 1.8 times its own; [] without one."""
     if run.key("surface.kind") == "flat":
         return []
     values = [1.8 * rms * i / 16 for i in range(1, 17)]
@@ -224,7 +224,7 @@ def _histogram(ax: Axes, edges: np.ndarray, density: np.ndarray, x: str, y: str)
 
 
 def gaps(state: State, ax: Axes) -> bool:
-    """The distribution of gaps P(u)."""
+    """Draws the distribution of gaps P(u)."""
     found = state.gap_distribution
     if found is None or not (found[1] > 0).any():
         return False
@@ -232,7 +232,7 @@ def gaps(state: State, ax: Axes) -> bool:
 
 
 def pressures(state: State, ax: Axes) -> bool:
-    """The distribution of the interface's pressure over the sites that feel any."""
+    """Draws the distribution of the interface's pressure over the sites with a force."""
     if "pressure" not in state:
         return False
     pressure = state["pressure"]
@@ -245,12 +245,12 @@ def pressures(state: State, ax: Axes) -> bool:
 
 
 def height(run: Result, ax: Axes) -> bool:
-    """The substrate from above."""
+    """Draws the substrate from above."""
     return bool(run.substrate and run.edge) and image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
 
 
 def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
-    """A map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
+    """Draws a map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
     if name not in state or not run.edge:
         return False
     look: dict[str, Any] = {"label": f"{name} (Å)", "cmap": GAP}
@@ -302,7 +302,7 @@ class RunPlots:
         return self._run.fields[name]
 
     def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
-        """A map of a state: "gap", "pressure", "contact", ...; None: the relaxed state, or the first that there is."""
+        """Draws a map of a state: "gap", "pressure", "contact", ...; state None: the relaxed state, or the first one."""
         if name not in (shown := self._state(state)):
             raise InputOutputError(str(self._run.directory), f"has no map {name!r}", f"maps: {', '.join(shown)}",
                                    "take one of these")

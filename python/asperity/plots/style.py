@@ -15,9 +15,8 @@ import io
 import itertools
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import Any
 from weakref import WeakKeyDictionary
 
@@ -83,18 +82,18 @@ _made: WeakKeyDictionary[Figure, dict[str, bytes]] = WeakKeyDictionary()
 
 
 def drawn(ax: Axes) -> Drawn:
-    """What the functions of this package have drawn into an axes."""
+    """Returns the curves and maps that this package has drawn into an axes."""
     return _drawn.setdefault(ax, Drawn())
 
 
 def style() -> Any:
-    """The context in which figures of the package are made: `with style(): fig, ax = ...`."""
+    """Returns the context in which figures of the package are made: `with style(): fig, ax = ...`."""
     return matplotlib.rc_context(RC)
 
 
 def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str,
                fix: str = "") -> Axes:
-    """For people: draws into an axes, which is made if none is given; raises where there is nothing to draw."""
+    """Draws into an axes for a user, and makes one if none is given; raises InputOutputError if there is nothing to draw."""
     if ax is None:
         import matplotlib.pyplot as plt
 
@@ -105,13 +104,13 @@ def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: 
 
 
 def plain(text: str) -> str:
-    """A label without its mathematical markup."""
+    """Returns a label without its mathematical markup."""
     return re.sub(r"[${}\\]|mathrm|_(?=\{)", "", text)
 
 
 def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-", marker: str = "",
           filled: bool = True, spread=None, behind: bool = False) -> None:
-    """A curve, or points with error bars of the length `spread`. label "": none in the legend."""
+    """Draws a curve, or points with error bars of the length `spread`. label "": none in the legend."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     options: dict[str, Any] = {"color": colour, "linestyle": line, "label": label or "_", "marker": marker or None,
                                "zorder": 1.8 if behind else 2.5, "markerfacecolor": colour if filled else PAPER}
@@ -125,9 +124,9 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
 
 def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True, zero: bool = False,
            most: float | None = None) -> bool:
-    """Labels, minor ticks and the legend; True, as of a plot that is drawn. log: "x", "y" or "xy" of the logarithmic
-    axes; zero: with a line at y = 0; legend: "above" the curves, where they fill the axes; most: the largest value that there is, above which
-    the vertical axis has no ticks."""
+    """Adds labels, minor ticks and the legend. Returns True, the answer of a plot that is drawn. log: "x", "y" or "xy" of the
+    logarithmic axes; zero: with a line at y = 0; legend: "above" the curves, if they fill the axes; most: the largest possible
+    value, above which the vertical axis has no ticks."""
     if zero:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
@@ -164,7 +163,7 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
 
 
 def millijoules(ax: Axes, factor: float, label: str) -> None:
-    """A second axis in mJ/m², on the right; factor: of the axis on the left."""
+    """Adds a second axis in mJ/m² on the right; factor: of the axis on the left."""
     right = ax.secondary_yaxis("right", functions=(lambda y: y * factor, lambda y: y / factor))
     right.set_ylabel(label)
     right.yaxis.set_minor_locator(ticker.AutoMinorLocator())
@@ -176,7 +175,7 @@ def millijoules(ax: Axes, factor: float, label: str) -> None:
 
 def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: float | None = None,
           words: tuple[str, str] | None = None) -> bool:
-    """A map [y, x] of a box so wide (Å), with its scale; True. words: of a map of zeros and ones."""
+    """Draws a map [y, x] of a box so wide (Å), with its scale, and returns True. words: of a map of zeros and ones."""
     from matplotlib.patches import Patch
 
     values = np.asarray(values, float)
@@ -210,13 +209,14 @@ def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: 
 
 
 def make(draw: Callable[[Axes], bool]) -> Figure | None:
-    """The figure that a function draws; None if it had nothing to draw."""
+    """Returns the figure that a function draws; None if it had nothing to draw."""
     with style():
         fig = Figure(figsize=SIZE)  # of no window; its frame has a fixed place, so that the figures of a page line up
         return fig if draw(fig.add_axes((0.165, 0.155, 0.805, 0.815))) else None
 
 
-def _bytes(fig: Figure, kind: str) -> bytes:
+def picture(fig: Figure, kind: str) -> bytes:
+    """A figure as the content of a file: "png", "pdf" or "svg"."""
     kept = _made.setdefault(fig, {})  # the SVG is wanted twice
     if kind not in kept:
         stream = io.BytesIO()
@@ -227,17 +227,19 @@ def _bytes(fig: Figure, kind: str) -> bytes:
     return kept[kind]
 
 
-def save(fig: Figure, stem: Path, kinds: tuple[str, ...] = KINDS) -> list[Path]:
-    """Writes stem.png, .pdf, .svg; their paths."""
-    written = []
+def files_of(stem: str, kinds: Iterable[str] = KINDS) -> list[str]:
+    """The names of the files of a figure: stem.png, .pdf, .svg."""
+    return [f"{stem}.{kind}" for kind in kinds]
+
+
+def save(fig: Figure, out: files.Outputs, stem: str, kinds: Iterable[str] = KINDS) -> None:
+    """Writes the files of a figure."""
     for kind in kinds:
-        written.append(stem.with_name(f"{stem.name}.{kind}"))
-        files.write(written[-1], _bytes(fig, kind))
-    return written
+        out.write(f"{stem}.{kind}", picture(fig, kind))
 
 
 def csv(fig: Figure) -> str:
-    """What is in a figure: two columns a curve, three where it has a spread; of a map its matrix."""
+    """Returns the content of a figure: two columns a curve, three with a spread; of a map its matrix."""
     ax = fig.axes[0]
     kept = drawn(ax)
     if kept.map is not None:
@@ -256,8 +258,8 @@ def csv(fig: Figure) -> str:
 
 
 def inline_svg(fig: Figure) -> str:
-    """The figure as SVG whose colours are those of the page around it (var(--ink), var(--c0), ...)."""
-    text = _bytes(fig, "svg").decode()
+    """Returns the figure as SVG whose colours are those of the page around it (var(--ink), var(--c0), ...)."""
+    text = picture(fig, "svg").decode()
     text = text[text.index("<svg"):]
     text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.S)
     text = re.sub(r'(<svg[^>]*?) width="[^"]*" height="[^"]*"|(<svg[^>]*?) height="[^"]*"([^>]*?) width="[^"]*"',
@@ -268,8 +270,8 @@ def inline_svg(fig: Figure) -> str:
 
 
 def readout(fig: Figure) -> str:
-    """What a page needs to tell the values under the pointer, as JSON: the frame in parts of the figure,
-    the axes' limits, and the curves thinned, or the map in 16 bits."""
+    """Returns the data with which a page tells the values under the pointer, as JSON: the frame in parts of the figure, the
+    axes' limits, and the curves thinned, or the map in 16 bits."""
     ax = fig.axes[0]
     box, kept = ax.get_position(), drawn(ax)
     data: dict[str, Any] = {

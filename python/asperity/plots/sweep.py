@@ -24,7 +24,7 @@ from ..sweeps import Sweep
 from ..tables import Table
 from ..units import MILLIJOULE, NANONEWTON
 from ..units import shown as shown_unit
-from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, finish, make,
+from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, files_of, finish, make,
                     millijoules, save)
 
 MOST_CURVES = len(COLOURS)
@@ -49,7 +49,7 @@ class Trace:
         return table.values(self.column) / self.unit
 
     def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
-        """Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
+        """Returns means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
         values = self.values(table)
         energy = table.values(self.column.removesuffix("_ratio"))
         over = np.divide(values, energy, where=energy != 0, out=energy * np.nan)
@@ -101,8 +101,11 @@ SIMULATED: dict[str, Spec] = {
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
         Trace("cycle", "lost.cycle", PINK, "", "D"),
-        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<"),
-        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False)])}
+        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<",
+              uncertainty="dissipated_in_block.uncertainty.approach"),
+        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False,
+              uncertainty="dissipated_in_block.uncertainty.pull_off"),
+        Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], [])}
@@ -115,7 +118,7 @@ def _label_of(key: str) -> str:
 
 
 def _curves(table: Table, x: str) -> dict[str, list[int]]:
-    """The groups of points that make a curve over x, by the values of the other axes in words."""
+    """Returns the groups of points that make a curve over x, by the values of the other axes in words."""
     found: dict[str, list[int]] = {}
     for group, (values, _) in enumerate(table.groups):
         words = []
@@ -128,13 +131,13 @@ def _curves(table: Table, x: str) -> dict[str, list[int]]:
 
 
 def _words(sweeps: Sequence[Sweep], x: str) -> list[str]:
-    """What tells the curves of sweeps with several of them apart."""
+    """Returns the words that tell the curves of sweeps with several of them apart."""
     found = [curves for sweep in sweeps if len(curves := _curves(sweep.table, x)) > 1]
     return list(dict.fromkeys(words for curves in found for words in curves))
 
 
 def _trace(ax: Axes, table: Table, x: str, trace: Trace, colours: dict[str, str], told: set[str]) -> bool:
-    """colours: by the words of a curve; told: the words that the legend has."""
+    """Draws the curves of a sweep. colours: by the words of a curve; told: the words that the legend has."""
     curves = _curves(table, x)
     along, (means, bars) = table.at(x), trace.average(table)
     several = len(curves) > 1
@@ -158,14 +161,14 @@ def _trace(ax: Axes, table: Table, x: str, trace: Trace, colours: dict[str, str]
 
 
 def _agree(one: dict[str, float], other: dict[str, float]) -> bool:
-    """Whether two curves, {point: value}, agree: at the same points, or at different values that both have."""
+    """Returns True if two curves, {point: value}, agree: at the same points, or at different values that both have."""
     both = np.array([(one[point], other[point]) for point in one.keys() & other.keys()]).reshape(-1, 2)
     enough = one.keys() == other.keys() or (len(both) and np.ptp(np.nan_to_num(both)) > 1e-6)
     return bool(enough) and np.allclose(*both.T, rtol=1e-6, atol=1e-9, equal_nan=True)
 
 
 def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
-    """The sweeps that have this theory, those with the same curve together."""
+    """Returns the sweeps that have this theory, those with the same curve together."""
     found: list[tuple[list[Sweep], list[dict[str, float]]]] = []
     for sweep in sweeps:
         table = Table(sweep.axes, [*sweep.points, *sweep.theory], False)
@@ -183,7 +186,7 @@ def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
 
 
 def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
-    """The sweeps that share a plot, their key along x, and what kept others out."""
+    """Returns the sweeps that share a plot, their key along x, and what kept others out."""
     shared: list[Sweep] = []
     along, notes = "", []
     for sweep in sweeps:
@@ -201,12 +204,12 @@ def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
 
 
 def names(sweeps: Sequence[Sweep]) -> list[str]:
-    """The plots that sweeps of this kind may have."""
+    """Returns the plots that sweeps of this kind may have."""
     return list(SIMULATED if any(s.simulated for s in sweeps) else OF_THEORY)
 
 
 def _flat(sweeps: Sequence[Sweep]) -> float:
-    """The Δγ that all points are over, also those of the theory; 0: none, they differ, or mean a sphere."""
+    """Returns the Δγ that all points are over, also those of the theory; 0: none, they differ, or mean a sphere."""
     points = [point for sweep in sweeps for point in (*sweep.points, *sweep.theory)]
     found = {round(flat, 9) for point in points for name in ("delta_gamma", "theory.persson.delta_gamma")
              if (flat := Values(point).number(name))}
@@ -280,18 +283,23 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
-    """The same for people: makes an axes if none is given, raises InputOutputError if there is nothing."""
+    """Draws a plot for a user: makes an axes if none is given, raises InputOutputError if there is nothing to draw."""
     return drawn_into(ax, lambda a: name in names(sweeps) and plot(sweeps, name, a), sweeps[0].name, name,
                       f"plots: {', '.join(names(sweeps))}")
 
 
+def plot_files(simulated: bool) -> list[str]:
+    """The names of all files that write_plots() may write."""
+    return [file for name in (SIMULATED if simulated else OF_THEORY) for file in files_of(name)]
+
+
 def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], str]:
-    """gamma.svg, .pdf, .png and the others into the directory; the SVG files, and what kept a sweep out."""
+    """Writes gamma.svg, .pdf, .png and the others into the directory. Returns the SVG files, and the reason why a sweep is
+    left out."""
     note = parts_of(sweeps)[2]
-    written = []
-    for name in names(sweeps):
-        fig = make(lambda ax: plot(sweeps, name, ax))
-        if fig is not None:
-            save(fig, files.directory(directory) / name)
-            written.append(directory / f"{name}.svg")
-    return written, note
+    figures = {name: fig for name in names(sweeps) if (fig := make(lambda ax, name=name: plot(sweeps, name, ax))) is not None}
+    if figures:
+        with files.outputs(directory, [file for name in figures for file in files_of(name)]) as out:
+            for name, fig in figures.items():
+                save(fig, out, name)
+    return [directory / f"{name}.svg" for name in figures], note

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is prescribed along z of a block at rest; everything else moves until no force is left.
+// The prescribed quantity along z of a block at rest; everything else moves until no force is left.
 #pragma once
 
 namespace asperity {
 
+/// The prescribed quantity and its value.
 struct Constraint {
     enum class Of {
-        load,       ///< of the free top plane, eV/Å, pressing down
+        load,       ///< load of the free top plane, eV/Å, pressing down
         top,        ///< displacement of the top plane, Å
         mean_height ///< mean displacement of the lowest layer, Å; no force is on the top plane
     };
@@ -20,7 +21,7 @@ struct Constraint {
     static constexpr Constraint mean_height(double z) { return {Of::mean_height, z}; }
     bool is_top() const { return of == Of::top; }
     bool is_mean_height() const { return of == Of::mean_height; }
-    /// On the top plane, eV/Å: none where something else is prescribed.
+    /// Returns the load on the top plane, eV/Å; zero if something else is prescribed.
     double load() const { return of == Of::load ? value : 0.0; }
 };
 

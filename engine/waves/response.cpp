@@ -1,0 +1,233 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/waves/response.hpp"
+
+#include "decomposition/global_sum.hpp"
+#include "engine/waves/preconditioner.hpp"
+#include "kernels/elastic_level.hpp"
+
+#include <cmath>
+#include <span>
+#include <utility>
+
+namespace asperity {
+
+Response::Response(const BlockOptions& options, const Communicator& communicator, bool frictionless)
+    : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
+      table_(options, slab_, frictionless), layer_(tile(), 1, 0), force_(tile(), 1, 0),
+      waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
+    if (options.branches.empty()) return;
+    memory_.emplace(options.branches, slab_, components_);
+    known_.emplace(slab_, components_);
+}
+
+void Response::gradient(Waves<double>& g) const {
+    const double sites = options_.sites, norm = 1.0 / (sites * sites);
+    const WaveBlocks<double> forces = to_blocks(moving_planes(force_), transform_);
+#pragma omp parallel for schedule(static) num_threads(forces.threads())
+    for (int b = 0; b < g.blocks(); ++b) {
+        stiffen<double>(b, waves_.block(b), -norm, forces.get(b), g.block(b));
+        if (known_)
+            combine_row(1.0, known_->block(b), 1.0, g.block(b), static_cast<int>(g.length()));
+    }
+    if (!slab_.holds_uniform()) return;
+    double& mean = g.uniform(components_ - 1);
+    mean += norm * constraint_.load();
+    if (constraint_.is_top()) mean -= factor_ * table_.uniform() * constraint_.value;
+    if (constraint_.is_mean_height()) mean = 0.0;
+}
+
+SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
+    const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
+    double mean = -norm * constraint_.load();
+    if (constraint_.is_top()) mean += factor_ * table_.uniform() * constraint_.value;
+    const std::size_t normal = slab_.block_length(components_ - 1);
+    SiteRows<float> rows = single_.from_sites();
+#pragma omp parallel for schedule(static) num_threads(rows.threads())
+    for (int y = 0; y < slab_.rows; ++y) {
+        for (int c = 0; c < components_; ++c)
+            tie_row(k, norm, moving(layer_.plane(0), c).line(y), moving(force_.plane(0), c).line(y),
+                    rows.own()[c], slab_.sites);
+        rows.put(y);
+    }
+    WaveBlocks<float> blocks = std::move(rows).to_blocks();
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < slab_.blocks(); ++b) {
+        float* const waves = blocks.get(b);
+        const bool uniform = b == 0 && slab_.holds_uniform();
+        if (uniform) waves[normal] += static_cast<float>(mean);
+        if (known_)
+            combine_row(-1.0, known_->block(b), 1.0, waves, static_cast<int>(known_->length()));
+        preconditioner.apply(b, waves, 0.0, waves);
+        if (uniform && constraint_.is_mean_height())
+            waves[normal] = static_cast<float>(constraint_.value);
+        blocks.put(b, waves);
+    }
+    return std::move(blocks).to_rows();
+}
+
+template <class T>
+void Response::stiffen(int b, double factor, const T* u, double norm, const T* g, T* f) const {
+    const bool held = constraint_.is_top() && b == 0 && slab_.holds_uniform();
+    const std::size_t normal = slab_.block_length(components_ - 1);
+    const T mean = held ? u[normal] : T(0); // f may be u
+    table_.multiply(b, u, norm / factor, g, f);
+    if (factor != 1.0)
+        combine_row(factor, f, 0.0, f, static_cast<int>(slab_.block_length(components_)));
+    if (held) f[normal] += static_cast<T>(factor * table_.uniform()) * mean;
+}
+
+template <class T>
+void Response::stiffen(int b, const T* u, double norm, const T* g, T* f) const {
+    stiffen(b, factor_, u, norm, g, f);
+}
+template void Response::stiffen(int, const float*, double, const float*, float*) const;
+template void Response::stiffen(int, const double*, double, const double*, double*) const;
+
+void Response::stiffen_relaxed(Waves<double>& f) const {
+#pragma omp parallel for schedule(static)
+    for (int b = 0; b < f.blocks(); ++b)
+        stiffen<double>(b, 1.0, f.block(b), 0.0, nullptr, f.block(b));
+}
+
+template <class T, class Change>
+void Response::change_waves(SiteField<T>& field, const Change& change) const {
+    WaveBlocks<T> blocks = to_blocks(field, transform<T>());
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < slab_.blocks(); ++b) {
+        T* const waves = blocks.get(b);
+        change(b, waves);
+        blocks.put(b, waves);
+    }
+    to_sites(std::move(blocks).to_rows(), field);
+}
+
+template <class T>
+void Response::stiffen(SiteField<T>& displacement) const {
+    change_waves(displacement, [&](int b, T* waves) { stiffen<T>(b, waves, 0.0, nullptr, waves); });
+}
+template void Response::stiffen(SiteField<float>&) const;
+
+template <class T>
+void Response::shape_forces(SiteField<T>& displacement) const {
+    const double sites = options_.sites;
+    const std::size_t normal = slab_.block_length(components_ - 1);
+    change_waves(displacement, [&](int b, T* waves) {
+        stiffen<T>(b, waves, 0.0, nullptr, waves);
+        if (known_)
+            combine_row(sites * sites, known_->block(b), 1.0, waves,
+                        static_cast<int>(known_->length()));
+        if (b == 0 && slab_.holds_uniform()) waves[normal] = T(0);
+    });
+}
+template void Response::shape_forces(SiteField<float>&) const;
+template void Response::shape_forces(SiteField<double>&) const;
+
+Holder Response::holder() const {
+    const double sites = options_.sites;
+    if (!constraint_.is_top()) return {.force = constraint_.load() / (sites * sites)};
+    Holder held{.stiffness = factor_ * table_.uniform(), .at = constraint_.value};
+    if (!known_) return held;
+    if (slab_.holds_uniform()) held.force = known_->uniform(components_ - 1);
+    slab_.ranks.broadcast(std::span(&held.force, 1)); // the root holds it
+    return held;
+}
+
+SurfaceMatrix Response::acting_stiffness(int nx, int ny) const {
+    SurfaceMatrix s = table_.at(nx, ny);
+    if (nx == 0 && ny == 0 && constraint_.is_top()) s.zz = table_.uniform();
+    for (double* entry : {&s.xx, &s.yy, &s.zz, &s.xy, &s.xz, &s.yz})
+        *entry *= factor_;
+    return s;
+}
+
+double Response::stiffest_wave() const {
+    return factor_ * std::max(table_.stiffest(), constraint_.is_top() ? table_.uniform() : 0.0);
+}
+
+double Response::mean_height() const {
+    double mean = slab_.holds_uniform() ? waves_.uniform(components_ - 1) : 0.0;
+    slab_.ranks.broadcast(std::span(&mean, 1)); // the root holds it
+    return mean;
+}
+
+double Response::top_force() const {
+    if (!constraint_.is_top()) return constraint_.load();
+    const double sites = options_.sites;
+    return sites * sites * holder()(mean_height());
+}
+
+BlockEnergies Response::energies() const {
+    // Half u.(S u), u measured from a held top plane, and what a load stretches the block by.
+    const double from = constraint_.is_top() ? constraint_.value : 0.0;
+    Waves<double> su = new_waves<double>();
+    combine(1.0, waves_, 0.0, su);
+    if (slab_.holds_uniform()) su.uniform(components_ - 1) -= from;
+    stiffen_relaxed(su);
+    double twice = dot(waves_, su);
+    if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
+    const double load = constraint_.load();
+    BlockEnergies energies{.elastic = 0.5 * (twice + load * load / spring())};
+    if (memory_)
+        energies.branches = memory_->energies(
+            from_top(), [&](const SiteField<double>& u) { return twice_energy(u); });
+    return energies;
+}
+
+double Response::twice_energy(const SiteField<double>& u) const {
+    const double sites = options_.sites;
+    Waves<double> waves = new_waves<double>(), su = new_waves<double>();
+    to_waves(u, transform_, waves);
+    combine(1.0 / (sites * sites), waves, 0.0, su);
+    stiffen_relaxed(su);
+    return dot(waves, su) / (sites * sites);
+}
+
+SiteField<double> Response::from_top() const {
+    SiteField<double> w = new_field<double>();
+    const double top = constraint_.is_top() ? constraint_.value : 0.0;
+    for (int c = 0; c < components_; ++c) {
+        const PlaneView<const double> u = moving(layer_.plane(0), c);
+        const PlaneView<double> to = w[static_cast<std::size_t>(c)].plane(0);
+        const double from = c == components_ - 1 ? top : 0.0;
+        for (int y = 0; y < u.ny; ++y)
+            for (int x = 0; x < u.nx; ++x)
+                to(x, y) = u(x, y) - from;
+    }
+    return w;
+}
+
+void Response::displace(double t, const Waves<float>& d, const SiteField<float>& at_sites) {
+    combine(t, d, 1.0, waves_);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y)
+        for (int c = 0; c < components_; ++c)
+            combine_row(t, at_sites[static_cast<std::size_t>(c)].plane(0).line(y), 1.0,
+                        moving(layer_.plane(0), c).line(y), slab_.sites);
+}
+
+void Response::restore_mean_height() {
+    if (!constraint_.is_mean_height()) return;
+    const double sites = options_.sites;
+    const PlaneView<double> z = layer_.z.plane(0);
+    ExactSum sum;
+    elastic_kernels().sum(z, 0, z.ny, sum);
+    const double by = constraint_.value - global_sum(slab_.ranks, sum) / (sites * sites);
+    for (int y = 0; y < z.ny; ++y)
+        for (int x = 0; x < z.nx; ++x)
+            z(x, y) += by;
+}
+
+void Response::apply_constraint() {
+    restore_mean_height();
+    const double sites = options_.sites;
+    const WaveBlocks<double> blocks = to_blocks(moving_planes(layer_), transform_);
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < waves_.blocks(); ++b)
+        combine_row(1.0 / (sites * sites), blocks.get(b), 0.0, waves_.block(b),
+                    static_cast<int>(waves_.length()));
+    if (constraint_.is_mean_height() && slab_.holds_uniform())
+        waves_.uniform(components_ - 1) = constraint_.value;
+}
+
+} // namespace asperity

@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// S(q) of every wave of a surface: one symmetric 3 x 3 matrix for each, or one number without
+// friction. It belongs to the block alone and does not change: what holds the block and what
+// branches add stands beside it (response.hpp).
+#pragma once
+
+#include "decomposition/waves.hpp"
+#include "engine/block/block.hpp"
+#include "kernels/surface_stiffness.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace asperity {
+
+/// The layout of a table over the quadrant of waves: [block][ny][entry][column], of matrices or of
+/// one number for each wave (kernels/surface_rows.hpp).
+struct TableLayout {
+    int sites, components;
+    std::size_t entries() const { return components == 1 ? 1 : matrix_entry::count; }
+    /// Returns the numbers in a block.
+    std::size_t block() const {
+        return static_cast<std::size_t>(sites / 2 + 1) * entries() * block_columns;
+    }
+    std::size_t size(int blocks) const { return static_cast<std::size_t>(blocks) * block(); }
+    std::size_t at(std::size_t entry, int nx, int ny) const {
+        return static_cast<std::size_t>(nx / block_columns) * block() +
+               (static_cast<std::size_t>(ny) * entries() + entry) * block_columns +
+               static_cast<std::size_t>(nx % block_columns);
+    }
+    /// Sets the matrix of a wave in a table.
+    template <class T>
+    void put(const SurfaceMatrix& m, int nx, int ny, std::vector<T>& table) const {
+        const double values[matrix_entry::count] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+        for (std::size_t e = 0; e < entries(); ++e)
+            table[at(e, nx, ny)] = static_cast<T>(components == 1 ? m.zz : values[e]);
+    }
+};
+
+class StiffnessTable {
+public:
+    /// Computes S of the lattice. Without friction the matrix of a wave is replaced by its answer
+    /// to normal forces, 1 / (S^-1)_zz.
+    StiffnessTable(const BlockOptions& options, const Slab& slab, bool frictionless);
+
+    /// Returns S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2, eV/Å^2; frictionless: its one
+    /// number, as zz. The uniform normal wave of a block that nothing holds costs nothing: its zz
+    /// is zero.
+    SurfaceMatrix at(int nx, int ny) const;
+    /// Returns S_zz of the uniform wave against a top plane that is held, eV/Å^2.
+    double uniform() const { return uniform_; }
+    /// Returns the largest S_zz of a wave, eV/Å^2.
+    double stiffest() const;
+    /// Sets f to S u + norm g for this rank's block b of waves; f may be u or g.
+    template <class T>
+    void multiply(int b, const T* u, double norm, const T* g, T* f) const;
+    /// Returns the memory that the table takes; each rank has all of it.
+    std::size_t bytes() const { return table_.size() * (sizeof(double) + sizeof(float)); }
+
+private:
+    TableLayout layout_;
+    int first_block_;
+    std::vector<double> table_; ///< eV/Å^2
+    std::vector<float> single_; ///< the same numbers
+    double uniform_ = 0.0;
+};
+
+} // namespace asperity

@@ -1,0 +1,124 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The books of quasi-static paths: work of the drive = stored + lost + dissipated in the block, in every segment and over a
+cycle, and every place that shows one loss shows the others."""
+
+import json
+
+import pytest
+from conftest import command
+
+import asperity
+from asperity import estimate_parts, program, report, sentences, tables
+from asperity.plots import sweep as sweep_plots
+
+ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
+         "drive": {"mode": "quasistatic", "velocity": 1.0}}
+WALL = {"surface": {"sites": 12, "spacing": "1 nm", "rms": "0.5 nm"}, "block": {"young": "20 MPa", "poisson": 0.49},
+        "interface": {"kind": "wall", "adhesion": "30 mJ/m^2", "range": "1 nm"},
+        "drive": {"mode": "quasistatic", "velocity": 0.1, "displacement_step": "0.2 nm"}}
+RELAXING = {"atoms": [[3.0, 50.0], [1.5, 1000.0]], "wall": [[9.0, "10 ns"]]}
+PATHS = {"cycle": ["approach", "pull-off"], "rest": ["approach", "hold 2 ns", "pull-off"], "in contact": ["approach"],
+         "while it rests": ["approach", "hold 0.2 ns"], "two cycles": ["approach", "pull-off"] * 2,
+         "loads": ["approach", "load 3 MPa", "load -1 MPa", "hold 1 ns", "pull-off"]}
+
+
+def terms(of):
+    """stored, lost, and dissipated in the block; that of an elastic block is none."""
+    return of["stored"] + of["lost"] + of.get("dissipated_in_block", 0.0)
+
+
+@pytest.mark.parametrize("path", PATHS)
+@pytest.mark.parametrize("control", ["top", "mean-height"])
+@pytest.mark.parametrize("kind, relaxes", [("atoms", True), ("atoms", False), ("wall", True), ("wall", False)])
+def test_the_books_of_a_path_close(place, kind, relaxes, control, path):
+    steps = [s for s in PATHS[path] if relaxes or not s.startswith("hold")]
+    if kind == "atoms":
+        steps = [s.replace("3 MPa", "300 MPa").replace("-1 MPa", "-20 MPa") for s in steps]
+    scene = json.loads(json.dumps({"atoms": ATOMS, "wall": WALL}[kind]))
+    scene["drive"] |= {"control": control, "path": steps}
+    if relaxes:
+        scene["block"]["prony"] = RELAXING[kind]
+    else:
+        del scene["drive"]["velocity"]
+    run = asperity.run(scene, out="run")
+    lines = json.loads((run.directory / "result.json").read_text())["segments"]
+    assert [line["name"] for line in lines] == steps
+    largest = max(abs(line[key]) for line in lines for key in ("work_of_drive", "stored"))
+    for line in lines:
+        assert ("dissipated_in_block" in line) == relaxes
+        gap = abs(line["work_of_drive"] - terms(line))
+        assert gap <= 1e-3 * largest and gap <= 1.01 * line["uncertainty"] + 1e-9 * largest, line
+    if "pull-off" in steps:  # the last cycle
+        first = max((i + 1 for i, s in enumerate(steps[:-1]) if s == "pull-off" and "approach" in steps[i:]), default=0)
+        last = len(steps) - steps[::-1].index("pull-off")
+        work = sum(line["work_of_drive"] for line in lines[first:last])
+        assert work == pytest.approx(run.lost.cycle + (run.dissipated_in_block.cycle if relaxes else 0.0),
+                                     abs=1e-3 * largest)
+        # The solids are at rest apart.
+        assert sum(line["stored"] for line in lines[first:last]) == pytest.approx(0.0, abs=1e-4 * largest)
+    if path == "cycle":  # the names of the two segments
+        for line, way in zip(lines, ("approach", "pull_off"), strict=True):
+            for key in ("work_of_drive", "stored", "lost") + ("dissipated_in_block",) * relaxes:
+                assert run.number(f"{key}.{way}") == line[key]
+
+
+def companions(place, names):
+    """What stands beside names of losses: each `lost` has the other terms."""
+    for name in [n for n in names if "lost" in n.split(".")]:
+        for other in ("dissipated_in_block", "stored"):
+            # Over a cycle nothing is stored, and a plot of losses has no energies.
+            if other != "stored" or not ("uncertainty" in name or "cycle" in name or "plot" in place):
+                yield name, name.replace("lost", other)
+
+
+def test_wherever_a_loss_is_named_its_companions_are():
+    places = {
+        "results": list(program.quantities()),
+        "estimate": [q.path for q in estimate_parts.FLAT],
+        "estimate of a sphere": [q.path for q in estimate_parts.CURVED],
+        "table of a sweep": [name for _, name, _ in tables.OF_SIMULATION],
+        "segments in a report": list(report.SEGMENT_COLUMNS),
+    }
+    for name, (_, _, traces) in sweep_plots.SIMULATED.items():
+        places[f"plot of a sweep: {name}"] = [t.column for t in traces] + [t.uncertainty for t in traces]
+    assert sum("lost" in name for names in places.values() for name in names) > 8
+    for place, names in places.items():
+        for name, other in companions(place, names):
+            assert other in names, f"{place}: {name} without {other}"
+
+
+@pytest.fixture(scope="module")
+def rubber(tmp_path_factory):
+    """A block that is still stretched when the solids come apart."""
+    scene = json.loads(json.dumps(ATOMS))
+    scene["surface"] = {"sites": 12, "kind": "flat"}
+    scene["block"]["prony"] = RELAXING["atoms"]
+    scene["drive"] |= {"control": "top", "path": ["approach", "hold 0.2 ns", "pull-off"]}
+    return tmp_path_factory.mktemp("rubber"), scene
+
+
+def test_every_page_has_all_losses(rubber):
+    place, scene = rubber
+    run = asperity.run(scene, out=place / "run")
+    assert run.dissipated_in_block.cycle > 10.0 and run.lost.cycle > 10.0
+    words = sentences.results(run)
+    shown = {name: f"{run.number(name + '.cycle'):.2f}" for name in ("lost", "dissipated_in_block")}
+    for value in shown.values():
+        assert any(value in sentence for sentence in words), (value, words)
+    numbers = {n.name: n.value for n in sentences.key_numbers(run)}
+    assert numbers["lost at instabilities in a cycle"] == f"{run.lost.cycle:.4g}"
+    assert numbers["dissipated in the block in a cycle"] == f"{run.dissipated_in_block.cycle:.4g}"
+    page = report.write_run_page(run, ())
+    assert page is not None
+    html = (place / "run" / "report.html").read_text()
+    for text in ("dissipated in the block", "stored"):
+        assert f"<th>{text}" in html or f">{text}" in html, text
+    values = [f"{section}.{key}={json.dumps(value)}" for section, keys in scene.items() for key, value in keys.items()]
+    (place / "scene.toml").write_text("")
+    said = command("run", place / "scene.toml", "--set", *values, "--progress", "off", "--out", place / "said")
+    for key in ("lost", "dissipated_in_block", "stored"):
+        for way in ("approach", "pull_off", "cycle"):
+            value = run.number(f"{key}.{way}")
+            assert (value is None) == ((key, way) == ("stored", "cycle"))
+            assert value is None or f"{value:.2f}" in said, (key, way)
