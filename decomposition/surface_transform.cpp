@@ -83,7 +83,8 @@ struct SurfaceTransform<T>::Parts {
     bool under_way = false; ///< a stage lives
     typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
     typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
-    /// Of each thread: two blocks of waves; or a row of sites of each component, and one of waves.
+    /// Memory of each thread: two blocks of waves; or a row of sites of each component, and one of
+    /// waves.
     struct Own {
         AlignedArray<T> room;
         std::array<T*, 3> rows{};
@@ -140,7 +141,7 @@ struct SurfaceTransform<T>::Parts {
 
     /// Returns no more threads than there were when the arrays were made.
     int threads() const { return std::min(omp_get_max_threads(), static_cast<int>(own.size())); }
-    /// From the start of one row of sites of a thread's own to that of the next.
+    /// Returns the distance between the starts of two rows of sites of a thread, in numbers.
     std::size_t row_length() const {
         return (static_cast<std::size_t>(slab.sites) + line - 1) / line * line;
     }
@@ -150,12 +151,13 @@ struct SurfaceTransform<T>::Parts {
     T* second_block() { return mine() + slab.block_length(components); }
     T* waves_of_mine() { return mine() + static_cast<std::size_t>(components) * row_length(); }
 
-    /// Numbers of one component of a block of so many rows; of all, with the line.
+    /// Returns the count of numbers of one component of a block of so many rows; block_of(): of all
+    /// components, with the line.
     static std::size_t of_component(int rows) { return width * static_cast<std::size_t>(rows); }
     std::size_t block_of(int rows) const {
         return static_cast<std::size_t>(components) * of_component(rows) + line;
     }
-    /// Where in of_blocks the part of a rank begins.
+    /// Returns the place in of_blocks at which the part of a rank begins.
     std::size_t from_rank(int rank) const {
         std::size_t at = 0;
         for (int r = 0; r < rank; ++r)
@@ -164,11 +166,11 @@ struct SurfaceTransform<T>::Parts {
         return at;
     }
 
-    /// Row y of this rank: from its sites to of_rows, or back.
+    /// Transforms row y of this rank from its sites into of_rows; get_rows() goes back.
     void put_rows(int y) {
         const auto& rows = of_thread().rows;
         T* const waves = waves_of_mine();
-        std::fill(waves + 2 * slab.columns(), waves + waves_of_row(), T(0)); // none, in a block
+        std::fill(waves + 2 * slab.columns(), waves + waves_of_row(), T(0)); // padding of a block
         for (int c = 0; c < components; ++c) {
             F::run_real_to_waves(rows_forward, rows[static_cast<std::size_t>(c)],
                                  reinterpret_cast<Complex*>(waves));
@@ -198,8 +200,8 @@ struct SurfaceTransform<T>::Parts {
             copy(there, static_cast<std::size_t>(b) * width);
     }
 
-    /// Of several ranks, each part of this rank's block b: where it is in of_blocks, where it goes
-    /// in a whole block, and how long it is.
+    /// Calls copy() for each rank's part of this rank's block b with its place in of_blocks, its
+    /// place in a whole block, and its length.
     template <class Copy>
     void each_of_block(int b, const Copy& copy) {
         for (int r = 0; r < slab.ranks.size(); ++r) {
@@ -244,7 +246,7 @@ struct SurfaceTransform<T>::Parts {
         });
     }
 
-    /// Every rank's rows of this rank's blocks come here, or go back.
+    /// Exchanges the rows of all ranks for this rank's blocks (to_blocks), or sends them back.
     void exchange(bool to_blocks) {
         if (slab.ranks.size() == 1) return;
         std::vector<Message> messages;

@@ -29,7 +29,7 @@ class FileRecord {
 public:
     static constexpr const char* name = ".asperity-files.json";
 
-    /// Claims nothing yet and reads nothing.
+    /// Keeps the directory; reads and claims nothing yet.
     explicit FileRecord(Directory directory) : directory_(std::move(directory)) {}
     /// Claims the names of the files that a command is about to write. inputs: paths of the files
     /// that the command reads. Throws SceneError with all files that would have to be replaced, and

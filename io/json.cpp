@@ -41,7 +41,7 @@ Json parse_json(std::string_view text, const std::string& file) {
 
 namespace {
 
-/// The text with the digest of its own behind it.
+/// Appends the digest of the text to the text.
 std::string sealed(std::string text) {
     return text + fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
                               digest_of(std::as_bytes(std::span(text))));

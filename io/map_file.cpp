@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t longest_edge = 1u << 17;
 
-/// The data set that is named, else /heights, else the only one that can be a map.
+/// Returns the data set that is named, else /heights, else the only one that can be a map.
 std::string map_in(const Hdf5File& file, const std::string& named) {
     std::string name = named.empty() ? "/heights" : named;
     if (named.empty() && !file.exists(name)) {
@@ -123,9 +123,8 @@ std::string file_contents(const std::string& file) {
     return text;
 }
 
-/// Does a comment of a matrix say what Gwyddion and SPIP write into their headers? Gwyddion writes
-/// the names in the language of its user, and always the unit of the heights: "# Wert-Einheiten:
-/// nm".
+/// Returns true if a comment of a matrix is a header of Gwyddion or SPIP. Gwyddion writes the names
+/// in the language of its user, and always the unit of the heights: "# Wert-Einheiten: nm".
 bool is_header(std::string_view comment) {
     std::string name(comment.substr(0, comment.find_first_of(":=")));
     if (name.size() == comment.size()) return false;
@@ -212,7 +211,7 @@ HeightMap read_map_text(std::string_view text, const std::string& file) {
 // NumPy's .npy (numpy.lib.format, versions 1 to 3): magic, a dictionary of three keys as text, the
 // values. Numbers of the usual kinds, rows or columns first.
 
-/// What stands behind 'key': in the header, up to the next comma outside of parentheses.
+/// Returns the text behind 'key': in the header, up to the next comma outside of parentheses.
 std::string_view entry(std::string_view header, std::string_view key) {
     std::size_t at = header.find(key);
     if (at == std::string_view::npos) return {};
@@ -234,7 +233,7 @@ double value_at(const char* from, bool swap) {
     return static_cast<double>(value);
 }
 
-/// How a type like "f8" is read.
+/// Readers of the types, such as "f8".
 constexpr std::pair<std::string_view, double (*)(const char*, bool)> readers[] = {
     {"f8", value_at<double>},        {"f4", value_at<float>},
     {"i1", value_at<std::int8_t>},   {"i2", value_at<std::int16_t>},
@@ -276,8 +275,7 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     std::size_t value = 0;
     while (shape >> value)
         extent.push_back(value);
-    if (value ==
-        std::numeric_limits<std::size_t>::max()) // what a number of more than 64 bits gives
+    if (value == std::numeric_limits<std::size_t>::max()) // read from a number of more than 64 bits
         damaged("its shape is no shape");
     if (extent.size() != 2)
         refuse(file, "is no height map",

@@ -54,6 +54,9 @@ void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said
         factor = length_unit(said.unit, map.source, "heights", say_unit);
     if (map.width && !factor && !said.size) {
         if (units.of_sizes) length_unit(*units.of_sizes, map.source, "its size", say_size);
+        if (units.unit)
+            length_unit(*units.unit, map.source, "heights",
+                        say_unit); // throws: the unit is no length
         refuse(map.source, "the file does not say the unit of its sizes and heights",
                "in an unknown unit they may be anything",
                fmt::format("say which it is: {}", say_unit));

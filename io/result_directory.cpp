@@ -29,7 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What a directory holds.
+// Contents of a directory.
 
 enum class Holds { nothing, result, unfinished };
 
@@ -103,7 +103,7 @@ void check(const ResultRequest& request, const Directory& directory) {
             "or throw it away: --restart"});
 }
 
-/// Whether a file is what a command that was killed left of one of these files.
+/// Returns true if a file was left of one of these files by a command that was killed.
 bool is_left_of(const std::string& file, const std::vector<std::string>& names) {
     const std::string_view end = OutputFile::suffix;
     if (!file.ends_with(end)) return false;
@@ -114,16 +114,13 @@ bool is_left_of(const std::string& file, const std::vector<std::string>& names) 
            std::find(names.begin(), names.end(), beside.substr(0, dot)) != names.end();
 }
 
-/// Removes what was not put in its place, and, to start anew, the files of a run.
-void remove_files(const Directory& directory, const ResultRequest& request) {
+/// Removes files that a command which was killed has not put in their places.
+void remove_left_over(const Directory& directory, const ResultRequest& request) {
     std::vector<std::string> names = request.files;
     names.emplace_back(FileRecord::name);
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(directory.path(), error))
         if (const std::string file = entry.path().filename().string(); is_left_of(file, names))
-            directory.remove(file);
-    if (request.restart)
-        for (const std::string& file : request.files)
             directory.remove(file);
 }
 
@@ -135,7 +132,7 @@ std::string host_name() {
     return name;
 }
 
-/// Who has a lock, as its file says. Empty: it does not, or not to its end.
+/// Holder of a lock as its file says; empty if the file does not say, or is incomplete.
 struct Holder {
     std::string host, process, since;
 };
@@ -149,7 +146,7 @@ Holder read_lock(int fd) {
     return {host, process, since};
 }
 
-/// Whether a file begins as the text of a lock does, as far as it was written.
+/// Returns true if a file begins as the text of a lock does, as far as it was written.
 bool is_lock(int fd) {
     constexpr std::string_view first = "host ";
     char text[first.size()];
@@ -168,13 +165,16 @@ ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string
             fmt::format("{} already holds a result; this one goes to {}", first, path));
 }
 
-// Where it throws, the destructor undoes what was done: the other constructor has come to its end.
+// If this constructor throws, the destructor undoes its work: the other constructor has ended.
 ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
     lock();
+    remove_left_over(directory_, request); // also of a run that had come to its end
     check(request, directory_);
     record_.claim(request.files, request.inputs);
-    remove_files(directory_, request);
+    if (request.restart)
+        for (const std::string& file : request.files)
+            directory_.remove(file);
 }
 
 void ResultDirectory::require_in_place() const {
@@ -196,7 +196,7 @@ ResultDirectory::~ResultDirectory() {
     if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
     lock_ = Descriptor();
     std::error_code ignored;
-    if (made_) fs::remove(path(), ignored); // which removes no directory with something in it
+    if (made_) fs::remove(path(), ignored); // an empty directory alone is removed
 }
 
 void ResultDirectory::lock() {
@@ -212,17 +212,17 @@ void ResultDirectory::lock() {
         const bool by_other = !kept && errno == EWOULDBLOCK;
         if (kept && !is_lock_in_place()) continue; // given back just now
         if (!made && !is_lock(lock_.get())) {
-            lock_ = Descriptor(); // it stays in its place
+            lock_ = Descriptor(); // the file stays in its place
             throw SceneError(Problem{file, "is there already and is not replaced",
                                      "it is not the lock of a run: it does not begin with a host",
                                      "move it away, or name another directory (--out)"});
         }
         holder = read_lock(lock_.get());
         const bool here = holder.host == host_name();
-        // Where the file system knows no such locks, whoever makes the file has it.
+        // On a file system without such locks the process that makes the file has the lock.
         mine = made ? !by_other : kept && (holder.host.empty() || here);
         if (mine) break;
-        lock_ = Descriptor(); // it stays in its place
+        lock_ = Descriptor(); // the file stays in its place
         throw FileError(
             path(), "is in use by another process",
             holder.process.empty() ? file + " does not say by whom"

@@ -51,7 +51,7 @@ public:
     const std::string& path() const { return directory_.path(); }
     /// Throws FileError where path() does not lead to it any more: it was moved or replaced.
     void require_in_place() const;
-    /// What its user should know: another name than expected, a lock whose owner is gone.
+    /// Returns notes for the user: another name than expected, a lock whose owner is gone.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:

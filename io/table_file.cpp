@@ -32,7 +32,7 @@ constexpr const char* names_fix =
     "write the names of the columns above the first row, as in \"# r F V\" (r in Å, V in eV; a "
     "unit may follow a name: \"r(nm)\"), or write a file with the distances and energies alone";
 
-/// What a column of this name holds. Case and "(r)" do not count.
+/// Returns the quantity that a column of this name holds. Case and "(r)" do not count.
 Meaning meaning_of(std::string name) {
     for (char& c : name)
         c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -50,13 +50,14 @@ Meaning meaning_of(std::string name) {
     return Meaning::other;
 }
 
-/// Whether the text is a unit of length, energy or force ("eV/Å"), or one of chemistry.
+/// Returns true if the text is a unit of length, energy or force ("eV/Å"), or one of chemistry.
 bool is_unit(std::string_view text) {
     if (text == "kcal/mol" || text == "kJ/mol") return true;
     return conversion(text, "Å") || conversion(text, "eV") || conversion(text, "eV/Å");
 }
 
-/// The columns that a line names: words, each with a unit behind it, in brackets or without.
+/// Returns the columns that a line names: words, each with a unit behind it, in brackets or
+/// without.
 std::vector<Column> columns_named(std::string_view line) {
     std::string text(line);
     for (char& c : text)
@@ -94,7 +95,7 @@ std::vector<Column> columns_named(std::string_view line) {
 struct Rows {
     std::vector<std::vector<double>> columns;
     std::string above;        ///< the last line of words above the first row
-    std::string lammps_units; ///< of a table of LAMMPS: "metal"
+    std::string lammps_units; ///< units of a table of LAMMPS: "metal"
     bool lammps = false;
 };
 
@@ -170,7 +171,7 @@ Rows read_rows(const std::string& file) {
     return rows;
 }
 
-/// The columns of a table of LAMMPS, which are always the same four.
+/// Returns the columns of a table of LAMMPS, which are always the same four.
 std::vector<Column> columns_of_lammps(const Rows& rows, const std::string& file) {
     if (rows.columns.size() != 4)
         refuse(file, fmt::format("has {} columns", rows.columns.size()),
@@ -188,7 +189,7 @@ std::vector<Column> columns_of_lammps(const Rows& rows, const std::string& file)
             {"force", Meaning::force, ""}};
 }
 
-/// The columns by name; of two without names the first is the distance.
+/// Returns the columns by name; of two without names the first is the distance.
 std::vector<Column> columns_of(const Rows& rows, const std::string& file) {
     if (rows.lammps) return columns_of_lammps(rows, file);
     std::vector<Column> named = columns_named(rows.above);
@@ -218,7 +219,7 @@ std::vector<Column> columns_of(const Rows& rows, const std::string& file) {
     return {};
 }
 
-/// Units of the base in one of the column's.
+/// Returns the number of base units in one unit of the column.
 double factor_of(const Column& column, const char* base, const std::string& file) {
     if (column.unit.empty()) return 1.0;
     if (const std::optional<double> factor = conversion(column.unit, base)) return *factor;

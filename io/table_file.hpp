@@ -19,7 +19,7 @@ namespace asperity::io {
 struct TableColumns {
     std::vector<double> distance;   ///< Å
     std::vector<double> energy;     ///< eV
-    std::vector<std::string> notes; ///< which columns were read, and which not; one sentence each
+    std::vector<std::string> notes; ///< columns that were read and that were not, a sentence each
 };
 
 /// Reads a table. Throws SceneError if a line is no row of numbers, if rows differ in length, or if

@@ -78,7 +78,7 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
 /// Changes that the noise of a step makes in the sums of that step, eV, or eV per mass.
 struct NoiseEnergies {
     double heat = 0.0;    ///< energy given to the nodes
-    double kinetic = 0.0; ///< of the kinetic energy at the whole step
+    double kinetic = 0.0; ///< change of the kinetic energy at the whole step
 };
 ASPERITY_INLINE NoiseEnergies operator+(const NoiseEnergies& a, const NoiseEnergies& b) {
     return {a.heat + b.heat, a.kinetic + b.kinetic};

@@ -20,10 +20,10 @@ struct ThermalNoise {
     double medium_z = 0.0; ///< velocity of the damping medium along z, Å/fs
 };
 
-/// What the noise of a step changes in the sums of that step, eV.
+/// Changes that the noise of a step makes in the sums of that step, eV.
 struct NoiseSums {
     ExactSum heat;    ///< energy given to the nodes
-    ExactSum kinetic; ///< of the kinetic energy at the whole step
+    ExactSum kinetic; ///< change of the kinetic energy at the whole step
 };
 
 } // namespace asperity

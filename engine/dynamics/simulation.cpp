@@ -239,12 +239,12 @@ void Simulation::update_energy_balance() {
         // Trapezia from n-1 to n. The top plane pushes the block with minus the force it feels.
         balance_.top_work -= 0.5 * (top_force + record_.top_force) * (top - record_.top);
         balance_.interface += 0.5 * (force + record_.force) * (mean_height - record_.mean_height);
-        // What the medium takes and gives at a step, and what the noise gives there, likewise: half
-        // of it before the energies of the step, half of it after.
+        // Energies that the medium takes or gives and that the noise gives at a step count half
+        // before the energies of the step and half after.
         balance_.damped += 0.5 * (dissipated + pending_.dissipated);
         balance_.drag_work -= 0.5 * (velocity * dragged + pending_.drag);
     }
-    balance_.heat += 0.5 * (heat + pending_.heat); // of the first step, half
+    balance_.heat += 0.5 * (heat + pending_.heat); // half of that of the first step
 
     if (slides()) update_slide();
     if (external_ || external_pending_ != 0.0) integrate_external_work();

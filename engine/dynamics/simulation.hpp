@@ -72,7 +72,7 @@ public:
     const StepRecord& step(bool observe);
 
     const StepRecord& now() const { return record_; }
-    /// Changes v, the mean of the lowest layer's velocities half a step before and after now(), to
+    /// Replaces v, the mean of the lowest layer's velocities half a step before and after now(), by
     /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
     /// noise have acted (thermostat.hpp).
     void take_to_step(const VectorPlane<double>& v) const;

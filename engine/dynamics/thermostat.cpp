@@ -81,7 +81,7 @@ NoiseSums Thermostat::kick(Block& block, const ThermalNoise& noise, double dampi
     return sums;
 }
 
-/// v is w + add/2 with w of push() (node_noise.hpp), and p = w + g (w - V).
+/// Computes p = w + g (w - V) from v = w + add/2, with w of push() (node_noise.hpp).
 void Thermostat::take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
                               const VectorPlane<double>& v) const {
     const Block::Level& level = block.levels().front();

@@ -47,7 +47,7 @@ public:
     /// Adds the noise to v(n+1/2) and u(n+1). Returns this rank's shares of the energy given to the
     /// nodes and of the kinetic energy at the whole step, eV.
     NoiseSums kick(Block& block, const ThermalNoise& noise, double damping_from) const;
-    /// Changes v, the mean of v(n-1/2) and v(n+1/2) of the lowest layer, to p(n), Å/fs.
+    /// Replaces v, the mean of v(n-1/2) and v(n+1/2) of the lowest layer, by p(n), Å/fs.
     void take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
                       const VectorPlane<double>& v) const;
 

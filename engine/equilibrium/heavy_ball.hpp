@@ -34,7 +34,7 @@ public:
     /// (Response::apply_constraint()). Returns the largest distance to a target, Å.
     /// Collective.
     double move(const Preconditioner& preconditioner, double bound);
-    /// From rest again; the step sizes are kept.
+    /// Sets all momenta to zero and keeps the step sizes.
     void stop();
 
 private:

@@ -57,8 +57,8 @@ public:
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
 
-    /// The next step in time does not continue the last one: the displacements have changed their
-    /// course.
+    /// Notes that the next step in time does not continue the last one, as the displacements have
+    /// changed their course.
     void turn() { last_dt_ = HUGE_VAL; }
     /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
     double last_dt() const { return last_dt_; }
@@ -106,8 +106,8 @@ private:
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     long long iterations_ = 0;
-    double dt_ = HUGE_VAL;      ///< of the step under way, fs
-    double last_dt_ = HUGE_VAL; ///< of the step that this one continues, fs
+    double dt_ = HUGE_VAL;      ///< length of the step under way, fs
+    double last_dt_ = HUGE_VAL; ///< length of the step that this one continues, fs
 };
 
 } // namespace asperity

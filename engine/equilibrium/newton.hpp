@@ -16,12 +16,14 @@ class Newton {
 public:
     Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales);
 
-    /// The direction where the block stands, its interface_force() and gradient being up to date,
-    /// to a residual of `forcing` times the gradient, both measured by the preconditioner. False,
-    /// and no direction, where the curvature along it is negative. Collective.
+    /// Computes the direction at the block's displacements, whose interface_force() and gradient g
+    /// are up to date, to a residual of `forcing` times the gradient, both measured by the
+    /// preconditioner. Returns false, without a direction, if the curvature along it is negative.
+    /// Collective.
     bool direction(const Interface& interface, double reference_height, double forcing,
                    const Waves<double>& g, Waves<float>& d);
-    /// Mean stiffness of the interface for a site where the block stands. Collective.
+    /// Returns the mean stiffness of the interface for a site at the block's displacements, eV/Å^2.
+    /// Collective.
     double mean_stiffness(const Interface& interface, double reference_height);
 
 private:

@@ -43,8 +43,8 @@ PathOptions path_options(const Case& c, const Interface& interface,
 
 namespace {
 
-/// A mean height far inside the substrate: there is no end to the forces, nor to the relaxation.
-/// Even a flat surface would press with more than the modulus of the block, or ten times the
+/// Refuses a mean height far inside the substrate, at which forces and relaxation have no end: even
+/// a flat surface would press with more than the modulus of the block, or ten times the
 /// largest attraction. Collective.
 void refuse_deep(double height, const Interface& interface, const SpectralBlock& block,
                  const Scales& scales) {
@@ -203,7 +203,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     dissipation_.begin_segment();
 }
 
-/// That leading it takes, eV/Å. A hold takes none.
+/// Returns the force on the prescribed coordinate, eV/Å; 0 for a hold.
 double QuasistaticPath::force() const {
     switch (course_.along) {
     case Along::z:
@@ -215,12 +215,12 @@ double QuasistaticPath::force() const {
     }
 }
 
-/// fs; a block that does not relax in time is at rest.
+/// Returns the time of a step, fs; infinite if the block does not relax in time.
 double QuasistaticPath::time_of(double step) const {
     return options_.velocity > 0.0 ? step / options_.velocity : HUGE_VAL;
 }
 
-/// So short that the block hardly relaxes in it.
+/// Returns true if the step is so short that the block hardly relaxes.
 bool QuasistaticPath::is_short_in_time(double step) const {
     if (!(options_.velocity > 0.0)) return true;
     return time_of(step) <= short_time * block_.options().branches.front().time;
@@ -233,8 +233,8 @@ void QuasistaticPath::turn() {
     length_ = std::min(length_, short_time * shortest * options_.velocity);
 }
 
-/// Å. With a block that relaxes also a tenth of a step that is short in time, unless the rounding
-/// of positions forbids it.
+/// Returns the length of the smallest step, Å. If the block relaxes, the length is also at most a
+/// tenth of a step that is short in time, unless the rounding of positions forbids it.
 double QuasistaticPath::smallest_step() const {
     const double smallest = options_.step * 0x1p-16;
     if (!(options_.velocity > 0.0)) return smallest;
@@ -243,21 +243,21 @@ double QuasistaticPath::smallest_step() const {
                                        options_.step * 0x1p-30));
 }
 
-/// What energy may be missing in a step in which the drive goes so far (Å), eV: no less than what
-/// sums over the sites leave out (kernels/exact_sum.hpp).
+/// Returns the energy that may be missing in a step of the drive by `way` (Å), eV: no less than the
+/// rounding of sums over the sites (kernels/exact_sum.hpp).
 double QuasistaticPath::allowed_missing(double way, double tolerance) const {
     return std::max(tolerance * sites_ * way, sites_ * 0x1p-51);
 }
 
-/// A patch of a slow block that becomes unstable goes its way while the drive hardly moves: the
-/// tolerance is then for each Å of the way of each site.
+/// Returns the energy that may be missing in a step in time, eV. An unstable patch of a slow block
+/// moves while the drive hardly moves: the tolerance is then for each Å of the way of each site.
 double QuasistaticPath::allowed_missing_in_time(double way, double tolerance) const {
     const double allowed = allowed_missing(std::min(way, options_.step), tolerance);
     if (!(options_.velocity > 0.0)) return allowed;
     return std::max(allowed, tolerance * last_.all_moves());
 }
 
-/// A hold has no other bound than its errors.
+/// Returns the length of the longest step, Å; a hold is bounded by its errors alone.
 double QuasistaticPath::longest_step() const {
     return course_.along == Along::time ? HUGE_VAL : options_.step;
 }
@@ -321,7 +321,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     }
 }
 
-/// Of a step that was made.
+/// Returns the outcome of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
     if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
     const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
@@ -340,7 +340,8 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     return Outcome::point;
 }
 
-/// The solids are apart, and what the block has stored it dissipates without any work.
+/// Relaxes the block after the solids have come apart: it dissipates its stored energy without
+/// work.
 QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
     const long long iterations = last_.iterations();
     RelaxedState state = last_.relax_at(at(), HUGE_VAL, options_.report);
@@ -371,7 +372,8 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                            "a larger drive.tolerance, or a height further from the substrate");
 }
 
-/// Of the substrate on the lowest layer, by the forces of the last relaxation. Collective.
+/// Sums the lateral force of the substrate on the lowest layer, eV/Å, of the last relaxation.
+/// Collective.
 std::array<double, 2> QuasistaticPath::lateral_force() const {
     const VectorPlane<double> f = block_.interface_force();
     std::array<ExactSum, 2> sums;
@@ -380,10 +382,11 @@ std::array<double, 2> QuasistaticPath::lateral_force() const {
     return global_sums(block_.communicator(), sums);
 }
 
-/// What the force of a point may be wrong by, eV/Å: a quarter of the tolerance, which points are
-/// relaxed to, for each site that counts. Under a prescribed top plane that is each site; at a
-/// prescribed mean height the others' residuals cannot add up to a force, only those of sites that
-/// the substrate holds move it. On the way to a load no more than the load may be missed by.
+/// Returns the uncertainty of the force of a point, eV/Å: a quarter of the tolerance, to which
+/// points are relaxed, for each site that counts. Under a prescribed top plane every site counts;
+/// at a prescribed mean height only sites that the substrate holds, because the residuals of the
+/// others cannot add up to a force. On the way to a load the uncertainty is at most that of the
+/// load.
 double QuasistaticPath::slack(std::int64_t in_contact) const {
     const bool all = options_.along == Constraint::Of::top;
     const double count = all ? sites_ : std::max(static_cast<double>(in_contact), 1.0);
@@ -401,16 +404,16 @@ double QuasistaticPath::tolerance_to(double to) const {
     return tolerance_under(force);
 }
 
-/// With the last point still on the other side of it. Also where the attraction
-/// was too weak to be told from the slack.
+/// Returns true if the load lies between the last point and this state, or if the attraction was
+/// too weak to be told from the slack.
 bool QuasistaticPath::passes_load(const RelaxedState& state, double aim) const {
     const double slack = this->slack(state.in_contact);
     if (course_.direction > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
-/// The next step goes half of the way to the far end of the bracket; or all of it, once the work of
-/// such a step is known well enough: then true.
+/// Sets the next step to half of the way to the far end of the bracket, or to all of the way once
+/// the work of such a step is known well enough. Returns true in the latter case.
 bool QuasistaticPath::bisect() {
     if (!bracket_) return false;
     const double way = std::abs(bracket_->x - at());
@@ -423,7 +426,8 @@ bool QuasistaticPath::bisect() {
     return true;
 }
 
-/// As decide() has it where energy is missing.
+/// Returns true if the work of a step is known well enough, by the rule of decide() for missing
+/// energy.
 bool QuasistaticPath::work_is_known(double to, double there) const {
     const double step = std::abs(to - at());
     const double tolerance = tolerance_to(to);
@@ -431,8 +435,8 @@ bool QuasistaticPath::work_is_known(double to, double there) const {
            0.5 * step * trail_.jump(to, there) <= allowed_uncertainty(tolerance);
 }
 
-/// A force outside is too far from a smooth continuation for a step to this place; a half more than
-/// that, for a fall may come back a little.
+/// Returns the interval of forces that continue the branch smoothly for a step to this place, half
+/// as wide again, because a fall of the force may partly reverse.
 ForceWindow QuasistaticPath::acceptable_force(double to) const {
     return {trail_.continued(to),
             1.5 * 2.0 * allowed_uncertainty(tolerance_to(to)) / std::abs(to - at())};
@@ -498,9 +502,9 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(
         {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
-    // Of energies that are still small the balance says nothing: of those below an eightieth of
-    // what the scale of the forces does on the way so far and a step more, or a twentieth of flat
-    // surfaces'. Neither depends on the tolerance.
+    // The balance says nothing of small energies: those below an eightieth of the work of the scale
+    // of forces on the way so far and a step more, or below a twentieth of flat surfaces'. Neither
+    // depends on the tolerance.
     const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
                                   0.05 * options_.depth);
     const double scale = std::max(scale_, least);

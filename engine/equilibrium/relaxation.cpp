@@ -24,7 +24,7 @@ namespace {
 
 using Constants = RelaxationConstants;
 
-/// Whether a relaxation has stagnated.
+/// Test for a relaxation that has stagnated.
 class StagnationTest {
 public:
     bool operator()(long long iteration, double residual) {
@@ -40,7 +40,7 @@ private:
     long long found_at_ = 0;
 };
 
-/// Length of the longest vector of a field. Collective.
+/// Returns the length of the longest vector of a field. Collective.
 double largest(const Communicator& ranks, SiteField<float>& field) {
     const PlaneView<const float> f = field[0].plane(0);
     double longest = 0.0;
@@ -72,18 +72,18 @@ public:
         distance_ = rms_ / preconditioner_.k();
     }
 
-    /// Forces where the sites are now, and what they leave.
+    /// Computes the forces and the residual at the sites' displacements.
     void find_forces() {
         sweep(false);
         if (!spreading_) measure();
     }
-    /// The mean residual, or, where that is below the tolerance, the largest of a site, eV/Å. In
-    /// the first stage only the distances of the sites from their targets are known.
+    /// Returns the mean residual or, if that is below the tolerance, the largest of a site, eV/Å.
+    /// In the first stage only the distances of the sites from their targets are known.
     double residual() {
         if (spreading_) return options_.scales.stiffness * distance_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
-    /// The residual of the state as it is reported; energies in sums().
+    /// Computes the residual of the state as it is reported, eV/Å, and the energies in sums().
     double conclude() {
         rough_ = false;
         block_.apply_constraint();
@@ -93,7 +93,7 @@ public:
     }
     const InterfaceSums& sums() const { return sums_; }
 
-    /// One step downhill.
+    /// Makes one step downhill.
     void step() {
         if (spreading_ || !newton_step()) move_sites();
         find_forces();
@@ -141,10 +141,10 @@ private:
         ball_.stop();
         block_.apply_constraint();
     }
-    /// False, and no step, where Newton's method does not help: its last step, solved closely, has
-    /// not taken half of what it should have off the residual, the curvature is negative, or a site
-    /// would move too far. Near an equilibrium a step is shortened instead, so that no site moves
-    /// further than max_move.
+    /// Makes a step of Newton's method. Returns false, without a step, if the method does not help:
+    /// its last step, solved closely, has reduced the residual by less than half of the expected
+    /// reduction, the curvature is negative, or a site would move too far. Near an equilibrium a
+    /// step is shortened instead, so that no site moves further than max_move.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
         if (!(rms_ < expected_)) {
@@ -185,8 +185,8 @@ private:
     double max_move_ = Constants::max_move * options_.scales.length; ///< Å
 };
 
-/// Whether the forces on the sites, which add up to this, are what the constraint asks for. What
-/// rounding leaves of a sum is let pass. Collective.
+/// Returns true if `force`, the sum of the forces on the sites, is that of the constraint, but for
+/// rounding. Collective.
 bool balanced(Response& block, double force, double balance, double rounding) {
     const Constraint& constraint = block.constraint();
     if (constraint.is_mean_height()) return true;
@@ -205,7 +205,7 @@ bool balanced(Response& block, double force, double balance, double rounding) {
     return std::abs(force - load) <= std::max(load_accuracy * of, least);
 }
 
-/// The loop of both minimisers.
+/// Runs the loop of both minimisers.
 template <class Minimiser>
 RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& options,
                     double rounding) {
@@ -257,13 +257,13 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
 } // namespace
 
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
-    // Of the block, E* q/2 of the shortest wave.
+    // Stiffness of the block for the shortest wave, E* q/2.
     double wave = 0.5 * std::numbers::pi * block.contact_modulus() * block.spacing;
     for (const Branch& branch : block.branches)
         wave *= 1.0 + branch.ratio;
     const double positions =
         4.0 * std::numeric_limits<double>::epsilon() * (scales.stiffness + wave) * height;
-    return positions + 0x1p-51; // that of sums over the sites (kernels/exact_sum.hpp)
+    return positions + 0x1p-51; // with the quantum of sums over sites (kernels/exact_sum.hpp)
 }
 
 std::string why_not_converged(const RelaxedState& state, double tolerance) {
@@ -295,7 +295,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, double refe
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
     if (interface.options().wall) {
         RelaxOptions whole = options;
-        whole.force_window = {}; // its steps do not add up the force
+        whole.force_window = {}; // the steps over a wall do not add up the force
         WallMinimiser minimiser(block, interface, reference_height, whole, phases);
         RelaxedState state = follow(minimiser, block, whole, rounding);
         state.iterations += products;

@@ -44,28 +44,29 @@
 
 namespace asperity {
 
-/// What is known of the state that a relaxation starts from.
+/// Knowledge of the state that a relaxation starts from.
 enum class Start {
     anywhere,
     near, ///< close to an equilibrium, which may have just been lost
 };
 
-/// Where the interface's force is worth having at the end, eV/Å.
+/// The relaxation is abandoned if the total force leaves this interval, eV/Å.
 struct ForceWindow {
     double expected = 0.0;
-    double furthest = std::numeric_limits<double>::infinity(); ///< from the one expected
+    double furthest = std::numeric_limits<double>::infinity(); ///< distance from the expected force
 };
 
 struct RelaxOptions {
     Start start = Start::anywhere;
     double tolerance = 0.0; ///< largest residual force on a site, eV/Å
     Scales scales;
-    /// What the sum of the residual forces may be under a prescribed top plane, eV/Å. (Under a load
-    /// it is load_accuracy of that.)
+    /// Largest sum of the residual forces under a prescribed top plane, eV/Å. (Under a load the
+    /// largest sum is load_accuracy of the load.)
     double balance = std::numeric_limits<double>::infinity();
     long long max_iterations = 200000;
-    ForceWindow force_window; ///< given up where the force stays outside; atoms only
-    /// Called now and then, on all ranks, with the iteration and the residual. True: stop here.
+    ForceWindow force_window; ///< atoms only
+    /// Called during relaxations, on all ranks, with the iteration and the largest residual force,
+    /// eV/Å. Returns true to stop the relaxation.
     std::function<bool(long long, double)> report;
 };
 
@@ -74,7 +75,7 @@ struct RelaxOptions {
 /// of that.)
 inline constexpr double load_accuracy = 1e-3;
 
-/// What the minimisers are tuned with, in the scales of the interface (scales.hpp): distances in
+/// Constants that tune the minimisers, in the scales of the interface (scales.hpp): distances in
 /// its length, forces in Scales::interface_force(). The states that they end in do not depend on
 /// these, as far as was measured; iterations do.
 struct RelaxationConstants {
@@ -92,7 +93,7 @@ struct RelaxationConstants {
     /// iterations, taken over where it has changed by this fraction.
     static constexpr double softer = 0.35, changed = 0.2;
     static constexpr long long tuned_every = 8;
-    /// Of the interface's: where hardly a site is in contact.
+    /// Least stiffness of the preconditioner over the interface's, for hardly a site in contact.
     static constexpr double least_stiffness = 1e-4;
 
     // Newton's method (newton.hpp).
@@ -100,9 +101,10 @@ struct RelaxationConstants {
     static constexpr double close_enough = 0.08; ///< the same from near an equilibrium
     static constexpr double near = 4e-3;         ///< the largest distance to a target, to try it
     static constexpr long long patience = 20;    ///< iterations of heavy balls before that
-    /// What conjugate gradients leave of the residual: at first, and once a step has not halved it.
+    /// Share of the residual that conjugate gradients leave: at first, and after a step that has
+    /// not halved the residual.
     static constexpr double loose = 0.3, tight = 0.1;
-    static constexpr int most_products = 100; ///< of conjugate gradients
+    static constexpr int most_products = 100; ///< limit of conjugate gradients
     static constexpr double shortest = 0.1;   ///< fraction of a step near an equilibrium
     /// Sweeps are in mixed precision down to a mean residual ten times their error.
     static constexpr double rough_enough = 2.6e-6;
@@ -119,30 +121,30 @@ struct RelaxationConstants {
 struct RelaxedState : ContactCount {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it
-    bool jumped = false;      ///< given up: the force, set, stayed outside its window
+    bool jumped = false;      ///< abandoned: the force has left its window
     bool balanced = true;     ///< the forces add up to what is prescribed
     long long iterations = 0;
     double residual = 0.0;         ///< eV/Å
-    double rounding = 0.0;         ///< what the rounding of numbers leaves of it, about, eV/Å
+    double rounding = 0.0;         ///< estimate of the residual left by rounding, eV/Å
     double interface_energy = 0.0; ///< U_LJ, eV
     double elastic_energy = 0.0;   ///< U_el, that of branches included, eV
-    BranchEnergies branches{};     ///< that, and what they dissipate in the step
+    BranchEnergies branches{};     ///< energy of branches, and their dissipation in the step
     double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
     /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
     /// that this takes, which is `force`.
     double top_force = 0.0;
-    double mean_height = 0.0; ///< of the lowest layer above the reference height, Å
+    double mean_height = 0.0; ///< height of the lowest layer above the reference, Å
 };
 
-/// Below this no residual force can be brought, about, where sites stand as high as this over the
-/// zero of heights (Å): positions are rounded, and the interface and the block make forces of that,
-/// eV/Å.
+/// Estimates the residual force that rounding leaves at sites of this height (Å) above the zero of
+/// heights, eV/Å: positions are rounded, and the interface and the block turn the error into
+/// forces.
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height);
 
-/// Why a state is none: for messages.
+/// Explains, for an error message, why the relaxation found no equilibrium.
 std::string why_not_converged(const RelaxedState& state, double tolerance);
 
-/// Relaxes the block in place under the constraint, which it is first brought to. Collective.
+/// Relaxes the block in place under the constraint, after setting it. Collective.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
                    const Constraint& constraint, const RelaxOptions& options, Phases& phases);
 

@@ -34,19 +34,19 @@ struct ForceAt {
 class ForceTrail {
 public:
     struct Integral {
-        double value = 0.0, error = 0.0; ///< int f dx, and what it may be wrong by
+        double value = 0.0, error = 0.0; ///< int f dx and its error, eV
     };
 
-    /// A first point, with nothing behind it.
+    /// Starts the trail with a first point.
     void begin(double x, double f) { points_.assign(1, {x, f}); }
-    /// Another coordinate is led from here.
+    /// Resets the slope of the branch, because another coordinate is led from here.
     void forget_slope() { branch_slope_ = 0.0; }
     void add(double x, double f) {
         branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
         if (points_.size() == longest) points_.erase(points_.begin());
         points_.push_back({x, f});
     }
-    /// From the last point to (x, f), which stays outside.
+    /// Integrates from the last point to (x, f), which is not added.
     Integral to(double x, double f) const {
         const std::size_t n = points_.size();
         const ForceAt& last = points_[n - 1];
@@ -69,18 +69,20 @@ public:
         }
         return {value, std::abs(0.5 * h * miss)};
     }
-    /// One point has nothing behind it.
+    /// Returns true if the trail has one point only.
     bool is_new() const { return points_.size() == 1; }
-    /// The force at x on the line through the last point with the slope of its branch.
+    /// Returns the force at x on the line through the last point with the slope of its branch,
+    /// eV/Å.
     double continued(double x) const {
         return points_.back().f + (x - points_.back().x) * branch_slope_;
     }
-    /// By how much a force there misses the last one or the continued one, whichever it misses
-    /// more: after an instability and some way along the new branch it may be the last one again.
+    /// Returns the distance of the force f at x from the last or from the continued force,
+    /// whichever is larger, eV/Å: after an instability and some way along the new branch f may
+    /// equal the last force again.
     double jump(double x, double f) const {
         return std::max(std::abs(f - points_.back().f), std::abs(f - continued(x)));
     }
-    /// By the trapezium, whatever came before.
+    /// Integrates to (x, f) by the trapezium alone, eV.
     double trapezium(double x, double f) const {
         return 0.5 * (x - points_.back().x) * (f + points_.back().f);
     }
@@ -94,21 +96,21 @@ public:
 private:
     static constexpr std::size_t longest = 3;
     std::vector<ForceAt> points_;
-    double branch_slope_ = 0.0; ///< of the last step in which nothing jumped, eV/Å^2
+    double branch_slope_ = 0.0; ///< slope in the last step without a jump, eV/Å^2
 };
 
 struct PathPoint {
-    double at = 0.0;     ///< of what is led, Å
-    double force = 0.0;  ///< that leading it there takes, eV/Å
+    double at = 0.0;     ///< prescribed coordinate, Å
+    double force = 0.0;  ///< force that holds the coordinate there, eV/Å
     double energy = 0.0; ///< eV
 };
 
 struct StepLimits {
     double missing = 0.0;   ///< energy that counts as nothing in this step, eV
-    double uncertain = 0.0; ///< what the work of a step with an instability may be wrong by, eV
+    double uncertain = 0.0; ///< uncertainty that the work of an unstable step may have, eV
     bool last_try = false;  ///< no shorter step is made
-    /// It is short beside the times in which the block relaxes: what is missing is then no error of
-    /// the step in time.
+    /// True if the step is short beside the times in which the block relaxes: missing energy is
+    /// then no error of the step in time.
     bool short_in_time = true;
     double in_time = 0.0; ///< error of the step in time, eV (block_memory.hpp)
 };
@@ -120,14 +122,14 @@ struct StepDecision {
         jump,   ///< accepted, and the energy that is missing was dissipated
     };
     Verdict verdict = halve;
-    double work = 0.0;       ///< of the top plane in this step, eV
+    double work = 0.0;       ///< work of the top plane in this step, eV
     double dissipated = 0.0; ///< eV
     double gap = 0.0;        ///< work less energy gained and dissipated, eV
-    double uncertain = 0.0;  ///< of the work, where energy is missing, eV
+    double uncertain = 0.0;  ///< uncertainty of the work if energy is missing, eV
     bool smooth = true;      ///< the force did not jump
     bool excess = false;     ///< more energy gained than the work can have brought
     bool coarse = false;     ///< halved for its error in time, not for an instability
-    double growth = 1.0;     ///< of the step that follows
+    double growth = 1.0;     ///< factor of the length of the next step
 };
 
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
@@ -143,7 +145,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     // The error of a smooth step goes with the fourth power of its length, for each Å.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
-    // Of a trail that is new, the error of the integral may be just what an instability took.
+    // The error of the integral of a new trail may equal the energy that an instability took.
     const bool hides = trail.is_new() && integral.error > limits.uncertain && !limits.last_try;
     if (std::abs(missing) <= limits.missing && !hides) {
         d.coarse = limits.in_time > limits.missing && !limits.last_try;
@@ -152,8 +154,8 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         return d;
     }
     d.coarse = !limits.short_in_time;
-    // What is less than the work may be wrong by, or allowed, is left unaccounted for: it shows in
-    // the residual.
+    // Missing energy below the uncertainty of the work or below the limit is not counted as
+    // dissipated: it shows in the residual.
     d.uncertain = integral.error;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;

@@ -34,7 +34,7 @@ void WallMinimiser::step() {
     const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::rounding * spring_ * widest_;
     double reversal = 0.0;
-    if (single_) { // as long as that is good enough
+    if (single_) { // single precision while it is good enough
         elastic_forces(single_field_);
         reversal = relax_sites(single_field_);
     } else {
@@ -65,13 +65,13 @@ double WallMinimiser::conclude() {
         for (int x = 0; x < g.nx; ++x)
             largest = std::max(largest, std::abs(g(x, y)));
     largest = block_.communicator().max(largest);
-    // What the steps do not show: forces of single precision, or sites that still jump.
+    // Steps do not show this residual: forces of single precision, or sites that still jump.
     single_ = false;
     doubt_ *= largest > options_.tolerance ? 0.5 : 1.0;
     return largest;
 }
 
-/// N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
+/// Computes N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
 template <class T>
 void WallMinimiser::elastic_forces(SiteField<T>& field) {
     const PlaneView<double> u = block_.moving_layer(0);
@@ -119,8 +119,8 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
         reversal = total[0];
         mean = total[1] / (sites * sites); // total() multiplies by the sites
     };
-    // What the block's spring and the load ask for, less the force, and less what L adds to the
-    // uniform wave; or what lifts the mean to where it is held.
+    // Excess of the demand of the block's spring and the load over the force and over the part of L
+    // in the uniform wave; or the force that lifts the mean to its held height.
     const auto excess = [&](double force) {
         relax(force);
         if (constraint.is_mean_height()) return spring_ * (mean - constraint.value);
@@ -148,7 +148,7 @@ void WallMinimiser::balance(const Excess& excess_at, double enough) {
     for (int i = 0; i < 60 && std::abs(excess) > enough; ++i) {
         (excess > 0.0 ? low : high) = force;
         const double now = excess_at(next);
-        if (now == excess) break; // as near as numbers are to each other
+        if (now == excess) break; // no number lies between the two
         const double before = std::exchange(force, next);
         next = force - now * (force - before) / (now - excess);
         excess = now;
@@ -160,7 +160,7 @@ void WallMinimiser::balance(const Excess& excess_at, double enough) {
     uniform_force_ = force;
 }
 
-/// u <- next.
+/// Moves the sites to next_.
 void WallMinimiser::accept() {
     const double lift = next_mean_ - mean_;
     mean_ = next_mean_;

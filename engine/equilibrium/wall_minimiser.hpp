@@ -43,12 +43,13 @@ public:
     WallMinimiser(Response& block, const Interface& interface, double reference_height,
                   const RelaxOptions& options, Phases& phases);
 
-    /// What the last step leaves, eV/Å: the largest L |z - u|.
+    /// Returns the residual after the last step, eV/Å: the largest L |z - u|.
     double residual() const { return estimate_ / doubt_; }
-    /// The residual of the state as it is reported; energies in sums().
+    /// Computes the residual of the state as it is reported, eV/Å, and the energies in sums().
+    /// Collective.
     double conclude();
     const InterfaceSums& sums() const { return sums_; }
-    /// One iteration. Collective.
+    /// Makes one iteration. Collective.
     void step();
 
 private:
@@ -68,13 +69,13 @@ private:
     double spring_ = 0.0;        ///< L, eV/Å^2
     double sequence_ = 1.0;      ///< Nesterov's t
     double momentum_ = 0.0;      ///< beta
-    double mean_ = 0.0;          ///< of u, Å
-    double next_mean_ = 0.0;     ///< of next_, Å
-    Holder holder_;              ///< of the uniform wave
+    double mean_ = 0.0;          ///< mean of u, Å
+    double next_mean_ = 0.0;     ///< mean of next_, Å
+    Holder holder_;              ///< holder of the uniform wave
     double widest_ = 0.0;        ///< the largest |z - mean|, Å
-    double uniform_force_ = 0.0; ///< by which the uniform wave is in balance, on each site, eV/Å
+    double uniform_force_ = 0.0; ///< force on each site that balances the uniform wave, eV/Å
     double estimate_;
-    double doubt_ = 1.0; ///< halved where the estimate was below the tolerance and the residual not
+    double doubt_ = 1.0; ///< halved if the estimate is below the tolerance but not the residual
     bool single_ = true;
     Waves<double> waves_;
     SiteField<double> field_;

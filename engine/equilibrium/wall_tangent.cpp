@@ -10,7 +10,8 @@ namespace asperity {
 
 namespace {
 
-/// What is left of the residual, measured by the preconditioner, and the most products.
+/// Share of the residual that may be left, measured by the preconditioner, and the largest number
+/// of products.
 constexpr double forcing = 1e-2;
 constexpr long long most_products = 100;
 
@@ -132,12 +133,12 @@ private:
     PlaneView<double> u_;
     bool held_; ///< the mean height is
     double sites_;
-    double lift_ = 0.0;    ///< of the held mean height, Å
+    double lift_ = 0.0;    ///< change of the held mean height, Å
     double weights_ = 0.0; ///< sum of weight_, Å^2/eV
-    double force_ = 0.0;   ///< that holds the mean height, on each site, eV/Å
+    double force_ = 0.0;   ///< force on each site that holds the mean height, eV/Å
     SiteField<float> product_;
     Field<double> h_;      ///< stiffness of the interface, eV/Å^2
-    Field<double> weight_; ///< of the preconditioner, Å^2/eV
+    Field<double> weight_; ///< weights of the preconditioner, Å^2/eV
     Field<double> r_;      ///< residual, eV/Å
     Field<double> p_, d_;  ///< direction and tangent, Å
 };

@@ -43,7 +43,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                                        double reference_height, double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
-    // Of a load larger than the scale of forces, a site's part is the scale.
+    // A site's part of the load is the scale if the load is larger than the scale of forces.
     const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
     options.tolerance = c.tolerance * std::max(1.0, load / (sites * c.scales.force));
     options.scales = c.scales;

@@ -11,12 +11,12 @@ namespace asperity {
 
 namespace {
 
-/// Slope at x[at] of the cubic through the points first to first + 3.
+/// Returns the slope at x[at] of the cubic through the points first to first + 3.
 double end_slope(std::span<const double> x, std::span<const double> y, std::size_t first,
                  std::size_t at) {
     double slope = 0.0;
     for (std::size_t i = first; i < first + 4; ++i) {
-        double weight = 0.0; // of y[i]: the derivative of Lagrange's polynomial
+        double weight = 0.0; // weight of y[i]: derivative of Lagrange's polynomial
         for (std::size_t j = first; j < first + 4; ++j) {
             if (j == i) continue;
             double product = 1.0 / (x[i] - x[j]);
@@ -29,7 +29,8 @@ double end_slope(std::span<const double> x, std::span<const double> y, std::size
     return slope;
 }
 
-/// The slopes of a cubic spline at its points (continuous second derivative), by elimination.
+/// Computes the slopes of a cubic spline at its points (continuous second derivative), by
+/// elimination.
 std::vector<double> spline_slopes(std::span<const double> x, std::span<const double> y) {
     const std::size_t n = x.size();
     std::vector<double> slope(n), above(n, 0.0);
@@ -49,8 +50,8 @@ std::vector<double> spline_slopes(std::span<const double> x, std::span<const dou
     return slope;
 }
 
-/// What the polynomial through other points (numbers from first to last) misses at point i, over
-/// the root mean square of that for independent errors of one.
+/// Returns the distance of point i from the polynomial through other points (numbers from first to
+/// last), over the root mean square of that distance for independent errors of one.
 double missed(std::span<const double> x, std::span<const double> y, std::size_t i,
               std::size_t first, std::size_t last) {
     double sum = 0.0, squares = 1.0;

@@ -25,12 +25,12 @@ struct Hermite {
 /// the four points there. Keeps references to the points.
 class CubicSpline {
 public:
-    /// Needs 4 points, x ascending.
+    /// Computes the slopes; needs 4 points or more, x ascending.
     CubicSpline(std::span<const double> x, std::span<const double> y);
     double operator()(double at) const;
     /// Returns the number of the interval that holds this place.
     std::size_t interval(double at) const;
-    /// Slopes at the points.
+    /// Returns the slopes at the points.
     const std::vector<double>& slopes() const { return slope_; }
 
 private:

@@ -20,7 +20,7 @@ constexpr int intervals = 4096;
 /// drive.tolerance, below which forces are taken as none.
 constexpr double smallest_repulsion = 2.5e-4;
 
-/// Where f turns from positive to negative.
+/// Finds the place where f turns from positive to negative.
 template <class F>
 double crossing(double low, double high, const F& f) {
     while (true) {
@@ -108,7 +108,7 @@ PotentialTable::PotentialTable(std::span<const double> distance, std::span<const
     find_errors(distance, energy);
 }
 
-/// The errors at the ends of the intervals of equal length, and straight lines between.
+/// Computes the errors at the ends of the intervals of equal length, with straight lines between.
 void PotentialTable::find_errors(std::span<const double> distance, std::span<const double> energy) {
     std::vector<double> at(intervals + 1);
     for (int k = 0; k <= intervals; ++k)

@@ -18,38 +18,39 @@ namespace asperity {
 
 class PotentialTable {
 public:
-    /// Distances, Å, ascending, and energies, eV. Throws std::invalid_argument where they are no
-    /// potential: fewer than 8 points, distances that do not ascend, no well, or a repulsion that
-    /// does not rise to ten times its depth.
+    /// Makes the potential from distances, Å, ascending, and energies, eV. Throws
+    /// std::invalid_argument if they are no potential: fewer than 8 points, distances that do not
+    /// ascend, no well, or a repulsion that does not rise to ten times its depth.
     PotentialTable(std::span<const double> distance, std::span<const double> energy);
-    PotentialTable(const PotentialTable&) = delete; ///< potentials point into it
+    // Potentials point into the table, so the table is not copied.
+    PotentialTable(const PotentialTable&) = delete;
     PotentialTable& operator=(const PotentialTable&) = delete;
 
-    /// Cut at `cutoff`, Å; it reads this object. Throws std::invalid_argument for a cutoff that is
-    /// not between the minimum and the last distance.
+    /// Returns the potential cut at `cutoff`, Å, which reads this table. Throws
+    /// std::invalid_argument for a cutoff that is not between the minimum and the last distance.
     Tabulated potential(double cutoff) const;
 
-    double last() const { return last_; }               ///< distance, Å
-    double depth() const { return whole_.shape.depth; } ///< of the well, eV
+    double last() const { return last_; }               ///< Returns the last distance, Å.
+    double depth() const { return whole_.shape.depth; } ///< Returns the depth of the well, eV.
     std::size_t numbers() const { return cubics_.size(); }
     std::size_t rows() const { return rows_; }
-    /// Whether the potential reads this table.
+    /// Returns true if the potential reads this table.
     bool is_of(const Tabulated& potential) const { return potential.cubics == cubics_.data(); }
 
-    // How wrong a pair's energy may be, eV, as potentials with this cutoff, so that what is summed
-    // over pairs is a bound of the error of the sum.
+    // Errors of a pair's energy, eV, are potentials with this cutoff, so that their sum over pairs
+    // bounds the error of the sum.
 
-    /// The spline's, if the rows are exact.
+    /// Returns the error of the spline if the rows are exact.
     Tabulated spline_error(double cutoff) const { return of_errors(spline_error_, cutoff); }
-    /// Four times the noise of the rows.
+    /// Returns four times the noise of the rows.
     Tabulated noise(double cutoff) const { return of_errors(noise_, cutoff); }
 
-    /// Where the potential repels again beyond its well, up to this cutoff, by more than 2.5e-4 of
-    /// its largest attraction.
+    /// Interval beyond the well in which the potential repels again, up to this cutoff, by more
+    /// than 2.5e-4 of its largest attraction.
     struct Repulsion {
         std::optional<double> nearest, farthest; ///< Å; empty: nowhere
         double barrier = 0.0;                    ///< energy to climb on the way in, eV
-        double noise = 0.0;                      ///< noise() there, at most, eV
+        double noise = 0.0;                      ///< largest noise() in the interval, eV
     };
     Repulsion repulsion(double cutoff) const;
 

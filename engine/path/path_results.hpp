@@ -43,7 +43,7 @@ struct SegmentResults {
     std::optional<double> lateral_most; ///< largest force against a slide, eV/Å
     // State at the end of the segment:
     double force = 0.0, mean_height = 0.0, top = 0.0; ///< eV/Å, Å, Å
-    std::optional<double> scatter; ///< of a force that is an average over thermal noise, eV/Å
+    std::optional<double> scatter; ///< scatter of a force averaged over thermal noise, eV/Å
     std::array<double, 2> slide{}; ///< Å
     long long in_contact = 0;      ///< sites
 

@@ -73,7 +73,7 @@ struct Case {
     /// Problems that stop a run; `theory` and `surface` can use the case.
     std::vector<io::Problem> refused;
 
-    /// Paths of the files that were read: the scene, the map or the atoms, tables.
+    /// Returns the paths of the files that were read: the scene, the map or the atoms, tables.
     std::vector<std::string> inputs() const;
     bool has(Segment::Kind kind) const;
     /// Returns true if the path has segments other than approach and pull-off.

@@ -14,6 +14,7 @@
 #include "io/scene_file.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -217,9 +218,11 @@ Surface surface_of(const Case& c, const Communicator& world) {
         surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
         if (surface.statistics.rms > surface.length)
             throw std::invalid_argument(fmt::format(
-                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; "
-                "correct the unit of the file (surface.file_unit), or its size",
-                surface.statistics.rms, map.unit, surface.length));
+                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; {}",
+                surface.statistics.rms, map.unit, surface.length,
+                surface.doubts.empty()
+                    ? "correct the unit of the file (surface.file_unit), or its size"
+                    : fmt::format("{}", fmt::join(surface.doubts, "; "))));
         for (std::string& note : notes_on_roughness(surface.statistics.rms,
                                                     surface.statistics.rms_slope, surface.length))
             surface.notes.push_back(std::move(note));

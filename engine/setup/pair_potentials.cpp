@@ -107,7 +107,7 @@ void find_potential(Case& c, io::Problems& problems) {
                 problems.add("interface.table", fmt::format("= \"{}\": {}", keys.table, bad.what),
                              bad.why, bad.fix);
                 return;
-            } catch (const std::invalid_argument& error) { // of the cutoff
+            } catch (const std::invalid_argument& error) { // thrown for the cutoff
                 problems.add("interface.cutoff", fmt::format(": {}", error.what()), table_format,
                              "take a cutoff beyond the well; 4 r0 is usual");
                 return;

@@ -25,7 +25,7 @@ struct Part {
     std::string key, what, fix;
 };
 
-/// The least way of the top plane that the path asks for, Å, at right angles and along.
+/// Returns the least way of the top plane that the path asks for, at right angles and along, Å.
 double least_way(const Case& c) {
     double way = 0.0, at = 0.0;
     for (const Segment& segment : c.path) {
@@ -61,7 +61,7 @@ void refuse_heights(const Case& c, io::Problems& refused) {
                     fmt::format("{}, or take a wider box (surface.sites)", unit_fix));
 }
 
-/// A dynamic path of more steps than a run can make.
+/// Refuses a dynamic path of more steps than a run can make.
 void refuse_long_times(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const double dt = c.simulation.dt, velocity = c.simulation.drive.velocity;
@@ -103,7 +103,7 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
         refused.add(largest.key, largest.what, why, largest.fix + some);
 }
 
-/// A quasi-static path of more points than a run can make.
+/// Refuses a quasi-static path of more points than a run can make.
 void refuse_short_steps(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     if (c.path.size() == 1 && c.starts_with(Segment::relax)) return;
@@ -125,7 +125,7 @@ void refuse_short_steps(const Case& c, io::Problems& refused) {
                     "take a longer range of the attraction, or a shorter way");
 }
 
-/// What a time step or the block itself cannot follow.
+/// Refuses damping, heat and loads that a time step or the block cannot follow.
 void refuse_violence(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const double dt = c.simulation.dt;
@@ -174,7 +174,7 @@ void refuse_violence(const Case& c, io::Problems& refused) {
 void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
     const std::size_t before = refused.list().size();
     refuse_heights(c, refused);
-    if (refused.list().size() > before) return; // what follows has the same cause
+    if (refused.list().size() > before) return; // further problems would have the same cause
     if (c.in_time)
         refuse_long_times(c, refused);
     else

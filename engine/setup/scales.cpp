@@ -26,7 +26,7 @@ namespace asperity {
 
 namespace {
 
-/// The smallest load that the path asks for, MPa; none: 0.
+/// Returns the smallest load that the path asks for, MPa; 0 if there is none.
 double smallest_load(const Case& c) {
     double smallest = 0.0;
     const auto consider = [&](double load) {
@@ -44,7 +44,7 @@ double smallest_load(const Case& c) {
 void find_scales(Case& c, double smallest_tension) {
     const BlockOptions& block = c.simulation.block;
     const double area = block.spacing * block.spacing;
-    const double softest = block.softest_wave() * area; // of a site, eV/Å^2
+    const double softest = block.softest_wave() * area; // stiffness for a site, eV/Å^2
     Scales& scales = c.scales;
     if (smallest_tension > 0.0) {
         constexpr double energy = 450.0; // works of adhesion

@@ -28,8 +28,8 @@ struct Errors {
     double sum() const { return spline + noise; }
 };
 
-/// Bounds of a table's errors with this cutoff; without a flat reference of pairs at the distance
-/// of the minimum alone, and over the depth of the well.
+/// Returns bounds of a table's errors with this cutoff. Without a flat reference they are those of
+/// a pair at the distance of the minimum, over the depth of the well.
 Errors errors_of(const Case& c, const PotentialTable& table, double cutoff) {
     const BlockOptions& block = c.simulation.block;
     InterfaceOptions layer = c.simulation.interface;
@@ -62,7 +62,7 @@ Errors errors_of(const Case& c, const PotentialTable& table, double cutoff) {
     return {bound(table.spline_error(cutoff)), bound(table.noise(cutoff))};
 }
 
-/// A smaller cutoff at which the table can be used; empty if there is none.
+/// Returns a smaller cutoff at which the table can be used, Å; empty if there is none.
 std::optional<double> usable_cutoff(const Case& c, const PotentialTable& table, double below) {
     const double cutoff = std::floor(98.0 * below) / 100.0;
     if (cutoff < 2.0 * zero_of(PairPotential(table.potential(table.last())))) return std::nullopt;
@@ -71,7 +71,7 @@ std::optional<double> usable_cutoff(const Case& c, const PotentialTable& table, 
     return cutoff;
 }
 
-/// What is wrong with a table; empty: nothing.
+/// Returns the problem of a table; empty if it has none.
 std::optional<io::Problem> problem_of(const Case& c, const PotentialTable& table, double cutoff,
                                       const Errors& errors) {
     const Pair<Tabulated> noise(table.noise(cutoff));

@@ -10,7 +10,7 @@ namespace asperity {
 
 namespace {
 
-/// exp(-x) - 1 + x, without loss of digits.
+/// Returns exp(-x) - 1 + x without loss of digits.
 double beyond_linear(double x) {
     if (x > 0.5) return std::expm1(-x) + x;
     double term = 0.5 * x * x, sum = term;
@@ -95,7 +95,7 @@ struct Loss {
     }
 };
 
-/// to = a x + b y, site by site; `to` may be either.
+/// Computes to = a x + b y, site by site; `to` may be x or y.
 void combine(double a, const SiteField<double>& x, double b, const SiteField<double>& y,
              SiteField<double>& to) {
     for (std::size_t c = 0; c < to.size(); ++c) {
@@ -167,7 +167,7 @@ BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& 
     const SiteField<double> c = second_difference(d);
     const bool bent = weight() > 0.0;
     const double of_c = bent ? square(c) : 0.0;
-    double of_change = 0.0; // of the second difference
+    double of_change = 0.0; // change of the second difference
     if (bent) {
         combine(1.0, c, -ratio() * ratio(), history_[1], field);
         of_change = std::sqrt(square(field));

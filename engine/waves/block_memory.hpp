@@ -40,7 +40,7 @@ namespace asperity {
 struct BranchEnergies {
     double stored = 0.0;
     double dissipated = 0.0; ///< in the step under way
-    double error = 0.0;      ///< of the step in time
+    double error = 0.0;      ///< error of the step in time
 };
 
 class BlockMemory {
@@ -62,19 +62,20 @@ public:
     /// Ends the step at w' = `to`.
     void end(SiteField<double> to);
 
-    /// h of each branch, Å.
+    /// Returns the extensions h of each branch, Å.
     std::vector<SiteField<double>>& extensions() { return h_; }
     const std::vector<SiteField<double>>& extensions() const { return h_; }
-    /// d0 and c0 of the last step, Å: with the extensions all that is to be kept.
+    /// Returns d0 and c0 of the last step, Å: the memory is these and the extensions.
     std::vector<SiteField<double>>& history() { return history_; }
     std::size_t bytes() const;
 
 private:
     SiteField<double> new_field() const { return site_field<double>(slab_, components_); }
-    /// p and rho; 0 for a step that continues none.
+    /// Returns the weight p; 0 for a step that continues none.
     double weight() const;
+    /// Returns rho, the length of this step over that of the last.
     double ratio() const { return dt_ / last_; }
-    /// The second difference c of a step by d.
+    /// Computes the second difference c of a step by d.
     SiteField<double> second_difference(const SiteField<double>& d) const;
 
     std::vector<Branch> branches_;

@@ -48,12 +48,12 @@ namespace asperity {
 
 class Preconditioner;
 
-/// What holds the uniform normal wave: the elastic force on each site, eV/Å, is linear in the mean
+/// Holder of the uniform normal wave: the elastic force on each site, eV/Å, is linear in the mean
 /// height of the layer.
 struct Holder {
     double stiffness = 0.0; ///< eV/Å^2 for each site; zero under a load
     double at = 0.0;        ///< mean height at which the stiffness gives no force, Å
-    double force = 0.0;     ///< of a load or of branches, eV/Å for each site
+    double force = 0.0;     ///< part of a load or of branches, eV/Å for each site
     double operator()(double mean_height) const { return stiffness * (mean_height - at) + force; }
 };
 
@@ -175,7 +175,7 @@ protected:
     Waves<double> waves_;
     std::optional<BlockMemory> memory_;  ///< with branches
     std::optional<Waves<double>> known_; ///< with branches: their known force, sign reversed, eV/Å
-    double factor_ = 1.0;                ///< of branches, on S
+    double factor_ = 1.0;                ///< factor of branches on S
 
 private:
     /// Replaces a field by what change(b, waves) makes of the N^2 u_q of each block b.

@@ -38,7 +38,7 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
         print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
     else:
         print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
-    print(f"tables: {TABLES}; plots:" + "".join(f" {path.name}" for path in written))
+    print(f"tables: {TABLES}" + "; plots: " * bool(written) + " ".join(path.name for path in written))
     if not done.complete:
         print("Stopped early: the same command goes on from here.")
         return STOPPED

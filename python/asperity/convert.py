@@ -38,7 +38,7 @@ PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b
 
 
 def _instrument(path: Path) -> tuple[list[Channel], int]:
-    """The channels of an instrument's file, and the reader's first choice."""
+    """Returns the channels of an instrument's file, and the number of the reader's first choice."""
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
@@ -71,7 +71,7 @@ def _text_in(raw: bytes) -> str:
 
 
 def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -> dict[str, Any]:
-    """What the file holds: "heights", or "position" of atoms; and "notes" on it. as_it_is: also of a file that the
+    """Reads the contents of a file: "heights", or "position" of atoms; and "notes". as_it_is: also reads files that the
     program reads itself."""
     path = Path(source)
     try:
@@ -123,8 +123,8 @@ def read_heights(source: str, channel: str | None = None, unit: str | None = Non
 
 
 def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
-    """What the program says may be wrong with the map in a file that convert() wrote: line noise, an implausible size and
-    the like. None if it makes no surface of it."""
+    """Asks the program what may be wrong with the map in a file that convert() wrote: line noise, an implausible size and
+    the like; if no scene takes the map as it is, returns the reason."""
     size, unit = found.get("size"), found.get("size_unit") or found.get("unit")
     n = max(2, min(found["heights"].shape))
     keys = {"kind": "file", "file": str(file.resolve()), "file_missing": "fill", "file_crop": "middle", "sites": n,
@@ -135,15 +135,18 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
         keys["spacing"] = min(size) * 10.0 ** LENGTHS[unit] / n
     else:
         keys["file_size"] = float(n)
-    with tempfile.TemporaryDirectory(prefix="asperity-") as place, contextlib.suppress(Error):
+    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
         scene = Path(place) / "map.toml"
         scene.write_text(toml_of({"surface": keys}))
-        return list(program.surface(str(scene))["doubts"])
-    return []
+        try:
+            return list(program.surface(str(scene))["doubts"])
+        except Error as error:
+            said = re.sub(r"^.*map\.toml(:\d+)*: |^ +(why|fix): ", "", str(error), flags=re.M)
+            return ["a scene refuses it as it is: " + "; ".join(said.splitlines())]
 
 
 def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:
-    """The edges x and y as the file tells them; none if it does not. Raises InputOutputError unless they are above zero."""
+    """Returns the edges x and y as the file tells them; no edges if it does not. Raises InputOutputError unless they are above zero."""
     size = tuple(float(s) for s in found.get("size") or ())
     if any(not 0.0 < s < numpy.inf for s in size):
         raise refuse(source, "is a map without a size", "it says " + " x ".join(f"{s:g}" for s in size),

@@ -48,7 +48,7 @@ CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jk
 
 
 def number_of(result: Values, path: str) -> float:
-    """NaN: it has none."""
+    """Returns a number of a result; NaN if the result has none of this path."""
     if path == "binding_energy_ratio":
         return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
     if path == "pull_off_stress":
@@ -58,7 +58,7 @@ def number_of(result: Values, path: str) -> float:
 
 
 def convergence_of(result: Values, path: str) -> float:
-    """The bound that a result states on what its solver leaves; NaN: none."""
+    """Returns the bound that a result states for the error of its solver; NaN if it states none."""
     parent, _, leaf = path.rpartition(".")
     if path == "binding_energy_ratio":
         return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
@@ -68,7 +68,7 @@ def convergence_of(result: Values, path: str) -> float:
 
 
 def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
-    """The number of a result with its possible range, without parts of its error.
+    """Returns the number of a result with its possible range, without parts of its error.
 
     A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works have
     one sign. No more than Δγ can be gained over a wall, where each site has one height."""
@@ -103,8 +103,8 @@ Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
 
 
 def finer(ratio: float, order: float | None = None) -> Rule:
-    """One row, finer by the ratio. order: None: that of the quantity. A number that would change its sign on the way to the
-    limit is not at its order yet: it is taken as the row has it."""
+    """Makes the rule of one row, finer by the ratio. order: None: that of the quantity. A number that would change its sign
+    on the way to the limit is not at its order yet: its value in the row is taken."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(rows[0] - base + (beyond if (rows[0] + beyond) * rows[0] >= 0.0 else 0.0), abs(beyond))
@@ -112,7 +112,7 @@ def finer(ratio: float, order: float | None = None) -> Rule:
 
 
 def coarser(ratio: float, order: float | None = None) -> Rule:
-    """One row, coarser by the ratio: cheaper than the base; else as finer()."""
+    """Makes the rule of one row, coarser by the ratio and so cheaper than the base; otherwise as finer()."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(beyond if (base + beyond) * base >= 0.0 else 0.0, abs(beyond))
@@ -120,30 +120,31 @@ def coarser(ratio: float, order: float | None = None) -> Rule:
 
 
 def limit(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """The last row is taken; what it changed last is the standard error."""
+    """Takes the number of the last row; its last change is the standard error."""
     return Found(rows[-1] - base, abs(rows[-1] - (rows[-2] if len(rows) > 1 else base)))
 
 
 def solved(q: Quantity, base: float, rows: np.ndarray, results: list[Values]) -> Found:
-    """A row of a better solution: the bound that it states, or what it changed."""
+    """Takes the row of a better solution; the error is the bound that the row states, or its change."""
     stated = convergence_of(results[0], q.path)
     return Found(rows[0] - base, max(abs(rows[0] - base), stated if stated == stated else 0.0))
 
 
 def standard_error(values: np.ndarray) -> float:
-    """Of their mean; of a few, so much larger that twice it holds the mean with 95 % (Student's t)."""
+    """Computes the standard error of the mean of some values; of a few, so much larger that twice the error holds the mean
+    with 95 % (Student's t)."""
     n = len(values)
     return float(stdtrit(n - 1, 0.975) / 1.96 * np.std(values, ddof=1) / math.sqrt(n))
 
 
 def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Rows of other surfaces of the same statistics."""
+    """Averages over rows of other surfaces of the same statistics."""
     values = np.array([base, *rows])
     return Found(float(values.mean()) - base, standard_error(values))
 
 
 def widened(count: int, wider: bool) -> Rule:
-    """`count` rows of other surfaces of the base's width, then some of half of it, or of twice. The error falls between
+    """Makes the rule of `count` rows of other surfaces of the base's width, then some of half or twice the width. The error falls between
     the inverse of the width (waves that are missing) and of the area (means over a finite one)."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         here, there = np.array([base, *rows[:count]]), rows[count:]
@@ -156,12 +157,12 @@ def widened(count: int, wider: bool) -> Rule:
 
 
 def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Rows of the quarters of a map: the scatter that other places on the sample would have, on the area of all."""
+    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map."""
     return Found(0.0, standard_error(rows))
 
 
 def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """A row of the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
+    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
     return Found(0.0, 0.5 * abs(rows[0] - base))
 
 
@@ -179,7 +180,7 @@ class Part:
 
     @property
     def failed(self) -> str:
-        """Why it has no number though it was to be run; "" if it has, or was not."""
+        """Reason why the part has no number although it was to be run; "" if it has one, or was not to be run."""
         for row in [self.base, *self.rows] if self.rows and self.base else []:
             if row.outcome.status != DONE:
                 return f"{row.label}: {row.outcome.reason or 'it was not run'}"
@@ -205,7 +206,7 @@ class Plan(NamedTuple):
 
 
 def _box(scene: Variations, factor: float) -> Setting:
-    """The box wider or narrower at the same spacing; a block as thick as wide stays so."""
+    """Returns the setting of a wider or narrower box at the same spacing; a block as thick as wide stays so."""
     return [f"surface.sites={scene.sites * factor:.0f}"] + [
         f"block.thickness={scene.sites * factor:.0f}"] * (scene.thickness == scene.sites)
 
@@ -215,15 +216,15 @@ SpacingAlso = Callable[[float], Setting]
 
 
 def is_coarse(scene: Variations) -> bool:
-    """Whether a lattice of twice the spacing is as good to measure on: of a path, whose runs are long, on a lattice that is
-    no solid's own and whose waves all fit."""
+    """Returns True if a lattice of twice the spacing is as good to measure on: for a path, whose runs are long, if the lattice
+    is no solid's own and all waves fit."""
     kind = scene.scene.text("surface.kind")
     waves = kind == "flat" or kind == "self-affine" and 4 * scene.own("surface.q_max") <= scene.sites
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
 def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
-    """The same surface and block at another spacing."""
+    """Returns the setting of the same surface and block at another spacing."""
     own, kind = scene.own, scene.scene.text("surface.kind")
     waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else []
     return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
@@ -231,7 +232,7 @@ def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
 
 
 def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
-    """The parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
+    """Plans the parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
     take the base of the others."""
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])

@@ -43,8 +43,8 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 
 @dataclass
 class Estimate:
-    """numbers: those of the scene by their paths in result.json, the first is what it is mostly asked for; parts: of the
-    error, as they are listed: name, group, what (was varied, or why nothing was), failed; notes."""
+    """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
+    in their order: name, group, what (was varied, or why nothing was), failed; notes."""
 
     name: str
     numbers: dict[str, Number]
@@ -59,14 +59,30 @@ class Estimate:
         return next(iter(self.numbers.values()))
 
     def number(self, path: str = "") -> Number:
-        """Of this path; "": the first one."""
+        """Returns a number with its error.
+
+        Parameters
+        ----------
+        path : str
+            Path of the number in result.json; "" for the first one.
+
+        Returns
+        -------
+        Number
+            The number with its estimate, its standard error and the parts of the error.
+
+        Raises
+        ------
+        SceneError
+            The estimate has no number of this path.
+        """
         if path and path not in self.numbers:
             raise SceneError(self.name, f"has no number {path!r}", "it has " + ", ".join(self.numbers), "ask for one of these")
         return self.numbers[path] if path else self.first
 
     @property
     def unseen(self) -> list[str]:
-        """What is not in the error: parts that were not measured."""
+        """Parts that were not measured, so that the error does not contain them."""
         return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
                 if p["failed"] or p["what"].startswith(("not varied", "left out"))]
 
@@ -84,12 +100,28 @@ class Estimate:
 
 
 def _finite(value: float) -> float | None:
-    """The value for JSON; None if it is not finite."""
+    """Returns the value for JSON; None if it is not finite."""
     return value if math.isfinite(value) else None
 
 
 def load_estimate(directory: str | os.PathLike) -> Estimate:
-    """The estimate in a directory. Raises InputOutputError where there is none."""
+    """Loads the estimate in a directory.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Directory with estimate.json.
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no estimate, or it cannot be read.
+    """
     found = read_json(Path(directory) / RESULT)
     numbers = {}
     for path, n in found.part("numbers").items():
@@ -199,7 +231,7 @@ def surface_made(file: str) -> SurfaceMade:
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
-    """Of a run, as `asperity plan` has it; NaN: it does not tell."""
+    """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
     try:
         text = program.call(["plan", scene, *program.sets(sets)])
     except Error:
@@ -210,7 +242,7 @@ def _seconds(scene: str, sets: list[str]) -> float:
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
-    """What a setting takes over what the scene takes, roughly."""
+    """Estimates the time of a setting over that of the scene."""
     set_to = dict(one.split("=", 1) for one in setting)
 
     def ratio(key: str) -> float:
@@ -223,7 +255,8 @@ def work_of(setting: Setting, scene: Variations) -> float:
 # Carrying it out.
 
 def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
-    """The numbers of the scene with the parts of their errors. withheld: why none of them is stated."""
+    """Returns the numbers of the scene with the parts of their errors. withheld: reason why no number is stated; "" if they
+    are."""
     base = plan.scene.outcome.result
     found: dict[str, Number] = {}
     for q in CURVED if curved else FLAT:
@@ -259,8 +292,8 @@ class Estimating:
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
                  say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
-        """withheld, condition: of the numbers OF_A_PATH, why they are not stated, or what they hold for; also: names of files
-        that the caller will write there."""
+        """Plans the estimate. withheld, condition: why the numbers OF_A_PATH are not stated, or what they hold for; also:
+        names of files that the caller will write there."""
         answer = program.check(scene, overrides)
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
@@ -301,7 +334,7 @@ class Estimating:
         self.jobs = self.runs.jobs(self.rows)
 
     def told(self) -> str:
-        """What will be run, and about how long it takes."""
+        """Tells how many runs the estimate takes, and about how long."""
         once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
         base = {(): _seconds(self.runs.scene, self.runs.common)}
         for row in once.values():
@@ -314,7 +347,7 @@ class Estimating:
         return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
 
     def carry_out(self) -> tuple[Estimate | None, bool]:
-        """The estimate, None if the scene itself has no result; False: stopped before the end."""
+        """Carries out the runs. Returns the estimate, None if the scene itself has no result, and False if stopped early."""
         complete = self.runs.run(self.rows)
         if self.plan.scene.outcome.status != DONE:
             return None, complete
@@ -345,7 +378,7 @@ class Estimating:
 
 
     def _missing(self, result: Values) -> str:
-        """Judges the waves that a map does not show and completes their part; returns why no number is stated, "" if they are."""
+        """Completes the part of the waves that a map does not show. Returns the reason why no number is stated; "" if they are."""
         part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
         if part is None:
             return ""
@@ -362,13 +395,37 @@ def _about(seconds: float) -> str:
 
 def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
              seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
-    """The numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error), and of
-    each part of the error what it shifts. Runs that are there are not run again.
+    """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error),
+    and the shift by each part of the error. Runs that are there are not run again.
 
-    out      the directory; None: results/<scene>-estimate
-    jobs     runs side by side; they share the processors
-    seeds    surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path
-    parts    only these parts of the error: ["tail", "seeds"], or "tail,seeds"
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+    out : str or os.PathLike, optional
+        Directory; None: results/<scene>-estimate.
+    jobs : int
+        Runs side by side; they share the processors.
+    seeds : int, optional
+        Surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path.
+    parts : iterable of str
+        Only these parts of the error: ["tail", "seeds"], or "tail,seeds".
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    SceneError
+        The scene or an argument is refused, or files are in the way.
+    Stopped
+        The estimate stopped early; the same call continues.
+    Error
+        The run of the scene itself failed.
     """
     program.refuse_ranks()
     refuse_jobs(jobs)

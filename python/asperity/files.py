@@ -50,7 +50,7 @@ def directory(path: Path) -> Path:
 
 @contextlib.contextmanager
 def _replacing(path: Path) -> Iterator[Path]:
-    """A path beside `path` to write to; it takes the place of `path` when all went well and it is on the disk."""
+    """Yields a path beside `path` to write to; the file replaces `path` when all went well and it is on the disk."""
     beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
     try:
         yield beside
@@ -71,7 +71,7 @@ def _replacing(path: Path) -> Iterator[Path]:
 
 
 def require_new(path: Path) -> None:
-    """Raises SceneError if there is a file of this name, or a link, wherever it leads."""
+    """Checks that there is no file of this name and no link, wherever it leads. Raises SceneError."""
     if os.path.lexists(path):
         raise SceneError(str(path), "is there already and is not replaced", "it is a symbolic link" * path.is_symlink(),
                          "name another file, or move it away")
@@ -79,7 +79,7 @@ def require_new(path: Path) -> None:
 
 @contextlib.contextmanager
 def new(path: Path) -> Iterator[Path]:
-    """A path beside `path` to write to, for a file that must not be there yet."""
+    """Yields a path beside `path` to write to, for a file that must not be there yet."""
     require_new(path)
     with _replacing(path) as beside:
         yield beside
@@ -116,7 +116,7 @@ def _record(place: Path) -> dict[str, str] | None:
 
 
 def is_named(place: Path, name: str) -> bool:
-    """Whether the record of a directory names a file."""
+    """Returns True if the record of a directory names a file."""
     return name in (_record(place) or {})
 
 
@@ -170,7 +170,7 @@ def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew
 
 
 def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> list[dict[str, str]]:
-    """The files of these names that must not be replaced, each as a problem for SceneError.of().
+    """Returns the files of these names that must not be replaced, each as a problem for SceneError.of().
 
     renew: files that the record names and that are as they were written may be replaced. inputs: files that the command
     reads, which are never replaced. Raises InputOutputError for a file that cannot be read.
@@ -190,7 +190,8 @@ def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: In
 
 
 def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
-    """Raises SceneError with all files in the way of a command that is going to write these names, by directory."""
+    """Checks that no file is in the way of a command that will write these names, by directory. Raises SceneError with all
+    files that are."""
     problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
     if problems:
         raise SceneError.of(problems)
@@ -212,7 +213,7 @@ class Outputs:
 
     @contextlib.contextmanager
     def replacing(self, name: str) -> Iterator[Path]:
-        """A path to write to; it becomes the file of this name when all went well and it is on the disk."""
+        """Yields a path to write to; the file takes this name when all went well and it is on the disk."""
         self.digests.setdefault(name, UNFINISHED)
         with _replacing(self._path(name)) as beside:
             yield beside
@@ -231,7 +232,7 @@ class Outputs:
 
 @contextlib.contextmanager
 def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> Iterator[Outputs]:
-    """The files that a command is about to write in a directory, which is made if it is missing. Their names are claimed in
+    """Opens a directory, made if it is missing, for the files that a command is about to write. Their names are claimed in
     the record before, and their digests noted there after the work; of work that ends in an exception they stay
     unfinished. The arguments are those of in_the_way(). Raises SceneError with all files that are in the way."""
     written, before = Outputs(place, names), {}
@@ -283,7 +284,7 @@ def set_aside(place: Path, names: Iterable[str]) -> None:
 
 
 def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
-    """Lines of comma-separated values: numbers with so many digits, those that are not finite as nothing."""
+    """Returns lines of comma-separated values: numbers with so many digits, numbers that are not finite as empty fields."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows(
         [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
@@ -291,7 +292,7 @@ def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
 
 
 def chosen(out: str | None, otherwise: str) -> Path:
-    """The directory that --out names, or else the default one. Raises SceneError for what can be none."""
+    """Returns the directory that --out names, or else the default one. Raises SceneError for a name that can be no directory."""
     place = Path(otherwise if out is None else out)
     if out == "":
         raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
@@ -305,7 +306,7 @@ def chosen(out: str | None, otherwise: str) -> Path:
 
 
 def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
-    """This one, or else the first of first-2, first-3, ... that is not taken."""
+    """Returns the first path that is not taken of first, first-2, first-3, ..."""
     others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))
     return next(place for place in itertools.chain([first], others) if not taken(place))
 
@@ -322,7 +323,7 @@ RUN_FILES = ("run.journal", "checkpoint.h5", "checkpoint-before.h5", "checkpoint
 
 
 def _is_lock(content: bytes) -> bool:
-    """Whether a file begins as the text of a lock does, as far as it was written."""
+    """Returns True if a file begins as the text of a lock does, as far as it was written."""
     return content[:5] == b"host "[:len(content)]
 
 
@@ -403,7 +404,7 @@ def in_use(place: Path) -> Iterator[None]:
 
 
 def kept(place: Path) -> bool:
-    """Whether another process has the directory in use."""
+    """Returns True if another process has the directory in use."""
     if not (place / LOCK).exists():
         return False
     try:
@@ -418,19 +419,19 @@ _HDF5_END = b"asperity digest\n"
 
 
 def sealed_json(members: dict[str, Any]) -> str:
-    """An object as text, with its digest."""
+    """Returns an object as text, with its digest."""
     text = json.dumps(members, indent=2, ensure_ascii=False).removesuffix("\n}")
     return f'{text},\n  "digest": "crc32:{zlib.crc32(text.encode()):08x}"\n}}\n'
 
 
 def json_is_whole(content: bytes) -> bool | None:
-    """Whether a JSON file is as its digest says; None: it does not end in one."""
+    """Returns True if a JSON file is as its digest says; None if it does not end in a digest."""
     found = _JSON_END.search(content)
     return int(found[1], 16) == zlib.crc32(content[:found.start()]) if found else None
 
 
 def hdf5_digest(path: Path) -> int | None:
-    """The digest at the end of an HDF5 file, as it is stated there; None: it does not end in one. Raises OSError."""
+    """Returns the digest stated at the end of an HDF5 file; None if it does not end in a digest. Raises OSError."""
     with open(path, "rb") as file:
         file.seek(max(0, file.seek(0, os.SEEK_END) - 32))
         end = file.read(32)
@@ -438,7 +439,7 @@ def hdf5_digest(path: Path) -> int | None:
 
 
 def _digest(file, length: int) -> bytes:
-    """Of its first bytes: how many they are, and their CRC-32."""
+    """Computes the digest of the first bytes of a file: their number and their CRC-32."""
     file.seek(0)
     value, left = 0, length
     while left and (part := file.read(min(left, 1 << 20))):
@@ -456,7 +457,7 @@ def seal_hdf5(path: Path) -> None:
 
 
 def hdf5_is_whole(path: Path) -> bool | None:
-    """Whether an HDF5 file is as its digest says; None: it does not end in one. Raises OSError."""
+    """Returns True if an HDF5 file is as its digest says; None if it does not end in a digest. Raises OSError."""
     with open(path, "rb") as file:
         length = max(0, file.seek(0, os.SEEK_END) - 32)
         file.seek(length)

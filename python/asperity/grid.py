@@ -82,7 +82,7 @@ def _axis(key: str, values: str, where: str) -> Axis:
 
 
 def _lists(values: str) -> list[Any]:
-    """The lists that stand side by side, as in [1], [2]; none if it is something else."""
+    """Returns the lists that stand side by side, as in [1], [2]; no list if the text is something else."""
     try:
         return program.json.loads(f"[{values}]")
     except ValueError:
@@ -90,7 +90,7 @@ def _lists(values: str) -> list[Any]:
 
 
 def _several_lists(values: str, kind: str) -> bool:
-    """Whether they are several values of a key that is a list, side by side or in brackets of their own."""
+    """Returns True if the text has several values of a key that is a list, side by side or in brackets of their own."""
     found = _lists(values)
     inner = found[0] if len(found) == 1 and isinstance(found[0], list) and kind == "list" else found
     return (len(inner) > 1 or inner is not found) and bool(inner) and all(isinstance(one, list) for one in inner)

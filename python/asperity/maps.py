@@ -87,7 +87,7 @@ def without_tilt(heights: numpy.ndarray) -> numpy.ndarray:
 
 
 def filled(heights: numpy.ndarray) -> numpy.ndarray:
-    """With the mean of their neighbours at missing points, from the edges of a hole inwards."""
+    """Fills missing points with the mean of their neighbours, from the edges of a hole inwards. Returns a copy."""
     found = numpy.array(heights, float)
     while (missing := numpy.isnan(found)).any() and not missing.all():
         around = numpy.stack([numpy.roll(found, step, axis) for axis in (0, 1) for step in (1, -1)])

@@ -41,8 +41,8 @@ UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm")
 
 @dataclass
 class Adhesion:
-    """What was found of a map: estimate (.numbers, .quote()), result (the run of its scene: series, fields), notes on
-    what was made of the map, scene (its file), directory."""
+    """Adhesion on a map: estimate (.numbers), result (the run of the map's scene: series, fields), notes on changes of the
+    map, scene (its file), directory."""
 
     estimate: Estimate
     result: Result
@@ -51,7 +51,23 @@ class Adhesion:
     directory: Path
 
     def quote(self, path: str = "") -> str:
-        """A number as it is published: "binding_energy", "lost.cycle", ...; "": the first one."""
+        """Spells a number as it is published.
+
+        Parameters
+        ----------
+        path : str
+            Name of the number: "binding_energy", "lost.cycle", ...; "" for the first one.
+
+        Returns
+        -------
+        str
+            The number with its unit, its standard error and the parts of the error.
+
+        Raises
+        ------
+        SceneError
+            The estimate has no number of this name.
+        """
         return report_estimate.quote(self.estimate.number(path))
 
     def __repr__(self) -> str:
@@ -64,7 +80,7 @@ ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "w
 
 
 def _with_unit(name: str, value: object) -> str:
-    """Text of a quantity with its unit, as scenes have it."""
+    """Returns the text of a quantity with its unit, as scenes have it."""
     text = re.sub(r"m2$", "m^2", str(value).strip())
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
@@ -73,8 +89,8 @@ def _with_unit(name: str, value: object) -> str:
 
 
 def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
-    """Heights of a square map (Å, NaN where one is missing), its edge (Å), notes. Raises SceneError for what is no map
-    that adhesion can be computed of."""
+    """Reads a square map: heights (Å, NaN at missing points), edge (Å), notes. Raises SceneError if adhesion cannot be
+    computed of the map."""
     found = maps.read_map(file, unit, size or None, channel)
     heights, notes = found.heights, list(found.notes)
 
@@ -119,7 +135,7 @@ def _read(file: str, unit: str | None, size: float | None, channel: str | None) 
 
 
 def _smooth_below(most: int) -> int:
-    """The largest even number up to it that has no prime factor above 5."""
+    """Returns the largest even number up to `most` that has no prime factor above 5."""
     def smooth(n: int) -> bool:
         for p in (2, 3, 5):
             while n % p == 0:
@@ -169,14 +185,14 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     adhesion, asked = keys.number("interface.adhesion") / 1e3, keys.number("interface.range")
 
     def resolved(spacing: float) -> float:
-        """The range whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""
+        """Returns the range, Å, whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""
         return max(asked, math.sqrt(2 * spacing * adhesion / stiff))
 
     used = resolved(spacing)
     longer = f'--range "{math.ceil(used * 1e3) / 1e3:g} Å"'
 
     def sites_for(reach: float) -> str:
-        """"--sites 96, or ": as many as resolve this range; "" if the map has fewer points."""
+        """Spells the option of as many sites as resolve this range, "--sites 96, or "; "" if the map has fewer points."""
         least = edge * 2 * adhesion / (stiff * reach**2)
         enough = next((k for k in range(max(n, math.ceil(least)), points + 1) if _smooth_below(k) == k), 0)
         return f"--sites {enough}, or " * (enough > n)
@@ -243,21 +259,47 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
 def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
              range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
              sites: int | None = None, jobs: int = 1, line_noise: str | None = None) -> Adhesion:
-    """The adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
+    """Computes the adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
 
         found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
         found.quote(), found.quote("lost.cycle"), found.notes
 
-    map      a file of heights: HDF5, .npy, or any that `convert` reads
-    E, nu, work   Young's modulus and Poisson's ratio of the half-space, work of adhesion of flat surfaces; quantities
-             are texts with units
-    out      the directory; None: results/<map>-adhesion. Runs that are there are not run again.
-    range    of the exponential attraction; None: 3 Å, or what the spacing resolves
-    size, unit   of the shorter edge, of the heights; they hold over what the file says, and a note names both
-    channel  of a file with several maps: its name or number
-    sites    along an edge; None: as many as the map has, 256 at most
-    jobs     runs side by side; they share the processors
-    line_noise   treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise)
+    Parameters
+    ----------
+    map : str or os.PathLike
+        File of heights: HDF5, .npy, or any that `convert` reads.
+    E, work : str
+        Young's modulus of the half-space and work of adhesion of flat surfaces, with units.
+    nu : float
+        Poisson's ratio of the half-space.
+    out : str or os.PathLike, optional
+        Directory; None: results/<map>-adhesion. Runs that are there are not run again.
+    range : str, optional
+        Range of the exponential attraction, with its unit; None: 3 Å, or the range that the spacing resolves.
+    size, unit : str, optional
+        Shorter edge, with its unit, and unit of the heights; they hold over the file, and a note names both.
+    channel : str, optional
+        Name or number of the map in a file with several.
+    sites : int, optional
+        Sites along an edge; None: as many as the map has, 256 at most.
+    jobs : int
+        Runs side by side; they share the processors.
+    line_noise : str, optional
+        Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
+
+    Returns
+    -------
+    Adhesion
+        The numbers with their errors, the run, and notes on changes of the map.
+
+    Raises
+    ------
+    SceneError
+        The map or an argument is refused, or files are in the way.
+    Stopped
+        The estimate stopped early; the same call continues.
+    Error
+        The run of the map failed.
     """
     program.refuse_ranks()
     refuse_jobs(jobs)
@@ -280,12 +322,12 @@ def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable
 
 
 def _stem(file: str) -> str:
-    """The name of the scene of a map."""
+    """Returns the name of the scene of a map."""
     return re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"
 
 
 def _require_free(place: Path, file: str) -> None:
-    """Raises SceneError with the files that are in the way of those that are known beforehand: all but the runs'."""
+    """Checks that no file is in the way of those that are known beforehand: all but the runs'. Raises SceneError."""
     page = [] if files.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
     files.require_free({place: ["map.npy", f"{_stem(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
                         place / "scene": page}, inputs=[file])
@@ -296,7 +338,7 @@ def _place(file: str) -> str:
 
 
 def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
-    """With the pages of the estimate and of its run."""
+    """Carries out the estimate and writes its page and that of its run."""
     with files.in_use(making.place):
         found, complete = making.carry_out()
         if complete and found is not None:
@@ -307,7 +349,7 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
 
 
 def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
-    """`asperity adhesion`: its exit code."""
+    """Carries out `asperity adhesion`. Returns the exit code."""
     place = files.chosen(out, _place(file))
     _require_free(place, file)
     made = scene_of(file, young, poisson, work, place, **more)

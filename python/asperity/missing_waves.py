@@ -108,9 +108,9 @@ def _fit(q: np.ndarray, c: np.ndarray, count: np.ndarray, q1: float) -> tuple[fl
 
 
 def law_of(heights: np.ndarray, edge: float, spacing: float) -> Law | None:
-    """Fits the law to a map; None: the map has no roughness down to its pixel.
+    """Derives the law from the spectrum of a map. Returns None if the map has no roughness down to its pixel.
 
-    heights: square, Å, NaN where one is missing; edge: Å; spacing: of the sites of a simulation of it, Å."""
+    heights: square, Å, NaN at missing points; edge: Å; spacing: distance of the sites in a simulation of the map, Å."""
     n = len(heights)
     pixel = edge / n
     q, c, count, periodic = spectrum_of(heights, edge)
@@ -145,7 +145,7 @@ class Verdict(NamedTuple):
 
 
 def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
-    """Judges the missing waves of a map. modulus: E*, eV/Å³; adhesion: Δγ, eV/Å²."""
+    """Estimates the energy of the missing waves of a map and whether it matters. modulus: E*, eV/Å³; adhesion: Δγ, eV/Å²."""
     if law is None:
         return Verdict(0.0, "", "none: the map has no roughness down to its pixel", "")
     share = modulus * law.missing / adhesion if adhesion > 0.0 else math.inf

@@ -33,7 +33,7 @@ def _set(text: Any) -> Markup:
 
 
 def page_files(ids: Iterable[str], kinds: Iterable[str] = figures.KINDS) -> list[str]:
-    """The names of the files of a page with figures of these ids."""
+    """Returns the names of the files of a page with figures of these ids."""
     return ["report.html", *(f"report/{id}.{kind}" for id in ids for kind in (*kinds, "csv"))]
 
 

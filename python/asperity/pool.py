@@ -183,7 +183,7 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
 
 
 def _run(words: list[str], folder: str, out: files.Outputs, threads: str, overrule: bool, going: str) -> Ended:
-    """The same, when the directory is free."""
+    """Runs the program as run_task() does, in a directory that is free."""
     told = ""
     environment = environment_alone()
     if threads and (overrule or "OMP_NUM_THREADS" not in environment):

@@ -199,7 +199,7 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
 
 
 def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> list[str]:
-    """The names of all files that write_run_page() may write for a run with these states."""
+    """Returns the names of all files that write_run_page() may write for a run with these states."""
     of_state = [one[0] for one in (*MAPS, *DISTRIBUTIONS)]
     return page_files([*(figure[0] for _, figures in FIGURES.values() for figure in figures),
                        *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)

@@ -25,7 +25,7 @@ LEFT_OUT = [text for text in ALWAYS_LEFT_OUT if not text.startswith("edges")]  #
 
 
 def quote(n: Number) -> str:
-    """"γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds; corrected by +27 (tail)."""
+    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds; corrected by +27 (tail)."""
     text, (factor, _) = str(n), n.units[0]
     if n.reason or n.below == n.below:
         return text
@@ -39,7 +39,7 @@ def quote(n: Number) -> str:
 
 
 def lines_of(numbers: list[Number]) -> list[str]:
-    """A line to quote for each number, and one for those that are not stated for the same reason."""
+    """Spells a line to quote for each number, and one line for all numbers that are not stated for the same reason."""
     lines = [quote(n) for n in numbers if not n.reason]
     for reason in dict.fromkeys(n.reason for n in numbers if n.reason):
         some = [n.symbol for n in numbers if n.reason == reason]
@@ -65,7 +65,7 @@ def _cell(n: Number, part: str, what: str) -> str:
 
 
 def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
-    """The scene, each part, and the sum: group, part, what was varied, and of each number its shift and error."""
+    """Returns rows of the scene, each part and the sum: group, part, what was varied, and shift and error of each number."""
     rows: list[list[str]] = [["the scene as it is", "", "", *(c for n in columns for c in (f"{n.value:.5g}", ""))], []]
     last = ""
     for group in GROUPS:
@@ -83,13 +83,13 @@ def heads_of(columns: list[Number]) -> list[str]:
 
 
 def tables_of(estimate: Estimate) -> list[list[Number]]:
-    """Numbers that stand beside each other: three a table."""
+    """Returns the numbers that stand beside each other, three a table."""
     numbers = list(estimate.numbers.values())
     return [numbers[i:i + 3] for i in range(0, len(numbers), 3)]
 
 
 def text_of(estimate: Estimate) -> str:
-    """For the terminal."""
+    """Returns the estimate as text for the terminal."""
     parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
     for columns in tables_of(estimate):
         parts += [terminal.table(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2)), ""]
@@ -101,7 +101,7 @@ def text_of(estimate: Estimate) -> str:
 
 
 def chart(estimate: Estimate, ax: Axes) -> bool:
-    """Of the first number: a bar from zero to each part's shift, with its standard error."""
+    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error."""
     n = estimate.first
     factor, unit = n.units[0]
     whole = [] if n.reason else [("all", Found(n.estimate - n.value, n.error))]
@@ -124,12 +124,12 @@ def chart(estimate: Estimate, ax: Axes) -> bool:
 
 
 def _set(text: str) -> str:
-    """Symbols as a page sets them: γ_{eff}."""
+    """Spells symbols as a page sets them: γ_{eff}."""
     return re.sub(r"_(\w+)", r"_{\1}", text)
 
 
 def page_of(estimate: Estimate) -> Page:
-    """Written by its write()."""
+    """Makes the page of an estimate, which its write() writes."""
     page = Page(estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
     for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):
@@ -151,7 +151,7 @@ FILES = [*figures.files_of("estimate", ("png",)), *page_files(["budget"])]
 
 
 def write(estimate: Estimate) -> list[str]:
-    """The chart and the page beside estimate.json; names of what there is."""
+    """Writes the chart and the page beside estimate.json. Returns the names of the files."""
     fig = figures.make(lambda ax: chart(estimate, ax))
     if fig is not None:
         with files.outputs(estimate.directory, figures.files_of("estimate", ("png",))) as out:

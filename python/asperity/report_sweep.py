@@ -93,7 +93,7 @@ class _Points:
 
 
 def _shown(sweep: Sweep) -> list[str]:
-    """Of each line of the table the directory of the point that is shown, or ""."""
+    """Returns for each line of the table the directory of the point that is shown, or ""."""
     names = []
     for number, (_, places) in enumerate(sweep.table.groups):
         done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
@@ -102,13 +102,13 @@ def _shown(sweep: Sweep) -> list[str]:
 
 
 def _wants_page(directory: Path) -> bool:
-    """Whether the page of a point is missing or older than its result."""
+    """Returns True if the page of a point is missing or older than its result."""
     page = directory / "report.html"
     return not page.exists() or page.stat().st_mtime < (directory / "result.json").stat().st_mtime
 
 
 def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) -> None:
-    """Raises SceneError with the files in the way of the page and of those of the points."""
+    """Checks that no file is in the way of the page or of the pages of the points. Raises SceneError with the files that are."""
     curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
     names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
     for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name):

@@ -72,13 +72,13 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 
 def file_beside(name: str, scene: str) -> str:
-    """The path of a file that a scene names: beside the scene, or else in the working directory."""
+    """Returns the path of a file that a scene names: beside the scene, or else in the working directory."""
     beside = Path(scene).parent / name
     return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Paths of the files that a command reads for a scene: its file, its map or atoms, and its table."""
+    """Returns the paths of the files that a command reads for a scene: its file, its map or atoms, and its table."""
     named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("interface", "table"))]
     return [str(file), *(file_beside(name, str(file)) for name in named if name)]
 

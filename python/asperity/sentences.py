@@ -32,12 +32,12 @@ def percent(fraction: float) -> str:
 
 
 def energy(gamma: float, more: str = "") -> str:
-    """"69.91 meV/Å² (1120 mJ/m²)"; more: to be said in the brackets too."""
+    """Spells an energy over an area, meV/Å²: "69.91 meV/Å² (1120 mJ/m²)". more: text for the brackets."""
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
 
 
 def general(value: Any, digits: int = 4) -> str:
-    """A number of a scene; "?" for what is none."""
+    """Spells a number of a scene; "?" for a value that is no number."""
     return "?" if (number := finite(value)) is None else f"{number:.{digits}g}"
 
 
@@ -57,7 +57,7 @@ def state_in_words(run: Result, name: str) -> str:
 
 
 def _path(run: Result) -> str:
-    """" Dynamic path at 5 m/s: approach, pull-off."; "" of a result of the theory alone."""
+    """Spells the path: " Dynamic path at 5 m/s: approach, pull-off."; "" of a result of the theory alone."""
     if not run.segment_names or not (run.series or run.fields):
         return ""
     if run.segment_names == ["relax"]:
@@ -69,7 +69,7 @@ def _path(run: Result) -> str:
 
 
 def lead(run: Result) -> str:
-    """What was simulated, in two sentences."""
+    """Tells in two sentences what was simulated."""
     sites = run.number("scene.surface.sites")
     if not sites:
         return ""
@@ -86,7 +86,7 @@ def lead(run: Result) -> str:
 
 
 def _stress(gigapascal: float) -> tuple[str, str]:
-    """In a unit of its size."""
+    """Converts a stress, GPa, to a unit of its size. Returns number and unit."""
     for scale, unit in ((1.0, "GPa"), (1e-3, "MPa")):
         if abs(gigapascal) >= 0.1 * scale:
             return f"{gigapascal / scale:.3g}", unit
@@ -94,18 +94,18 @@ def _stress(gigapascal: float) -> tuple[str, str]:
 
 
 def smooth_pull_off(run: Result, gamma: float) -> float:
-    """The force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
+    """Returns the force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
 
 
 def reference(run: Result, key: str) -> float:
-    """The Δγ that an energy is compared with, meV/Å²; 0: none. Persson's theory may have been given another."""
+    """Returns the Δγ that an energy is compared with, meV/Å²; 0 if there is none. Persson's theory may have been given another."""
     own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
     return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
 def key_numbers(run: Result) -> list[KeyNumber]:
-    """The numbers that stand at the top of a page."""
+    """Returns the numbers that stand at the top of a page."""
     found: list[KeyNumber] = []
     at, pressed = run.load_words
 
@@ -193,12 +193,12 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
 
 
 def _loss(run: Result) -> str:
-    """What the loss of a cycle was measured as."""
+    """Tells as which quantity the loss of a cycle was measured."""
     return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
 
 
 def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
-    """What a block that relaxes dissipates in a cycle, beside what is lost; "": it does not relax."""
+    """Tells the energy that a block that relaxes dissipates in a cycle, beside the loss; "" if the block does not relax."""
     relaxed = run.number("dissipated_in_block.cycle")
     return "" if relaxed is None else f" The block, which relaxes, dissipates {energy(relaxed)}."
 
@@ -227,7 +227,7 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
 
 
 def results(run: Result) -> list[str]:
-    """What the run came to, in sentences."""
+    """Tells the results of a run in sentences."""
     text: list[str] = []
     flat = run.number("delta_gamma", 0.0)
     state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
@@ -269,14 +269,14 @@ ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: t
 
 
 def effects(run: Result, on: bool) -> list[str]:
-    """What was simulated or, on = False, what was not, each with the key of the scene that decides it."""
+    """Returns the effects that were simulated or, with on = False, were not, each with the key of the scene that decides it."""
     found = run.part("run.effects")
     text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
     return text if on else [*text, *ALWAYS_LEFT_OUT]
 
 
 def provenance(result: Values) -> list[list[str]]:
-    """Rows of names and words, of a run or a sweep."""
+    """Returns rows of names and words on the origin of a run or a sweep."""
     rows = []
     for name, key in (("measured surface", "surface.origin"), ("version", "run.version"), ("git", "run.git"),
                       ("compiler", "run.compiler"), ("flags", "run.flags"), ("machine", "run.machine"),

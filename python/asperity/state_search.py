@@ -101,7 +101,7 @@ class Search:
         return rest.binding_energy
 
     def advance(self) -> bool:
-        """A point more, and the state beside it. False: the search is over."""
+        """Makes a further point, and the state beside it. Returns False if the search is over."""
         if not self.log["points"]:
             self.free("run")
             self.go(mean_height=self.statics.mean_height)
@@ -131,7 +131,7 @@ class Search:
             self._turn_outwards(lost, "inwards")
 
     def _way(self) -> str:
-        """How the next state on the way inwards is found."""
+        """Returns the way on which the next state inwards is found."""
         return "inwards" if any(s["branch"] is not None for s in self.log["states"]) else "approach"
 
     def _end(self, why: str) -> None:
@@ -148,7 +148,7 @@ class Search:
                         lost=lost, then=then)
 
     def _outwards(self) -> None:
-        """To the next height of the way inwards, until that is joined, or beyond all states."""
+        """Moves to the next height of the way inwards, until the branch joins that way or is beyond all states."""
         before, inner, points = self.now, self.statics.copy(), self.log["points"]
         ahead = sorted((p["z"], p["energy"]) for p in points if p["branch"] == 0 and p["z"] > before["z"] + 1e-6)
         over = True  # nothing is ahead, or no equilibrium is found there
@@ -202,8 +202,8 @@ class Search:
         return (1.0 - y) * low + y * high
 
     def _barrier(self, outer: dict[str, Any], inner: dict[str, Any]) -> float | None:
-        """The largest pressure on the way to the next state, MPa: on the branch of the first to its inner end, and
-        inwards from there, to the instability that the branch of the second begins with."""
+        """Returns the largest pressure on the way to the next state, MPa: on the branch of the first to its inner end, and
+        inwards from there, to the instability with which the branch of the second begins."""
         points, first = self.log["points"], outer["branch"]
         end = min([inner["mean_height"]] + [p["z"] for p in points if 0 != p["branch"] == inner["branch"] != first])
         turn = min(p["z"] for p in points if p["branch"] == first)
@@ -261,7 +261,7 @@ class Search:
 
 def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
-    """Searches for the stable states of a scene under its load. Returns a dictionary:
+    """Searches for the stable states of a scene under its load. The dictionary that is returned has
 
         states      inwards: binding_energy, elastic_energy (meV/Å²), mean_height (Å), contact_fraction,
                     repulsive_fraction, barrier (MPa: the largest pressure on the path to the next), found (how); of those
@@ -272,8 +272,28 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         deeper_next         the largest probability that a further start ends deeper
         may_miss            what such a search does not find
 
-    out: a directory for states.json, where a search that was stopped goes on. starts: how many flat layers, laid on the
-    substrate at random heights, are relaxed. report is told how far it is.
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+    out : str or os.PathLike, optional
+        Directory for states.json, in which a search that was stopped continues.
+    starts : int
+        Number of flat layers, laid on the substrate at random heights, that are relaxed.
+    report : callable, optional
+        Called with a text on the progress.
+
+    Returns
+    -------
+    dict
+        The states and numbers above.
+
+    Raises
+    ------
+    SceneError
+        The scene is refused, or the directory holds a result or the search of another scene.
     """
     program.refuse_ranks()
     place = None if out is None else files.chosen(os.fspath(out), "")
@@ -304,7 +324,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
 
 
 def states_command(scene: str, sets: list[str], out: str | None, starts: int, progress: str) -> int:
-    """`asperity states`: its exit code."""
+    """Carries out `asperity states`. Returns the exit code."""
     warnings.showwarning = lambda message, *_: print(f"note: {message}", file=sys.stderr)
     place, shown = Path(out if out is not None else f"results/{Path(scene).stem}-states"), Progress(progress)
     try:

@@ -19,7 +19,7 @@ COVERED = 2.0
 
 
 class Found(NamedTuple):
-    """What a part of the error adds to the number of the scene, and its standard error."""
+    """Shift that a part of the error adds to the number of the scene, and its standard error."""
 
     shift: float
     error: float
@@ -64,7 +64,7 @@ class Number:
 
     @property
     def reason(self) -> str:
-        """Why the number is not stated; "": it is."""
+        """Reason why the number is not stated; "" if it is."""
         beyond = max(self.least - self.corrected, self.corrected - self.most)
         if not self.withheld and beyond > max(COVERED * self.sum_of_errors, 1e-6 * abs(self.value)):
             return f"its parts correct it to {self.corrected:.3g} {shown(self.unit)}".rstrip() + ", which is not possible"
@@ -101,7 +101,8 @@ class Number:
         return cut(self.estimate, self.error, self.least, self.most)
 
     def __str__(self) -> str:
-        """"γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error)", or "γ_eff below ...", or "γ_eff is not stated: ..."."""
+        """Spells the number: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error)", "γ_eff below ...", or
+        "γ_eff is not stated: ..."."""
         (factor, unit), *others = self.units
         if self.reason:
             return f"{self.symbol} is not stated: {self.reason}"
@@ -137,7 +138,7 @@ def cut(value: float, error: float, least: float, most: float) -> tuple[float, f
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:
-    """A number and its error, to two digits of the error."""
+    """Rounds a number and its error to two digits of the error."""
     if not error > 0.0:
         return f"{value:.6g}", "0"
     digits = max(0, 1 - math.floor(math.log10(error)))
@@ -150,7 +151,7 @@ def rounded(value: float, error: float) -> tuple[str, str]:
 
 
 def with_error(value: float, up: float, down: float) -> str:
-    """"0.45 ± 0.03"; with errors of two sizes "0.985 (+0.015, -0.031)"."""
+    """Spells a number with its error: "0.45 ± 0.03"; with errors of two sizes "0.985 (+0.015, -0.031)"."""
     number, larger = rounded(value, max(up, down))
     if math.isclose(up, down, rel_tol=1e-9):
         return f"{number} ± {larger}"
@@ -160,7 +161,7 @@ def with_error(value: float, up: float, down: float) -> str:
 
 
 def upwards(factor: float, bound: float) -> str:
-    """A bound to two digits, away from zero."""
+    """Rounds a bound to two digits, away from zero."""
     size = factor * abs(bound)
     step = 10.0 ** (math.floor(math.log10(size)) - 1)
     return ("-" if bound < 0.0 else "") + f"{float(f'{step * math.ceil(size / step * (1 - 1e-12)):.2g}'):g}"

@@ -134,7 +134,13 @@ class Sweep:
             self.write_to(out)
 
     def write_to(self, out: files.Outputs) -> None:
-        """Writes the tables as they are at this moment. sweep.json is written last."""
+        """Writes the tables as they are at this moment. sweep.json is written last.
+
+        Parameters
+        ----------
+        out : files.Outputs
+            Writer of the directory's files.
+        """
         table = self.table
         means = table.means()
 
@@ -387,7 +393,7 @@ class Carried:
 
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
                  say: Callable[[str], None], also: Iterable[str] = ()):
-        """also: names of files that the caller will write."""
+        """Prepares the points of the scenes. also: names of files that the caller will write."""
         axes, fixed = axes_of(sets, [])
         found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
         names = [found[file]["name"] for file in scenes]

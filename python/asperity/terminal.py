@@ -46,7 +46,7 @@ def number(value: float, decimals: int) -> str:
 
 
 def minus(text: str) -> str:
-    """With the sign that is as wide as a digit."""
+    """Replaces the minus sign of a number by the one that is as wide as a digit."""
     return "−" + text[1:] if text.startswith("-") else text
 
 

@@ -365,10 +365,12 @@ TEST(SceneReader, ManyProblemsAreCounted) {
 }
 
 TEST(SceneReader, Advice) {
-    EXPECT_EQ(only("", {"body.height=1,5"}).fix, "write \"1.5\"");
-    for (const char* list : {"1.5,2", "1,2,3", "1e3,5"})
-        EXPECT_EQ(only("", {std::string("body.height=") + list}).fix,
-                  "several values of a key are for `asperity sweep`");
+    EXPECT_EQ(only("", {"body.height=1,5"}).fix,
+              "write \"1.5\" if that is meant; several values are for `asperity sweep`");
+    for (const std::string list : {"1.5,2", "1,2,3", "1e3,5"})
+        EXPECT_EQ(only("", {"body.height=" + list}).fix,
+                  "give one of them; all of them are for `asperity sweep SCENE --set KEY=" + list +
+                      "`");
     EXPECT_EQ(only("", {"body.height=77e9"}).fix,
               "give a value in that range; a number without a unit is in m, another unit is "
               "written as in \"1 m\"");

@@ -95,7 +95,8 @@ TEST(Units, MistakesAreExplained) {
     EXPECT_EQ(parse_quantity("3 nm", "").why, "a bare number is needed, and nm is a length");
     EXPECT_EQ(parse_quantity("nm", "Å").why, "it does not begin with a number");
     EXPECT_EQ(parse_quantity("", "Å").why, "it does not begin with a number");
-    EXPECT_EQ(parse_quantity("1,5 nm", "Å").fix, "write \"1.5 nm\"");
+    EXPECT_EQ(parse_quantity("1,5 nm", "Å").fix,
+              "write \"1.5 nm\" if that is meant; several values are for `asperity sweep`");
     EXPECT_EQ(parse_quantity("nan nm", "Å").why, "it is not a finite number");
     EXPECT_EQ(parse_quantity("inf", "Å").why, "it is not a finite number");
     EXPECT_EQ(parse_quantity("1e999 nm", "Å").why, "the number is too large or too small");

@@ -16,7 +16,7 @@ import pytest
 from asperity import convert as module
 from asperity import errors, program
 from asperity.convert import convert
-from asperity.errors import InputOutputError
+from asperity.errors import InputOutputError, SceneError
 from conftest import command
 
 N, PIXEL = 24, 0.25  # nm
@@ -140,7 +140,7 @@ def test_what_could_become_a_wrong_map_is_refused(tmp_path):
     convert(bad, out)
     with h5py.File(out) as file:
         assert file["heights"][:].tolist() == [[1, 2], [3, 4]] and not set(file["heights"].attrs)
-    with pytest.raises(InputOutputError, match="is there already"):
+    with pytest.raises(SceneError, match="is there already"):
         convert(bad, out)
     with pytest.raises(InputOutputError, match="is no name of an HDF5 file"):
         convert(bad, tmp_path / "out.npy")

@@ -171,7 +171,7 @@ def test_the_command(place):
 
 def test_what_a_solver_leaves_is_no_error_of_a_number(place):
     said = command("run", write_tiny(place), "--out", "run", "--progress", "off",
-                   says=["convergence, meV/Å²", "not in it: asperity estimate"])
+                   says=["convergence, meV/Å²", "are not included: asperity estimate"])
     assert "±" not in said and "uncertainty" not in said
     page = asperity.load("run").report().read_text()
     assert "solver converged to" in page and "effect of cutoff, spacing" in page and "±" not in page

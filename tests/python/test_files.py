@@ -44,7 +44,7 @@ path = ["approach"]
 series = 10
 """
 MINE = b"written by hand\n"
-MAP = ["map.npy", "--size", "32nm", "--unit", "Å", "--sites", "16", "--E", "50MPa", "--nu", "0.49", "--work", "50mJ/m2"]
+MAP = ["map.npy", "--size", "32nm", "--unit", "Å", "--sites", "16", "--E", "1GPa", "--nu", "0.49", "--work", "50mJ/m2"]
 COMMANDS = {
     "run": ["run", "q.toml", "--out", "out"],
     "moving": ["run", "d.toml", "--out", "out"],
@@ -158,7 +158,7 @@ def test_own_files_are_renewed_unless_they_were_changed(name, results, tmp_path)
     place = tmp_path / "again"
     shutil.copytree(results(name), place)  # a copy has other times, and the same record
     command(*words_of(name), cwd=place)
-    file = next(file for file in ("report.html", "export/relaxed.xyz", "export/substrate.vti", "export/gap-relaxed.png", "gamma.svg",
+    file = next(file for file in ("report.html", "export/relaxed.xyz", "export/substrate.vti", "export/gap-relaxed.png", "gamma.svg", "q/sweep.csv",
                                   "cost.csv") if (place / "out" / file).exists())
     (place / "out" / file).write_bytes((place / "out" / file).read_bytes() + b" ")
     before = there(place)
@@ -252,7 +252,7 @@ def test_an_input_is_kept(how, inputs, results, tmp_path):
             (place / "out" / files.RECORD).write_text(files.sealed_json({"files": record}))
         before = there(place)
         command("adhesion", source, *MAP[1:], "--out", "out", cwd=place, expect=2,
-                says=[f"out/map.npy: is there already and is not replaced", "which the command reads"])
+                says=["out/map.npy: is there already and is not replaced", "which the command reads"])
         assert there(place) == before
 
 

@@ -70,16 +70,17 @@ def test_a_unit_that_a_map_does_not_say_right(place):
     command("check", "-", given=MAP, says="heights in")
     hdf5("map.h5", unit="parsec", size_x=0.064, size_y=0.064)
     said = command("check", "-", given=MAP, expect=2, says="that is no unit of length")
-    assert "surface.file_unit" in said and "surface.file_size" in said
+    assert "surface.file_unit" in said
     settings = ["surface.file_unit=µm", "surface.file_size=64 nm"]
-    command("check", "-", "--set", *settings, given=MAP, says=["64", "they are not read"])
+    command("check", "-", "--set", *settings, given=MAP, says="640 Å wide, heights in µm")
     hdf5("map.h5", unit="V", size_x=64.0, size_y=64.0, size_unit="V")
     with pytest.raises(asperity.Error, match="another channel"):
         asperity.maps.read_map("map.h5")
     hdf5("map.h5", unit="nm", size_x=64.0, size_y=64.0, size_unit="V")
-    with pytest.raises(asperity.Error, match="remove size_x") as error:
+    with pytest.raises(asperity.Error, match="unit of its size, V, is none of length") as error:
         asperity.maps.read_map("map.h5", "nm")
-    assert "--unit" not in str(error.value)
+    assert "--unit" not in str(error.value) and "--size" in str(error.value)
+    assert asperity.maps.read_map("map.h5", "nm", 640.0).size == (640.0, 640.0)
     hdf5("map.h5", unit="nm")
     assert asperity.maps.read_map("map.h5", None, 640.0).size == (640.0, 640.0)
 
@@ -87,14 +88,16 @@ def test_a_unit_that_a_map_does_not_say_right(place):
 def test_a_line_of_names_above_columns(place):
     rows = "\n".join(f"{x / 10},{y / 5},{1 + x + 10 * y}" for y in range(4) for x in range(4))
     (place / "names.csv").write_text("x,y,z\n" + rows + "\n")
-    assert "its columns are x, y, z" in convert("names.csv", "names.h5")
-    assert read_heights("names.csv")["heights"].tolist() == [[1 + x + 10 * y for x in range(4)] for y in range(4)]
+    heights = [[1 + x + 10 * y for x in range(4)] for y in range(4)]
+    assert read_heights("names.csv")["heights"].tolist() == heights
     (place / "others.csv").write_text("y,x,z\n" + rows + "\n")
-    with pytest.raises(asperity.Error, match="it names columns: y,x,z"):
-        read_heights("others.csv")
+    assert read_heights("others.csv")["heights"].T.tolist() == heights
+    (place / "unknown.csv").write_text("easting,northing,z\n" + rows + "\n")
+    with pytest.raises(asperity.Error, match="they are called easting, northing, z, and none are x and y"):
+        read_heights("unknown.csv")
     matrix = "\n".join(" ".join(str(x + y) for x in range(4)) for y in range(4))
     (place / "titled.txt").write_text("height of the film\n" + matrix + "\n")
-    with pytest.raises(asperity.Error, match="put a # before it"):
+    with pytest.raises(asperity.Error, match="put a # before the names"):
         read_heights("titled.txt")
     (place / "titled.txt").write_text("# height of the film\n" + matrix + "\n")
     assert read_heights("titled.txt")["heights"].shape == (4, 4)

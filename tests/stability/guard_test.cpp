@@ -80,7 +80,8 @@ TEST(Guard, NoStepJumpsOverThePotential) {
 }
 
 TEST(Guard, APathWithoutTimeEndsWhereItsEnergyIsOff) {
-    EXPECT_TRUE(has(refusal<io::PhysicsError>(still + "drive.tolerance = 1\n"), "energy balance"));
+    EXPECT_TRUE(
+        has(refusal<io::PhysicsError>(still + "drive.tolerance = 0.9\n"), "energy balance"));
 }
 
 TEST(Guard, AFailedRunGoesOnFromItsLastGoodState) {

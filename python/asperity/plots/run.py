@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 
 from .. import theories
 from ..errors import InputOutputError
-from ..result import Result, State, Values
+from ..result import Result, State
 from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into,
                     finish, image, millijoules)

@@ -216,7 +216,7 @@ def make(draw: Callable[[Axes], bool]) -> Figure | None:
 
 
 def picture(fig: Figure, kind: str) -> bytes:
-    """A figure as the content of a file: "png", "pdf" or "svg"."""
+    """Returns a figure as the content of a file; kind: "png", "pdf" or "svg"."""
     kept = _made.setdefault(fig, {})  # the SVG is wanted twice
     if kind not in kept:
         stream = io.BytesIO()
@@ -228,7 +228,7 @@ def picture(fig: Figure, kind: str) -> bytes:
 
 
 def files_of(stem: str, kinds: Iterable[str] = KINDS) -> list[str]:
-    """The names of the files of a figure: stem.png, .pdf, .svg."""
+    """Returns the names of the files of a figure: stem.png, .pdf, .svg."""
     return [f"{stem}.{kind}" for kind in kinds]
 
 

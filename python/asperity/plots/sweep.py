@@ -289,7 +289,7 @@ def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
 
 
 def plot_files(simulated: bool) -> list[str]:
-    """The names of all files that write_plots() may write."""
+    """Returns the names of all files that write_plots() may write."""
     return [file for name in (SIMULATED if simulated else OF_THEORY) for file in files_of(name)]
 
 
