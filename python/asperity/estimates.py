@@ -161,9 +161,12 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         heights = heights[start:start + n, start:start + n]
     if of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
-        made["surface"].update(rms=None, file=str(Path(file_beside(of.text("surface.file"), scene)).resolve()))
-        with scene_file(made) as file:
-            heights = heights * (of.number("surface.rms") / surface_made(file).rms)
+        size = float(np.nanstd(heights)) or 1.0  # as it is, the map may be of any size
+        with tempfile.TemporaryDirectory(prefix="asperity-") as there:
+            np.save(Path(there) / "map.npy", heights / size)
+            made["surface"].update(rms=None, file=f"{there}/map.npy", file_unit="Å", file_size=edge)
+            with scene_file(made) as file:
+                heights = heights * (of.number("surface.rms") / (size * surface_made(file).rms))
 
     def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
                setting: Setting = ()) -> list[Variation]:

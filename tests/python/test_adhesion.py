@@ -163,7 +163,8 @@ def test_pieces_of_a_scaled_map_are_scaled_alike(place):
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "nm", "file_size": 83.2, "sites": 32,
                          "detrend": "periodic", "resample": "band-limited"},
              "block": {"thickness": 32}, "drive": {"path": ["relax"]}}
-    as_measured = asperity.run(scene, out="whole").surface.rms
+    np.save("small.npy", heights / 100)  # as it is, the map is larger than the box
+    as_measured = 100 * asperity.run(scene, {"surface.file": "small.npy"}, out="whole").surface.rms
     found = asperity.estimate(scene, {"surface.rms": 0.5}, "found", parts="edge,places").numbers["binding_energy"]
     quarter, mirrored = (np.load(f"found/maps/{name}.npy") for name in ("quarter-1", "mirrored"))
     np.testing.assert_allclose(quarter, 10 * heights[:32, :32] * 0.5 / as_measured, rtol=1e-9)
