@@ -268,7 +268,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
     const double aim = course_.rule.aim();
     for (;;) {
         const bool all_the_way = bisect();
-        if (std::isfinite(last_.last_dt())) // a step continues no one that is much shorter
+        if (std::isfinite(last_.last_dt())) // at most twice as long as the step that it continues
             length_ = std::min(length_, 2.0 * last_.last_dt() * options_.velocity);
         const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
         const double planned = length_;
@@ -307,13 +307,15 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
                        {allowed_missing_in_time(way, tolerance), allowed_uncertainty(tolerance),
                         last_try, is_short_in_time(way), state.branches.error});
             // A force that has fallen further than was known asks for a smaller tolerance.
-            const bool coarse = !last_try && 2.0 * tolerance_under(state.force) < tolerance;
-            if (step.verdict != StepDecision::halve && !coarse) {
+            const bool loose = !last_try && 2.0 * tolerance_under(state.force) < tolerance;
+            const bool decided = step.verdict != StepDecision::halve;
+            if (decided && !loose) {
                 accept(state, there, step);
                 if (arrives) length_ = std::max(length_, planned);
                 return outcome();
             }
-            if (!step.excess && !step.coarse) bracket_ = {there, trial.force};
+            // A step that is only loose or coarse passes no instability: there is none to bracket.
+            if (!decided && !step.excess && !step.coarse) bracket_ = {there, trial.force};
         } else if (state.jumped && is_short_in_time(way)) {
             bracket_ = {there, state.force};
         }

@@ -6,7 +6,7 @@
 #include "engine/waves/preconditioner.hpp"
 #include "kernels/elastic_level.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <span>
 #include <utility>
 
