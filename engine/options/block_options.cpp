@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/options/block_options.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace asperity {
+
+double BlockOptions::sound_speed() const {
+    const double density = atom_mass / (spacing * spacing * spacing);
+    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
+}
+
+CellElasticity BlockOptions::elasticity(int level) const { return cell(spacing * (1 << level)); }
+
+std::vector<Material> BlockOptions::materials() const {
+    std::vector<Material> all;
+    for (const MaterialLayer& layer : layers)
+        all.push_back(layer.material);
+    all.push_back(*this);
+    return all;
+}
+
+double BlockOptions::softest_column() const {
+    double softest = HUGE_VAL;
+    for (const Material& m : materials())
+        softest = std::min(softest, m.lame() + 2.0 * m.shear_modulus());
+    return softest;
+}
+
+std::vector<CellLayer> BlockOptions::column() const {
+    std::vector<CellLayer> column;
+    const auto add = [&](const Material& material, int cells) {
+        const CellElasticity elasticity = material.cell(spacing);
+        if (!column.empty() && column.back().elasticity == elasticity)
+            column.back().cells += cells;
+        else if (cells > 0)
+            column.push_back({elasticity, cells});
+    };
+    int rest = thickness;
+    for (const MaterialLayer& layer : layers) {
+        add(layer.material, layer.cells);
+        rest -= layer.cells;
+    }
+    add(*this, rest);
+    return column;
+}
+
+SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
+    SurfaceMatrix s = surface_stiffness(column(), x, y);
+    s.zz += surface_stress * (2.0 * (1.0 - x.cosine) + 2.0 * (1.0 - y.cosine));
+    return s;
+}
+
+double BlockOptions::softest_wave() const {
+    if (layers.empty()) return contact_modulus() * std::numbers::pi / (sites * spacing);
+    return 1.0 / inverse(stiffness(wave_phase(1, sites), wave_phase(0, sites))).zz /
+           (spacing * spacing);
+}
+
+double BlockOptions::highest_frequency(double site_stiffness) const {
+    // The largest eigenvalue of the bulk's dynamical matrix is that of a longitudinal wave, of
+    // phases (pi, 0, 0) or, below a Poisson ratio of about 0.12, (t, t, t). With c = cos t it is
+    // there (1 - c) (24 kappa (1 + c)^2 + k (10 + 8 c)), whose derivative vanishes at the root of
+    // 72 kappa c^2 + (48 kappa + 16 k) c + 2 k - 24 kappa that is -1/8 for kappa = 0. Surfaces and
+    // coarser levels have no higher one. tests/engine/block_test.cpp searches the whole zone.
+    const CellElasticity e = elasticity(0);
+    const double axis = 64.0 * e.kappa + 12.0 * e.k;
+    const double a = 72.0 * e.kappa, b = 48.0 * e.kappa + 16.0 * e.k,
+                 d = 2.0 * e.k - 24.0 * e.kappa;
+    const double c = -2.0 * d / (b + std::sqrt(b * b - 4.0 * a * d));
+    const double diagonal =
+        (1.0 - c) * (24.0 * e.kappa * (1.0 + c) * (1.0 + c) + e.k * (10.0 + 8.0 * c));
+    return std::sqrt((std::max(axis, diagonal) + site_stiffness) / atom_mass);
+}
+
+std::vector<LevelShape> level_shapes(const BlockOptions& options) {
+    std::vector<LevelShape> shapes;
+    int rest = options.thickness, sites = options.sites;
+    for (int level = 0;; ++level) {
+        const int least = options.layers_per_level;
+        // One cell more where the rest would not divide by two.
+        const int cells = least + ((rest - least) & 1);
+        const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
+        shapes.push_back({level, sites, coarsen ? cells : rest});
+        if (!coarsen) return shapes;
+        rest = (rest - cells) / 2;
+        sites /= 2;
+    }
+}
+
+double nodes_of(const std::vector<LevelShape>& levels) {
+    double nodes = 0.0;
+    for (const LevelShape& l : levels)
+        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
+    return nodes;
+}
+
+} // namespace asperity
