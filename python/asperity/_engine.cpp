@@ -516,9 +516,10 @@ PYBIND11_MODULE(_engine, m) {
             "restore",
             [](LedPath& s, const py::object& state) {
                 if (!py::isinstance<State>(state))
-                    throw io::SceneError({"restore", "is given " + given_text(state),
-                                          "it takes a State, where the sites stand",
-                                          "give what copy() returned, or State(u, top)"});
+                    throw io::SceneError(
+                        {"restore", "is given " + given_text(state),
+                         "it takes a State, where the sites stand",
+                         "give what copy() returned, or asperity.engine.State(u, top)"});
                 s.restore(state.cast<const State&>());
             },
             py::arg("state"),
