@@ -185,7 +185,7 @@ void LedPath::restore(const State& state) {
             extensions += branch.size() * state.u.size() / 3;
     if (!state.branches.empty() && state.branches.size() != extensions)
         refuse("restore", "of a state with other branches", "the scene has another block.prony",
-               "give a state of this scene, or asperity.engine.State(u, top), which has relaxed");
+               "give a state of this scene, or asperity.State(u, top), which has relaxed");
     if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
         !std::isfinite(state.top))
         refuse("restore", "of displacements that are no numbers", "no state follows from them",

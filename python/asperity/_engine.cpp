@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// asperity._engine: the paths of the engine that a script steps and leads, for Python. engine.py
+// asperity._engine: the paths of the engine that a script steps and leads, for Python. running/engine.py
 // makes the classes of them that users see.
 #include "decomposition/communicator.hpp"
 #include "engine/script/led_path.hpp"
@@ -519,14 +519,14 @@ PYBIND11_MODULE(_engine, m) {
                     throw io::SceneError(
                         {"restore", "is given " + given_text(state),
                          "it takes a State, where the sites stand",
-                         "give what copy() returned, or asperity.engine.State(u, top)"});
+                         "give what copy() returned, or asperity.State(u, top)"});
                 s.restore(state.cast<const State&>());
             },
             py::arg("state"),
             "Puts the sites into a state. The next relax() begins a path in it: work, dissipated "
             "and "
             "number count anew.\n\n"
-            "Parameters\n----------\nstate : State\n    Result of copy(), or State(u, top).\n\n"
+            "Parameters\n----------\nstate : State\n    Result of copy(), or asperity.State(u, top).\n\n"
             "Raises\n------\nSceneError\n    If the state has another number of sites, or values "
             "that are not finite.")
         .def(

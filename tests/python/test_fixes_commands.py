@@ -16,19 +16,15 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import asperity
-import asperity.cost
-import asperity.engine
-import asperity.files
-import asperity.grid
-import asperity.plots
-import asperity.program
-import asperity.state_search
-import asperity.sweeps
 import asperity.terminal
 import numpy as np
 import pytest
 import test_fixes_files
 import test_fixes_scene
+from asperity.files import store
+from asperity.results import result
+from asperity.running import program
+from asperity.studies import grid, states
 from conftest import unsealed
 from following import ask, followed, not_followed
 
@@ -52,7 +48,7 @@ EXCUSED = {
     "files.hpp": "a machine's disk",
     "hdf5_file.cpp...check the space on its disk": "a machine's disk",
     "hdf5_file.cpp...check its directory and the space on its disk": "a machine's disk",
-    "files.py...check its permissions and the space on its disk": "a machine's disk",
+    "store.py...check its permissions and the space on its disk": "a machine's disk",
     "check that the file is whole": "a machine's disk",
     "hdf5_file.cpp...check that it is whole": "followed in test_fixes_files.py",
     "this is a mistake in the program": "a mistake in the program",
@@ -244,8 +240,8 @@ PYTHON = [
     (r'take drive.path = (\[.*\]) in the scene', lambda: error(lambda: statics(block__prony=[[1.0, "1 ns"]]).hold(1.0)), lambda path: statics(block__prony=[[1.0, "1 ns"]], drive__path=json.loads(path), drive__mode="quasistatic").hold(1.0)),
     ("a time is above 0 ps(?s:.*)give one", lambda: error(lambda: soft().hold(-1.0)), lambda: soft().hold(1.0)),
     ("give a state of this scene", lambda: error(lambda: statics().restore(statics(surface__sites=20).copy())), lambda: (lambda s: s.restore(s.copy()))(statics())),
-    (r"or asperity.engine.State\(u, top\)", lambda: error(lambda: soft().restore(soft([[2.0, "1 ns"], [1.0, "2 ns"]]).copy())), lambda: soft().restore(asperity.engine.State(np.zeros((3, 16, 16)), 5.0))),
-    ("no state follows from them(?s:.*)write numbers", lambda: error(lambda: statics().restore(asperity.engine.State(np.full((3, 16, 16), np.nan), 5.0))), lambda: statics().restore(asperity.engine.State(np.zeros((3, 16, 16)), 5.0))),
+    (r"or asperity.State\(u, top\)", lambda: error(lambda: soft().restore(soft([[2.0, "1 ns"], [1.0, "2 ns"]]).copy())), lambda: soft().restore(asperity.State(np.zeros((3, 16, 16)), 5.0))),
+    ("no state follows from them(?s:.*)write numbers", lambda: error(lambda: statics().restore(asperity.State(np.full((3, 16, 16), np.nan), 5.0))), lambda: statics().restore(asperity.State(np.zeros((3, 16, 16)), 5.0))),
     ("begin another Statics", lambda: error(lambda: (lambda s: (setattr(s, "top", 9.0), setattr(s, "mean_height", 8.0)))(statics())), lambda: setattr(statics(), "mean_height", 8.0)),
     ("the top plane needs a number(?s:.*)give one", lambda: error(lambda: setattr(sim().top, "velocity", float("nan"))), lambda: setattr(sim().top, "velocity", 0.0)),
     ("only finite numbers can be stepped with(?s:.*)write numbers", lambda: error(lambda: (lambda s: (s.u.z.fill(np.nan), s.step(1)))(sim())), lambda: (lambda s: (s.u.z.fill(0.0), s.step(1)))(sim())),
@@ -271,8 +267,8 @@ PYTHON = [
     ('remove the member "digest"', lambda: (change("still/result.json", '"t"', '"u"'), error(lambda: asperity.load("still")))[1], lambda: (change("still/result.json", json.loads(Path("still/result.json").read_text())["digest"], ""), Path("still/result.json").write_text(re.sub(r',?\s*"digest": ?""', "", Path("still/result.json").read_text())), asperity.load("still"))),
     ("a run that was killed leaves no result.json before it is (resumed)", lambda: (Path("part/run.h5").unlink(missing_ok=True), error(lambda: asperity.load("part")))[1], lambda word: (good(*run("--resume", "auto", "--out", "part", "--set", "drive.max_steps=none")), asperity.load("part"))),
     ("name a directory that a run has written", lambda: error(lambda: asperity.load("gone")), lambda: asperity.load("still")),
-    ("the theory alone and a run that failed early have none", lambda: (good("theory", "t.toml", "--out", "o"), error(lambda: asperity.result.RunFile(Path("o/run.h5")).array("x", 2)))[1], lambda: asperity.load("still").relaxed),
-    ("run the scene again, or resume it", lambda: (cut("still/run.h5"), error(lambda: asperity.result.RunFile(Path("still/run.h5")).array("x", 2)))[1], lambda: (shutil.rmtree("still"), good("run", "t.toml", "--out", "still"), asperity.load("still").relaxed)),
+    ("the theory alone and a run that failed early have none", lambda: (good("theory", "t.toml", "--out", "o"), error(lambda: result.RunFile(Path("o/run.h5")).array("x", 2)))[1], lambda: asperity.load("still").relaxed),
+    ("run the scene again, or resume it", lambda: (cut("still/run.h5"), error(lambda: result.RunFile(Path("still/run.h5")).array("x", 2)))[1], lambda: (shutil.rmtree("still"), good("run", "t.toml", "--out", "still"), asperity.load("still").relaxed)),
     ("a run has one or more(?s:.*)leave it out for one", lambda: error(lambda: asperity.run("t.toml", ranks=0, out="o")), lambda: asperity.run("t.toml", out="o")),
     ("give a number, a text, true or false", lambda: error(lambda: asperity.run({"surface": {"rms": object()}})), lambda: asperity.run({"surface": {"rms": 0.5, "sites": 16}, "drive": {"path": ["relax"]}}, out="o")),
     (r'or (\["surface.rms=2.0"\])', lambda: error(lambda: asperity.run("t.toml", 5)), lambda words: asperity.run("t.toml", json.loads(words), out="o")),
@@ -285,13 +281,13 @@ PYTHON = [
     (r'for example (\{"surface.rms": .*\})', lambda: error(lambda: asperity.sweep("t.toml", 5)), lambda values: asperity.sweep("t.toml", json.loads(values), theory_only=True, out="p")),
     ("wait for its end", lambda: in_use(lambda: bad("run", "t.toml", "--out", "o")), lambda: good("run", "t.toml", "--out", "o")),
     ("wait for its end", lambda: in_use(lambda: bad("theory", "t.toml", "--out", "o")), lambda: good("theory", "t.toml", "--out", "o")),
-    ("give what copy() returned, or asperity.engine.State".replace("(", r"\(").replace(")", r"\)"), lambda: error(lambda: statics().restore(5)), lambda: (lambda s: s.restore(s.copy()))(statics())),
+    ("give what copy() returned, or asperity.State".replace("(", r"\(").replace(")", r"\)"), lambda: error(lambda: statics().restore(5)), lambda: (lambda s: s.restore(s.copy()))(statics())),
     ('or a text with a unit, for example "(.*)"', lambda: error(lambda: setattr(statics(), "top", [1])), lambda text: setattr(statics(), "top", text)),
     ('or one with a unit, for example "(.*)"', lambda: error(lambda: setattr(statics(), "top", "soon")), lambda text: setattr(statics(), "top", text)),
     (r"give an array \[y, x, 3\], or", lambda: error(lambda: setattr(sim(), "external", np.zeros(3))), lambda: setattr(sim(), "external", np.zeros((16, 16, 3)))),
-    (r"give an array \[3, y, x\]", lambda: error(lambda: asperity.engine.State(np.zeros(3))), lambda: asperity.engine.State(np.zeros((3, 4, 4)))),
+    (r"give an array \[3, y, x\]", lambda: error(lambda: asperity.State(np.zeros(3))), lambda: asperity.State(np.zeros((3, 4, 4)))),
     ("name another file, or move it away", lambda: (blank("m.txt"), os.symlink("nowhere", "m.h5"), bad("convert", "m.txt", "m.h5"))[2], lambda: (Path("m.txt").write_text("# Width: 1 nm\n# Height: 1 nm\n# Value units: nm\n" + "1 2\n2 1\n"), good("convert", "m.txt", "n.h5"))),
-    ("or set ASPERITY_PROGRAM to its path", lambda: no_program(), lambda: asperity.program.path()),
+    ("or set ASPERITY_PROGRAM to its path", lambda: no_program(), lambda: program.path()),
 ]
 MADE: list[Path] = []
 
@@ -299,7 +295,7 @@ MADE: list[Path] = []
 def swept(*sets, out=None, **options):
     """A sweep of the theory, without its pictures."""
     words = [word for word in sets if "=" in word]
-    values = {word.partition("=")[0]: asperity.grid.axes_of([word], [])[0] for word in words}
+    values = {word.partition("=")[0]: grid.axes_of([word], [])[0] for word in words}
     several = {key: axes[0].values for key, axes in values.items() if axes}
     fixed = [word for word in words if not values[word.partition("=")[0]]]
     return asperity.sweep({**tomllib.loads(STILL), "name": "t"}, several, theory_only=True, out=out or "swept-theory") if not fixed else good(
@@ -317,14 +313,14 @@ def without(file, name):
 
 def in_use(call):
     """What is said while another process has the directory o."""
-    lines = "import pathlib, sys, asperity.files\nwith asperity.files.in_use(pathlib.Path('o')):\n print('there', flush=True)\n sys.stdin.read()"
+    lines = "import pathlib, sys, asperity.files.store as store\nwith store.in_use(pathlib.Path('o')):\n print('there', flush=True)\n sys.stdin.read()"
     with subprocess.Popen([sys.executable, "-c", lines], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}) as other:
         other.stdout.readline()
         return call()
 
 
 def no_program():
-    lines = "import pathlib, shutil, os, asperity.program as p\nos.path.isfile = lambda place: False\nshutil.which = lambda name: None\np.path()"
+    lines = "import pathlib, shutil, os, asperity.running.program as p\nos.path.isfile = lambda place: False\nshutil.which = lambda name: None\np.path()"
     done = subprocess.run([sys.executable, "-c", lines], capture_output=True, text=True, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
     return done.stderr.partition("InputOutputError: ")[2]
 
@@ -332,8 +328,8 @@ def no_program():
 def unreadable():
     """Writes a file of a stopped search that is none."""
     Path("o").mkdir()
-    Path("o", asperity.state_search.UNFINISHED).write_bytes(b"PK no such file")
-    asperity.files._update(Path("o"), lambda _: {asperity.state_search.UNFINISHED: asperity.files.UNFINISHED})
+    Path("o", states.UNFINISHED).write_bytes(b"PK no such file")
+    store._update(Path("o"), lambda _: {states.UNFINISHED: store.UNFINISHED})
 
 
 def ended():
@@ -354,10 +350,10 @@ def stopped_search():
         if len(told) == 5:
             raise KeyboardInterrupt
 
-    before, asperity.state_search.SAVE_EVERY = asperity.state_search.SAVE_EVERY, 0.0
+    before, states.SAVE_EVERY = states.SAVE_EVERY, 0.0
     with contextlib.suppress(KeyboardInterrupt):
         asperity.states("t.toml", {"surface.rms": 0.7}, out="o", starts=1, report=stop)
-    asperity.state_search.SAVE_EVERY = before
+    states.SAVE_EVERY = before
 
 
 def other_search():

@@ -7,16 +7,16 @@ import re
 from pathlib import Path
 
 import asperity
-import asperity.maps
-import asperity.measured
 import h5py
 import numpy as np
 import pytest
-from asperity.convert import convert, read_heights
+from asperity.maps import height_map
+from asperity.maps.convert import convert, read_heights
+from asperity.studies import map_scene
 from following import ask, followed, messages_in, not_followed
 
-SOURCES = ("map_file.cpp", "map_meaning.cpp", "height_map.cpp", "atoms_file.cpp", "scene_file.cpp", "hdf5_numbers.cpp", "convert.py",
-           "channels.py", "map_text.py", "map_arrays.py", "maps.py", "atoms_files.py", "measured.py")
+SOURCES = ("map_file.cpp", "map_meaning.cpp", "height_map.cpp", "atoms_file.cpp", "scene_file.cpp", "hdf5_numbers.cpp", "maps/channels.py", "maps/arrays.py",
+           "maps/text.py", "maps/atoms.py", "maps/convert.py", "maps/height_map.py", "map_scene.py")
 EXCUSED = {
     "is larger than the memory": "a machine's memory",
     "free memory, or raise ulimit -u": "a machine's memory",
@@ -184,7 +184,7 @@ def test_text_of_atoms_is_converted():
 def as_map(name, content, **options):
     """Reads a map as `adhesion` does."""
     write(name, content)
-    return asperity.maps.read_map(name, **{"unit": "nm", **options})
+    return height_map.read_map(name, **{"unit": "nm", **options})
 
 
 def as_file(name, content, channel=None, target="t.h5"):
@@ -203,7 +203,7 @@ def scene_of(name, content, work="50 mJ/m^2", young="100 GPa", **options):
     write(name, content)
     made = Path("made")
     made.mkdir(exist_ok=True)
-    return asperity.measured.scene_of(name, young, 0.25, work, made, **options)
+    return map_scene.scene_of(name, young, 0.25, work, made, **options)
 
 
 GWYDDION = "# Width: 8.32 nm\n# Height: 8.32 nm\n# Value units: Å\n"
