@@ -56,14 +56,14 @@ def not_followed(places: tuple[str, ...], excused: dict[str, str], others: bool 
     Parameters
     ----------
     places : tuple of str
-        Ends of the sources' names without their folder.
+        Parts of the sources' paths.
     excused : dict of str
         Part of a message in the catalogue ("..." stands for anything), and why no user can follow it here.
     """
     def is_part(part: str, message: object) -> bool:
         return re.search(".*".join(map(re.escape, part.split("..."))), str(message)) is not None
 
-    mine = [m for m in catalogue() if m.place.partition(":")[0].endswith(places) != others]
+    mine = [m for m in catalogue() if any(place in m.place for place in places) != others]
     unused = [part for part in excused if not any(is_part(part, m) for m in mine)]
     assert not unused, f"excuses for messages that do not exist: {unused}"
     return [str(m) for m in mine if not any(is_part(part, m) for part in excused) and not any(map(m.is_said, heard))]

@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 from following import ask, followed, not_followed
 
-SOURCES = ("scene.cpp", "segment.cpp", "checks.cpp", "pair_potentials.cpp", "proportions.cpp", "resolve.cpp", "spacing_limits.cpp",
-           "tables.cpp", "case_surface.cpp", "surface_atoms.cpp", "potential_table.cpp", "process_grid.cpp", "theory_case.cpp", "scene_reader.cpp", "scene_toml.cpp", "table_file.cpp", "units.cpp")
+SOURCES = ("engine/scene/", "engine/options/", "engine/setup/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
+           "io/scene_reader", "io/scene_toml", "io/table_file", "io/units")
 EXCUSED = {
+    "the attraction did not reach the pull": "followed in test_fixes_commands.py",
     "its surface does not fit into memory": "a machine's memory",
     "has what is no number": "the reader of tables refuses it before",
     "the substrate has no atoms": "the reader of atoms refuses it before",
@@ -374,8 +375,7 @@ def test_a_fix_of_the_theory(place, says, bad, good, base):
     def theory(settings):
         return ask("theory", "-", "--out", "out", "--set", *(f"{k}={v}" for k, v in settings.items() if v is not None), given=TEXT)
 
-    for name in ("atoms.h5",):
-        Path(name).symlink_to(FOLDER[0] / name)
+    Path("atoms.h5").symlink_to(FOLDER[0] / "atoms.h5")
     code, said = theory({**base, **bad})
     found = re.search(says, said)
     assert code == 2 and found, said
