@@ -16,8 +16,8 @@
 #include "engine/dynamics/drive.hpp"
 #include "engine/dynamics/thermostat.hpp"
 #include "engine/interface/interface.hpp"
+#include "engine/options/simulation_options.hpp"
 #include "engine/phases.hpp"
-#include "engine/scene/device_choice.hpp"
 #include "engine/step_record.hpp"
 
 #include <array>
@@ -27,19 +27,6 @@
 namespace asperity {
 
 class DeviceBlock;
-
-/// Options of a simulation.
-struct SimulationOptions {
-    BlockOptions block;
-    InterfaceOptions interface;
-    DriveOptions drive;
-    double dt = 10.0;          ///< fs
-    double damping = 0.0;      ///< 1/fs
-    double damping_from = 0.0; ///< fraction of the thickness above which damping acts
-    double temperature = 0.0;  ///< K
-    std::uint64_t seed = 1;    ///< seed of the noise
-    DeviceChoice device;       ///< device that makes the steps; none: the processor
-};
 
 /// Work and dissipation since the start, eV.
 struct EnergyBalance {

@@ -8,8 +8,8 @@
 // By hand: the caller leads the block to a place or a load, in place of the scene's segments.
 #pragma once
 
-#include "engine/equilibrium/quasistatic.hpp"
 #include "engine/path/path.hpp"
+#include "engine/statics/quasistatic.hpp"
 
 #include <optional>
 

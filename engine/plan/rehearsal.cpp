@@ -3,10 +3,11 @@
 #include "engine/plan/rehearsal.hpp"
 
 #include "decomposition/aligned_array.hpp"
-#include "engine/equilibrium/quasistatic.hpp"
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/dynamics/simulation.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/run/recorder.hpp"
+#include "engine/statics/quasistatic.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "io/error.hpp"
 
 #include <algorithm>

@@ -5,7 +5,7 @@
 // renormalised theory (python/asperity/theory/renormalised.py) needs.
 #pragma once
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "theory/flat_interface.hpp"
 #include "theory/spectrum.hpp"
 

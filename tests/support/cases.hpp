@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/dynamics/simulation.hpp"
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/waves/spectral_block.hpp"
 
 #include <algorithm>
