@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// asperity._engine: the paths of the engine that a script steps and leads, for Python. running/engine.py
-// makes the classes of them that users see.
+// asperity._engine: the paths of the engine that a script steps and leads, for Python.
+// running/engine.py makes the classes of them that users see.
 #include "decomposition/communicator.hpp"
 #include "engine/script/led_path.hpp"
 #include "engine/script/stepped_path.hpp"
@@ -96,7 +96,7 @@ py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& 
     const auto one = [&](const PlaneView<double>& plane) {
         return array_of(plane, path.lease(), writable);
     };
-    return py::module_::import("asperity.engine")
+    return py::module_::import("asperity.running.engine")
         .attr("Components")(one(view->x), one(view->y), one(view->z));
 }
 
@@ -516,16 +516,17 @@ PYBIND11_MODULE(_engine, m) {
             "restore",
             [](LedPath& s, const py::object& state) {
                 if (!py::isinstance<State>(state))
-                    throw io::SceneError({"restore", "is given " + given_text(state),
-                                          "it takes a State, where the sites stand",
-                                          "give what copy() returned, or State(u, top)"});
+                    throw io::SceneError(
+                        {"restore", "is given " + given_text(state),
+                         "it takes a State, where the sites stand",
+                         "give what copy() returned, or asperity.State(u, top)"});
                 s.restore(state.cast<const State&>());
             },
             py::arg("state"),
             "Puts the sites into a state. The next relax() begins a path in it: work, dissipated "
             "and "
             "number count anew.\n\n"
-            "Parameters\n----------\nstate : State\n    Result of copy(), or State(u, top).\n\n"
+            "Parameters\n----------\nstate : State\n    Result of copy(), or asperity.State(u, top).\n\n"
             "Raises\n------\nSceneError\n    If the state has another number of sites, or values "
             "that are not finite.")
         .def(
