@@ -94,14 +94,13 @@ void check_layers(const Case& c, io::Problems& problems) {
     const auto& block = scene.block;
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
                                     "its surface, has them";
-    constexpr const char* take_rest = "take drive.mode = \"quasistatic\", or leave {} out";
     if (c.in_time && !block.layers.empty())
         problems.add("block.layers", "= [...] on a dynamic path", at_rest,
-                     fmt::format(fmt::runtime(take_rest), "layers"));
+                     "take drive.mode = \"quasistatic\", or leave layers out");
     if (c.in_time && block.surface_stress > 0.0)
         problems.add("block.surface_stress",
                      fmt::format("= {:.6g} N/m on a dynamic path", block.surface_stress), at_rest,
-                     fmt::format(fmt::runtime(take_rest), "surface_stress"));
+                     "take drive.mode = \"quasistatic\", or leave surface_stress out");
     if (block.surface_stress > 0.0 && !block.prony.empty())
         problems.add("block.surface_stress",
                      fmt::format("= {:.6g} N/m with block.prony", block.surface_stress),
