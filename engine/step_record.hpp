@@ -27,6 +27,7 @@ struct StepRecord : ContactCount {
     long long step = 0;       ///< number of the step, or of the point of a quasi-static path
     double time = 0.0;        ///< fs
     double top = 0.0;         ///< displacement of the top plane, Å
+    double drive = 0.0;       ///< displacement of the far end of the spring that holds it, Å
     double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
@@ -42,8 +43,9 @@ struct StepRecord : ContactCount {
     /// Work of the drive and of forces from outside on the solids, from rest apart: it includes the
     /// energy of the block at the start, and that of values written to its fields.
     double work = 0.0;
-    double branch_energy = 0.0; ///< part of elastic_energy in a block's branches
-    double relaxed = 0.0;       ///< energy dissipated by the branches since the start
+    double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
+    double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
+    double relaxed = 0.0;        ///< energy dissipated by the branches since the start
     /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
     /// the energy dissipated at instabilities.
     double damped = 0.0;
@@ -60,6 +62,7 @@ struct StepRecord : ContactCount {
         v("step", step);
         v("time", time);
         v("top", top);
+        v("drive", drive);
         v("mean_height", mean_height);
         v("force", force);
         v("top_force", top_force);
@@ -73,6 +76,7 @@ struct StepRecord : ContactCount {
         ContactCount::visit(v);
         v("work", work);
         v("branch_energy", branch_energy);
+        v("machine_energy", machine_energy);
         v("relaxed", relaxed);
         v("damped", damped);
         v("interface_work", interface_work);

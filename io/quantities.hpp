@@ -263,6 +263,8 @@ inline constexpr Quantity result_quantities[] = {
     {"energy.damped", "eV", per::block,
      "energy lost since the start: damped on dynamic paths (less the heat of the thermostat's "
      "noise), dissipated at instabilities on quasi-static ones"},
+    {"energy.spring", "eV", per::block,
+     "of energy.elastic, that of the spring that holds the top plane (drive.stiffness)"},
     {"energy.branches", "eV", per::block,
      "of energy.elastic, what the branches of a block that relaxes store"},
     {"energy.dissipated_in_block", "eV", per::block,

@@ -272,6 +272,22 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "frictionless = false");
 
     check_path(c, problems);
+    if (drive.stiffness) {
+        const std::string value = fmt::format("= {:.6g} N/m", *drive.stiffness);
+        if (c.in_time)
+            problems.add("drive.stiffness", value + " on a dynamic path",
+                         "a spring holds the top plane of a quasi-static path",
+                         "take drive.mode = \"quasistatic\", or leave stiffness out");
+        else if (drive.control == Control::mean_height)
+            problems.add("drive.stiffness", value + " with drive.control = \"mean-height\"",
+                         "the mean height is prescribed as by a machine that is hard, whatever "
+                         "holds the top plane",
+                         "take control = \"top\", or leave stiffness out");
+        if (!scene.block.prony.empty())
+            problems.add("drive.stiffness", value + " with block.prony",
+                         "what a block remembers is measured from a top plane that the drive moves",
+                         "leave stiffness or prony out");
+    }
     if (drive.control == Control::mean_height && c.in_time)
         problems.add("drive.control", "= \"mean-height\" on a dynamic path",
                      "a dynamic path prescribes the top plane; the mean height of the lowest layer "
@@ -450,7 +466,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
     }
     if (c.path.size() == 1 && c.starts_with(Segment::relax))
-        idle("drive.control", "drive.path relaxes with nothing held");
+        for (const char* key : {"drive.control", "drive.stiffness"})
+            idle(key, "drive.path relaxes with nothing held");
     if (!c.in_time) {
         std::vector<std::string> timed; // a scene that was dynamic has many: one note
         for (const char* key :

@@ -34,7 +34,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
             {"relaxing block", branches}, {"layers", layers},
-            {"surface stress", surface_stress}, {"relaxation", relaxation},
+            {"surface stress", surface_stress}, {"spring of the machine", spring}, {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
     // clang-format on
@@ -96,6 +96,9 @@ Effects effects_of(const Case& c) {
                     : fmt::format("block.layers has {} of them", s.block.layers.size())};
     e.surface_stress = {s.block.surface_stress > 0.0,
                         fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
+    e.spring = {s.drive.stiffness.has_value() && !in_time && follows_path,
+                s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
+                                  : "drive.stiffness = \"none\""};
     e.relaxation = {!in_time || !finite,
                     !in_time ? rest
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "

@@ -39,6 +39,7 @@ struct Effects {
         branches,       ///< memory of a block that relaxes
         layers,         ///< coatings of the block
         surface_stress, ///< tension of the block's surface
+        spring,         ///< a spring that holds the top plane
         relaxation,     ///< states of equilibrium
         observation,    ///< energies, contacts and the energy balance: a row of the series
         maps,           ///< maps of the states that the scene asks for

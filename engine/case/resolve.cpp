@@ -266,6 +266,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.velocity = scene.drive.velocity * units::metre_per_second;
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
+    drive.stiffness = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
     if (c.effects.temperature)
         drive.average_over = c.scales.length > 0.0

@@ -14,6 +14,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
     : Path(c, surface), grid_(c.grid(ranks.rank())),
       interface_(surface, grid_.tile(0), c.scene.surface.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, c.scene.interface.frictionless) {
+    if (c.effects.spring) block_.set_machine(c.simulation.drive.stiffness);
     nowhere_.mean_height = interface_.start_height();
 }
 

@@ -86,7 +86,7 @@ public:
 private:
     template <class Visitor>
     void visit(Visitor& v) {
-        double top = block_.top();
+        double top = block_.drive();
         bool on_points = points_.has_value();
         v("top", top);
         v("segment", segment_);

@@ -246,6 +246,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
         result.set("energy.interface", now.interface_energy);
         if (c.effects.temperature) result.set("energy.time_step", now.time_step_energy);
         result.set("energy.damped", now.damped);
+        if (c.effects.spring) result.set("energy.spring", now.machine_energy);
         if (c.effects.branches) {
             result.set("energy.branches", now.branch_energy);
             result.set("energy.dissipated_in_block", now.relaxed);

@@ -19,6 +19,10 @@ constexpr SeriesColumn columns[] = {
     {SeriesColumn::both,
      {"series/top_displacement", "Å", "", "displacement of the top plane"},
      [](const Path& p) { return p.now().top; }},
+    {SeriesColumn::sprung,
+     {"series/drive_displacement", "Å", "",
+      "displacement of the drive: of the far end of the spring that holds the top plane"},
+     [](const Path& p) { return p.now().drive; }},
     {SeriesColumn::both,
      {"series/mean_height", "Å", "",
       "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
@@ -51,6 +55,10 @@ constexpr SeriesColumn columns[] = {
      {"series/branch_energy", "eV", io::per::block,
       "of elastic_energy, what the branches of a block that relaxes store"},
      [](const Path& p) { return p.now().branch_energy; }},
+    {SeriesColumn::sprung,
+     {"series/spring_energy", "eV", io::per::block,
+      "of elastic_energy, what the spring that holds the top plane stores"},
+     [](const Path& p) { return p.now().machine_energy; }},
     {SeriesColumn::both,
      {"series/elastic_energy", "eV", io::per::block, "elastic energy"},
      [](const Path& p) { return p.now().elastic_energy; }},
@@ -115,6 +123,7 @@ bool SeriesColumn::is_in(bool in_time, const Effects& effects) const {
     if (in == sliding) return effects.sliding;
     if (in == relaxing) return effects.branches;
     if (in == thermal) return effects.temperature;
+    if (in == sprung) return effects.spring;
     if (in == time) return in_time || effects.branches;
     return in == both || (in == dynamic) == in_time;
 }

@@ -18,8 +18,9 @@ namespace asperity {
 /// A column of the series.
 struct SeriesColumn {
     /// Runs that have the column. time: dynamic runs and blocks that relax in time; sliding: paths
-    /// that slide; relaxing: blocks that relax; thermal: scenes with a temperature.
-    enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal };
+    /// that slide; relaxing: blocks that relax; thermal: scenes with a temperature; sprung: paths
+    /// with a spring that holds the top plane.
+    enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal, sprung };
     In in;
     io::Quantity quantity; ///< the name is that of the data set, "series/force"
     /// Returns the value at path.now(), the same on all ranks. Collective.

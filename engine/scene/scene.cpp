@@ -289,6 +289,11 @@ io::Schema bind(Scene& scene) {
     schema.number("displacement_step", drive.displacement_step, "Å", positive(),
                   "largest displacement from point to point of a quasi-static path, of what "
                   "drive.control prescribes");
+    schema.number_or(
+        "stiffness", drive.stiffness, "none", "N/m", positive(),
+        "of the spring that holds the top plane of the whole box, as the cantilever of "
+        "an instrument does, on a quasi-static path: the drive moves its far end; "
+        "\"none\": the drive moves the top plane");
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");

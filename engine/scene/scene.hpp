@@ -119,16 +119,17 @@ struct Scene {
         std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
         double velocity = 5.0;                                    ///< m/s
         double displacement_step = 0.25;                          ///< Å
-        Control control = Control::top; ///< held quantity of a quasi-static path
-        double timestep = 10.0;         ///< fs
-        double damping = 0.05;          ///< 1/ps
-        double damping_from = 0.0;      ///< fraction of the thickness above which damping acts
-        std::optional<double> ramp;     ///< ps; empty: one sound transit of the block
-        double load = 0.0;              ///< MPa
-        double temperature = 0.0;       ///< K
-        long long seed = 1;             ///< seed of the thermal noise
-        long long max_steps = 0;        ///< 0 ("none"): no limit
-        double tolerance = 2.5e-4;      ///< fraction of the smallest force that decides the state
+        Control control = Control::top;  ///< held quantity of a quasi-static path
+        std::optional<double> stiffness; ///< N/m, of the whole box; empty: rigid
+        double timestep = 10.0;          ///< fs
+        double damping = 0.05;           ///< 1/ps
+        double damping_from = 0.0;       ///< fraction of the thickness above which damping acts
+        std::optional<double> ramp;      ///< ps; empty: one sound transit of the block
+        double load = 0.0;               ///< MPa
+        double temperature = 0.0;        ///< K
+        long long seed = 1;              ///< seed of the thermal noise
+        long long max_steps = 0;         ///< 0 ("none"): no limit
+        double tolerance = 2.5e-4;       ///< fraction of the smallest force that decides the state
     } drive;
 
     struct Theory {

@@ -101,7 +101,8 @@ void QuasistaticPath::start() {
 }
 
 void QuasistaticPath::start_here(Here here) {
-    first_point(options_.along == Constraint::Of::top ? block_.top() : block_.mean_height(), here);
+    first_point(options_.along == Constraint::Of::top ? block_.drive() : block_.mean_height(),
+                here);
 }
 
 void QuasistaticPath::first_point(double top, Here here) {
@@ -492,10 +493,11 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     if (course_.along == Along::z)
-        record_.top = at;
+        record_.drive = at;
     else if (course_.along != Along::time)
         record_.slide[axis()] = at;
     if (interface_.options().slides) record_.lateral_force = lateral_force();
+    record_.top = options_.along == Constraint::Of::top ? state.top : record_.drive;
     record_.mean_height = options_.reference_height + state.mean_height;
     record_.force = state.force;
     record_.top_force = state.top_force;
@@ -503,6 +505,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.interface_energy = state.interface_energy;
     record_.elastic_energy = state.elastic_energy;
     record_.branch_energy = state.branches.stored;
+    record_.machine_energy = state.machine_energy;
     static_cast<ContactCount&>(record_) = state;
     const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(

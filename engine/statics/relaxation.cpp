@@ -248,7 +248,9 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
     const BlockEnergies energies = block.energies();
     state.branches = energies.branches;
-    state.elastic_energy = energies.elastic + state.branches.stored;
+    state.machine_energy = energies.machine;
+    state.elastic_energy = energies.elastic + state.machine_energy + state.branches.stored;
+    state.top = block.top();
     state.mean_height = block.mean_height();
     static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());
     return state;

@@ -127,12 +127,14 @@ struct RelaxedState : ContactCount {
     double residual = 0.0;         ///< eV/Å
     double rounding = 0.0;         ///< estimate of the residual left by rounding, eV/Å
     double interface_energy = 0.0; ///< U_LJ, eV
-    double elastic_energy = 0.0;   ///< U_el, that of branches included, eV
+    double elastic_energy = 0.0;   ///< U_el, that of branches and of the machine included, eV
+    double machine_energy = 0.0;   ///< energy of the spring that holds the top plane, eV
     BranchEnergies branches{};     ///< energy of branches, and their dissipation in the step
     double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
     /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
     /// that this takes, which is `force`.
     double top_force = 0.0;
+    double top = 0.0;         ///< displacement of the top plane, Å
     double mean_height = 0.0; ///< height of the lowest layer above the reference, Å
 };
 

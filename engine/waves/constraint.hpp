@@ -10,7 +10,8 @@ namespace asperity {
 struct Constraint {
     enum class Of {
         load,       ///< load of the free top plane, eV/Å, pressing down
-        top,        ///< displacement of the top plane, Å
+        top,        ///< displacement of the drive, Å: of the top plane, or of the far end of the
+                    ///< spring that holds it (Response::top())
         mean_height ///< mean displacement of the lowest layer, Å; no force is on the top plane
     };
     Of of = Of::load;

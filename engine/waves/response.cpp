@@ -33,14 +33,14 @@ void Response::gradient(Waves<double>& g) const {
     if (!slab_.holds_uniform()) return;
     double& mean = g.uniform(components_ - 1);
     mean += norm * constraint_.load();
-    if (constraint_.is_top()) mean -= factor_ * table_.uniform() * constraint_.value;
+    if (constraint_.is_top()) mean -= held_stiffness() * constraint_.value;
     if (constraint_.is_mean_height()) mean = 0.0;
 }
 
 SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
     const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
     double mean = -norm * constraint_.load();
-    if (constraint_.is_top()) mean += factor_ * table_.uniform() * constraint_.value;
+    if (constraint_.is_top()) mean += held_stiffness() * constraint_.value;
     const std::size_t normal = slab_.block_length(components_ - 1);
     SiteRows<float> rows = single_.from_sites();
 #pragma omp parallel for schedule(static) num_threads(rows.threads())
@@ -67,19 +67,20 @@ SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
 }
 
 template <class T>
-void Response::stiffen(int b, double factor, const T* u, double norm, const T* g, T* f) const {
+void Response::stiffen(int b, double factor, double uniform, const T* u, double norm, const T* g,
+                       T* f) const {
     const bool held = constraint_.is_top() && b == 0 && slab_.holds_uniform();
     const std::size_t normal = slab_.block_length(components_ - 1);
     const T mean = held ? u[normal] : T(0); // f may be u
     table_.multiply(b, u, norm / factor, g, f);
     if (factor != 1.0)
         combine_row(factor, f, 0.0, f, static_cast<int>(slab_.block_length(components_)));
-    if (held) f[normal] += static_cast<T>(factor * table_.uniform()) * mean;
+    if (held) f[normal] += static_cast<T>(uniform) * mean;
 }
 
 template <class T>
 void Response::stiffen(int b, const T* u, double norm, const T* g, T* f) const {
-    stiffen(b, factor_, u, norm, g, f);
+    stiffen(b, factor_, held_stiffness(), u, norm, g, f);
 }
 template void Response::stiffen(int, const float*, double, const float*, float*) const;
 template void Response::stiffen(int, const double*, double, const double*, double*) const;
@@ -87,7 +88,7 @@ template void Response::stiffen(int, const double*, double, const double*, doubl
 void Response::stiffen_relaxed(Waves<double>& f) const {
 #pragma omp parallel for schedule(static)
     for (int b = 0; b < f.blocks(); ++b)
-        stiffen<double>(b, 1.0, f.block(b), 0.0, nullptr, f.block(b));
+        stiffen<double>(b, 1.0, table_.uniform(), f.block(b), 0.0, nullptr, f.block(b));
 }
 
 template <class T, class Change>
@@ -126,7 +127,7 @@ template void Response::shape_forces(SiteField<double>&) const;
 Holder Response::holder() const {
     const double sites = options_.sites;
     if (!constraint_.is_top()) return {.force = constraint_.load() / (sites * sites)};
-    Holder held{.stiffness = factor_ * table_.uniform(), .at = constraint_.value};
+    Holder held{.stiffness = held_stiffness(), .at = constraint_.value};
     if (!known_) return held;
     if (slab_.holds_uniform()) held.force = known_->uniform(components_ - 1);
     slab_.ranks.broadcast(std::span(&held.force, 1)); // the root holds it
@@ -135,14 +136,31 @@ Holder Response::holder() const {
 
 SurfaceMatrix Response::acting_stiffness(int nx, int ny) const {
     SurfaceMatrix s = table_.at(nx, ny);
-    if (nx == 0 && ny == 0 && constraint_.is_top()) s.zz = table_.uniform();
     for (double* entry : {&s.xx, &s.yy, &s.zz, &s.xy, &s.xz, &s.yz})
         *entry *= factor_;
+    if (nx == 0 && ny == 0 && constraint_.is_top()) s.zz = held_stiffness();
     return s;
 }
 
 double Response::stiffest_wave() const {
-    return factor_ * std::max(table_.stiffest(), constraint_.is_top() ? table_.uniform() : 0.0);
+    return std::max(factor_ * table_.stiffest(), constraint_.is_top() ? held_stiffness() : 0.0);
+}
+
+double Response::held_stiffness() const {
+    const double block = factor_ * table_.uniform();
+    if (!machine_) return block;
+    const double sites = options_.sites, machine = *machine_ / (sites * sites);
+    return block * machine / (block + machine);
+}
+
+double Response::top() const {
+    if (!constraint_.is_top()) return mean_height() - constraint_.load() / spring();
+    return constraint_.value + (machine_ ? top_force() / *machine_ : 0.0);
+}
+
+double Response::drive() const {
+    if (constraint_.is_top()) return constraint_.value;
+    return top() - (machine_ ? constraint_.load() / *machine_ : 0.0);
 }
 
 double Response::mean_height() const {
@@ -159,7 +177,7 @@ double Response::top_force() const {
 
 BlockEnergies Response::energies() const {
     // Half u.(S u), u measured from a held top plane, and what a load stretches the block by.
-    const double from = constraint_.is_top() ? constraint_.value : 0.0;
+    const double from = constraint_.is_top() ? top() : 0.0;
     Waves<double> su = new_waves<double>();
     combine(1.0, waves_, 0.0, su);
     if (slab_.holds_uniform()) su.uniform(components_ - 1) -= from;
@@ -168,6 +186,10 @@ BlockEnergies Response::energies() const {
     if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
     const double load = constraint_.load();
     BlockEnergies energies{.elastic = 0.5 * (twice + load * load / spring())};
+    if (machine_) {
+        const double force = constraint_.is_mean_height() ? 0.0 : top_force();
+        energies.machine = 0.5 * force * force / *machine_;
+    }
     if (memory_)
         energies.branches = memory_->energies(
             from_top(), [&](const SiteField<double>& u) { return twice_energy(u); });
@@ -185,7 +207,7 @@ double Response::twice_energy(const SiteField<double>& u) const {
 
 SiteField<double> Response::from_top() const {
     SiteField<double> w = new_field<double>();
-    const double top = constraint_.is_top() ? constraint_.value : 0.0;
+    const double top = constraint_.is_top() ? this->top() : 0.0;
     for (int c = 0; c < components_; ++c) {
         const PlaneView<const double> u = moving(layer_.plane(0), c);
         const PlaneView<double> to = w[static_cast<std::size_t>(c)].plane(0);

@@ -15,7 +15,8 @@
 // The stiffness is composed, and no term is written into another:
 //
 //     the table S(q)     the lattice's, a constant of the block (stiffness_table.hpp)
-//     the holder         the uniform normal wave against the rigid top plane, if that is held
+//     the holder         the uniform normal wave against the rigid top plane, if that is held, in
+//                        series with the spring of the machine
 //     the branches       a factor on all of S in a step of a viscoelastic block, and a force that
 //                        is known at its start (block_memory.hpp)
 //
@@ -61,6 +62,7 @@ struct Holder {
 struct BlockEnergies {
     double elastic =
         0.0; ///< U_el of the relaxed springs, and of what a load stretches the block by
+    double machine = 0.0; ///< energy of the spring that holds the top plane
     BranchEnergies branches{};
 };
 
@@ -125,6 +127,11 @@ public:
     SurfaceMatrix acting_stiffness(int nx, int ny) const;
     /// Returns the largest stiffness that acts on the normal component of a wave, eV/Å^2.
     double stiffest_wave() const;
+    /// Returns the displacement of the top plane along z, Å. Collective.
+    double top() const;
+    /// Returns the displacement of the drive along z, Å: of the top plane, or of the far end of the
+    /// spring that holds it. Collective.
+    double drive() const;
     /// Returns the mean of u_z over the layer, Å. Collective.
     double mean_height() const;
     /// Returns the elastic force on the top plane along z, eV/Å; a load presses down. Collective.
@@ -148,6 +155,9 @@ protected:
 
     /// Returns the stiffness of the whole block under uniform stretch, eV/Å.
     double spring() const { return factor_ * table_.uniform() * options_.sites * options_.sites; }
+    /// Returns the stiffness of the uniform normal wave against the drive, eV/Å^2 for each site:
+    /// the block's, in series with the machine's.
+    double held_stiffness() const;
     /// Returns the displacement from the top plane at the sites, Å.
     SiteField<double> from_top() const;
     /// Sets f to S f with the stiffness of the relaxed springs, the holder included.
@@ -176,14 +186,17 @@ protected:
     std::optional<BlockMemory> memory_;  ///< with branches
     std::optional<Waves<double>> known_; ///< with branches: their known force, sign reversed, eV/Å
     double factor_ = 1.0;                ///< factor of branches on S
+    std::optional<double> machine_; ///< stiffness of the spring that holds the top plane, eV/Å^2
 
 private:
     /// Replaces a field by what change(b, waves) makes of the N^2 u_q of each block b.
     template <class T, class Change>
     void change_waves(SiteField<T>& field, const Change& change) const;
-    /// Sets f to factor S u + norm g for block b, the holder included.
+    /// Sets f to factor S u + norm g for block b; uniform: stiffness of the uniform normal wave
+    /// against what is held, eV/Å^2.
     template <class T>
-    void stiffen(int b, double factor, const T* u, double norm, const T* g, T* f) const;
+    void stiffen(int b, double factor, double uniform, const T* u, double norm, const T* g,
+                 T* f) const;
 
     SurfaceTransform<double> transform_;
     SurfaceTransform<float> single_;

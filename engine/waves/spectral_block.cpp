@@ -15,10 +15,6 @@ void SpectralBlock::set_uniform(double z) {
     if (slab_.holds_uniform()) waves_.uniform(components_ - 1) = z;
 }
 
-double SpectralBlock::top() const {
-    return constraint_.is_top() ? constraint_.value : mean_height() - constraint_.load() / spring();
-}
-
 void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
     memory_->begin(from_top(), dt, last);

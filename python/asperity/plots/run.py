@@ -37,6 +37,7 @@ WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the 
 OTHERS = (GREEN, PINK, SKY, YELLOW)
 BY_HAND = "led by the script"
 TOP = "displacement of the top plane (Å)"
+DRIVE = "displacement of the drive (Å)"
 
 
 def _columns(run: Result, *names: str) -> list[np.ndarray]:
@@ -97,13 +98,14 @@ def separation(run: Result, ax: Axes) -> bool:
 
 
 def loading(run: Result, ax: Axes) -> bool:
-    """Draws the force over the displacement of the driven top plane, as a testing machine records it."""
-    columns = _columns(run, "top_displacement", "top_force", "segment")
+    """Draws the force over the displacement of the drive, as a testing machine records it."""
+    sprung = "drive_displacement" in run.series
+    columns = _columns(run, "drive_displacement" if sprung else "top_displacement", "top_force", "segment")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
     if not columns or run.key("drive.control") == "mean-height":
         return False
     unit, label = force_unit(run)
-    return _by_segment(ax, run, columns[0], columns[1] / unit) and finish(ax, TOP, label, zero=True)
+    return _by_segment(ax, run, columns[0], columns[1] / unit) and finish(ax, DRIVE if sprung else TOP, label, zero=True)
 
 
 def contact(run: Result, ax: Axes) -> bool:
