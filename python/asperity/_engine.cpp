@@ -161,7 +161,11 @@ void translate(std::exception_ptr thrown) {
         const py::module_ errors = py::module_::import("asperity.errors");
         const py::object type =
             errors.attr("BY_CODE").attr("get")(error.code(), errors.attr("InternalError"));
-        PyErr_SetObject(type.ptr(), type(error.what()).ptr());
+        py::list problems;
+        for (const io::Problem& one : error.problems())
+            problems.append(py::dict("where"_a = one.where, "what"_a = one.what, "why"_a = one.why,
+                                     "fix"_a = one.fix));
+        PyErr_SetObject(type.ptr(), type.attr("of")(problems).ptr());
     }
 }
 

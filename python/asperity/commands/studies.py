@@ -55,7 +55,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
     if found["problems"]:
-        raise SceneError("\n".join(found["problems"]))
+        raise SceneError.of(found["problems"])
     cost = Cost(case, asked)
     directory = store.chosen(out, f"results/{found['name']}-cost")
     print(f"reference: {case.reference_text}", flush=True)

@@ -12,10 +12,8 @@ from typing import Any
 import numpy
 
 from ..errors import InputOutputError
+from ..units import LENGTHS
 
-LENGTHS = {"Å": 0, "\u212b": 0, "A": 0, "Ang": 0, "angstrom": 0, "Angstrom": 0, "fm": -5, "pm": -2, "nm": 1, "um": 4,
-           "\u00b5m": 4, "\u03bcm": 4, "\u00c2\u00b5m": 4, "mm": 7, "cm": 8, "m": 10, "km": 13}
-"""Powers of ten of units of length, in Å. Âµm is µm in UTF-8 that a program took for Latin-1."""
 NO_HEIGHT = 1e30
 """Numbers this large stand for points without a height: 1.7e38 of Surfer, the largest float or double (SDF)."""
 LISTED = 20

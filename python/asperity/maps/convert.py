@@ -30,9 +30,10 @@ from ..errors import Error, to_install
 from ..files import store
 from ..running import program
 from ..running.scene import toml_of
+from ..units import LENGTHS
 from . import arrays as map_arrays
 from .atoms import extended_xyz, folded, lammps
-from .channels import LENGTHS, NO_HEIGHT, Channel, factor, refuse, select, text_of
+from .channels import NO_HEIGHT, Channel, factor, refuse, select, text_of
 from .text import of_text
 
 PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b"BM"}
@@ -143,8 +144,8 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
         try:
             return list(program.surface(str(scene))["doubts"])
         except Error as error:
-            said = re.sub(r"^.*map\.toml(:\d+)*: |^ +(why|fix): ", "", str(error), flags=re.M)
-            return ["a scene refuses it as it is: " + "; ".join(said.splitlines())]
+            return ["a scene refuses it as it is: " + "; ".join(one[name] for one in error.listed for name in ("what", "why", "fix")
+                                                                if one[name])]
 
 
 def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:

@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy
 
-from .channels import LENGTHS, factor, length, refuse
+from ..units import LENGTHS
+from .channels import factor, length, refuse
 from .convert import read_heights
 
 FEWEST = 16

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy
 
 from ..errors import InputOutputError
-from .channels import LENGTHS, Channel, refuse
+from ..units import LENGTHS
+from .channels import Channel, refuse
 
 SIZE = r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)"
 HEADERS = ("width", "height", "edge", "x-length", "y-length", "value units", "x-unit", "y-unit", "z-unit", "bit2nm")

@@ -455,7 +455,7 @@ class Result(Values):
                 raise InputOutputError("", "", "result.json was written with another one")
             self._open("run.h5")
         except InputOutputError as error:
-            self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
+            self.notes.append(f"run.h5 cannot be read to its end ({error.listed[0]['why']}).")
             self._open("no run.h5", self.notes[-1])
 
     def _of_another_run(self) -> bool:

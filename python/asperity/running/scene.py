@@ -21,6 +21,10 @@ SceneLike = Union[str, Path, Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], list]
 
 
+OVERRIDE = "--set "
+"""How the place of a problem of an override begins."""
+
+
 def toml_value(value: Any) -> str:
     """Returns a value as it stands in TOML; a JSON string is a TOML string as well."""
     if isinstance(value, (list, tuple)):
@@ -101,7 +105,8 @@ def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None =
             yield file
     except Error as error:
         if overrides:
-            error.args = tuple(re.sub(r"(?m)^--set (?=[\w.]+=)", f"{_caller()}: ", str(a)) for a in error.args)
+            caller = _caller()
+            error.rewrite(lambda text: f"{caller}: {text[len(OVERRIDE):]}" if text.startswith(OVERRIDE) else text)
         raise
 
 
@@ -117,5 +122,6 @@ def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
         try:
             yield str(file)
         except Error as error:  # the caller has not seen this file
-            error.args = tuple(re.sub(re.escape(str(file)) + r"(:\d+)*", _caller(), str(a)) for a in error.args)
+            caller = _caller()
+            error.rewrite(lambda text: re.sub(re.escape(str(file)) + r"(:\d+)*", caller, text))
             raise

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import os
-import re
 import tempfile
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -238,12 +237,9 @@ def surface_made(file: str) -> SurfaceMade:
 def _seconds(scene: str, sets: list[str]) -> float:
     """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
     try:
-        text = program.call(["plan", scene, *program.sets(sets)])
+        return program.plan(scene, sets)["seconds"]["altogether"]
     except Error:
         return math.nan
-    found = re.search(r"^ *altogether +[\d.]+ \w+ +((?:[\d.]+ (?:s|min|h|d) ?)+)", text, re.M)
-    units = {"s": 1, "min": 60, "h": 3600, "d": 86400}
-    return sum(float(v) * units[u] for v, u in re.findall(r"([\d.]+) (s|min|h|d)\b", found[1])) if found else math.nan
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
@@ -303,7 +299,7 @@ class Estimating:
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
         if answer["problems"]:
-            raise SceneError("\n".join(answer["problems"]))
+            raise SceneError.of(answer["problems"])
         path = keys["drive"]["path"]
         if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "

@@ -42,6 +42,13 @@ ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "w
 """What a scene's keys are called here."""
 
 
+def _named(text: str) -> str:
+    """Returns a text with the names of arguments for the keys of the scene, which nobody has seen."""
+    for key, name in ARGUMENTS.items():
+        text = text.replace(key, name)
+    return text
+
+
 def _with_unit(name: str, value: object) -> str:
     """Returns the text of a quantity with its unit, as scenes have it."""
     text = re.sub(r"m2$", "m^2", str(value).strip())
@@ -134,8 +141,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
-        said = re.sub(r"^.*?: (?=[a-z]+\.\w+ = )", "", str(error), flags=re.M)  # the place in a scene that nobody has seen
-        raise SceneError(re.sub(r"^[a-z]+\.\w+(?= = )", lambda key: ARGUMENTS.get(key[0], key[0]), said, flags=re.M)) from None
+        raise SceneError.of([{**one, "where": "", "what": _named(one["what"])} for one in error.listed]) from None
     if not keys.number("interface.adhesion") > 0.0:
         raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)

@@ -28,13 +28,12 @@ from ..running import program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of
 from ..terminal import Progress, millijoules, table
-from ..units import MILLIJOULE
+from ..units import MEGAPASCAL, MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
 NEAR = 0.01  # of the deepest energy found: a random start that ends within it counts as ending there
 PRESS = 0.125  # of the contact modulus: how far full contact is pressed
 SAVE_EVERY = 5.0  # s
-MEGAPASCAL = 6.241509074e-6  # eV/Å³
 NUMBERS = ("binding_energy", "elastic_energy", "mean_height", "contact_fraction", "repulsive_fraction")
 UNITS = dict(zip((*NUMBERS, "barrier", "approach_less_run", "step", "innermost", "pressed_to", "start_energies"),
                  "meV/Å^2 meV/Å^2 Å 1 1 MPa meV/Å^2 Å Å MPa meV/Å^2".split()))
@@ -117,9 +116,8 @@ class Search:
         except PhysicsError as error:
             if before["force"] < 0.0:  # a state may lie before the next point
                 self.free(self._way())
-            what, *why = str(error).splitlines()
-            return self._end("the next point inwards failed: " + what + "".join(
-                f" ({line.strip().removeprefix('why: ')})" for line in why if line.strip().startswith("why: ")))
+            problem = error.listed[0]
+            return self._end("the next point inwards failed: " + problem["what"] + f" ({problem['why']})" * bool(problem["why"]))
         if before["force"] < 0.0 <= self.now["force"]:
             self.free(self._way())
         apart, push = self.case["area"] * (1.0 - self.now["contact"]), self.now["force"]
