@@ -3,7 +3,8 @@
 """Fig. 5 of the paper with γ by JKR from the force and from the energy at zero load: python3 docs/gallery/fig5.py
 
 Reads docs/data/fig5.csv (5 m/s) and fig5-equilibrium.csv (scenes/paper/fig5-equilibrium.toml), writes fig5-gamma-force.svg beside
-itself and the table docs/data/tables/fig5-gamma-force.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
+itself and the table docs/data/tables/fig5-gamma-force.csv of docs/reports/paper.md. What a Maugis-Dugdale
+sphere with the renormalised law has is integrated here.
 Needs numpy and matplotlib (Debian: python3-numpy python3-matplotlib)."""
 import csv
 import math

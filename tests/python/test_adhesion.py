@@ -7,10 +7,10 @@ import re
 import h5py
 import numpy as np
 import pytest
-from conftest import command
 
 import asperity
 from asperity.maps import convert, height_map
+from conftest import command
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}

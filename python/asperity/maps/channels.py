@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -69,7 +70,10 @@ def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
     unit = text_of(told.get("unit"))
     if len(heights.shape) == 2:
         return [Channel(name, lambda: {"heights": heights[()], **told}, unit)]
-    return [Channel(f"{name}[{k + 1}]", lambda k=k: {"heights": heights[k], **told}, unit) for k in range(heights.shape[0])]
+    def frame(k: int) -> dict[str, Any]:
+        return {"heights": heights[k], **told}
+
+    return [Channel(f"{name}[{k + 1}]", partial(frame, k), unit) for k in range(heights.shape[0])]
 
 
 def select(path: Path, channels: list[Channel], wanted: str | None, first: int | None = None, unit: str | None = None) -> dict:

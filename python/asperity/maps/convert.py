@@ -20,6 +20,7 @@ import contextlib
 import re
 import tempfile
 import zipfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -57,11 +58,11 @@ def _instrument(path: Path) -> tuple[list[Channel], int]:
             raise refuse(path, f"does not say the unit of channel {number + 1} ({name})", "",
                          "take another channel (--channel), or export it as text with a header")
         # heights() is [x, y]; masked where there is no height.
-        heights = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
+        heights: numpy.ndarray = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
         return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes}
 
     names = [str(channel.name) for channel in reader.channels]
-    return [Channel(name, lambda k=k, name=name: load(k, name)) for k, name in enumerate(names)], reader.default_channel.index
+    return [Channel(name, partial(load, k, name)) for k, name in enumerate(names)], reader.default_channel.index
 
 
 def _text_in(raw: bytes) -> str:

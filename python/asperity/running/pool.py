@@ -21,7 +21,7 @@ import subprocess
 import threading
 import time
 import uuid
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
@@ -86,7 +86,7 @@ class PoolOptions:
 
 def refuse_jobs(jobs: object) -> None:
     """Refuses a wrong number of runs side by side. Raises SceneError."""
-    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
+    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= int(jobs) <= 1024:
         raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
                          "leave it out for one after the other")
 
@@ -299,7 +299,7 @@ class Pool:
         self.running: dict[int, float] = {}  # since when
         # Of each scene, the points that were done and the seconds that they took.
         self.done: Counter[str] = Counter()
-        self.seconds: Counter[str] = Counter()
+        self.seconds: dict[str, float] = defaultdict(float)
         self.stopping = self.killed = False
         self.start_time = time.monotonic()
         self.place = place.resolve()
@@ -421,7 +421,8 @@ class Pool:
     def _left(self, fractions: dict[int, float], now: float) -> str:
         """Estimates the time left: points of a scene are assumed to last alike; scenes without a finished point are not
         counted."""
-        points, seconds = self.done.copy(), self.seconds.copy()
+        points: dict[str, float] = defaultdict(float, self.done)
+        seconds: dict[str, float] = defaultdict(float, self.seconds)
 
         def one_takes(i: int) -> float:
             """Returns the seconds of a point of this scene; NaN: not known."""

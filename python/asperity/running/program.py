@@ -21,20 +21,20 @@ from ..errors import BY_CODE, Error, InputOutputError, InternalError, SceneError
 from ..terminal import environment_alone, launched
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def version() -> str:
     """Returns the version of the program that the package calls."""
     return info()["version"]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def path() -> str:
     """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 
     In a source tree without a build it is the script `asperity`, which makes one.
     """
     package = Path(__file__).resolve().parents[1]
-    places = [os.environ.get("ASPERITY_PROGRAM", "")]
+    places: list[str | Path] = [os.environ.get("ASPERITY_PROGRAM", "")]
     for root in package.parents[1:4]:
         places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
     for place in places:
@@ -109,7 +109,7 @@ def sets(overrides: Iterable[str]) -> list[str]:
     return [word for one in overrides for word in ("--set", one)]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def info() -> dict[str, Any]:
     """Returns what the program was built from and runs on: version, git, compiler, flags, mpi, hdf5, fftw, ranks, threads, cuda,
     processor."""
@@ -121,13 +121,13 @@ def mpi() -> str:
     return info()["mpi"]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def schema() -> dict[str, dict[str, Any]]:
     """Returns every key of a scene: kind, unit, default, doc, choices."""
     return json.loads(call(["defaults", "--json"]))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def quantities() -> dict[str, dict[str, str]]:
     """Returns every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
     return json.loads(call(["defaults", "--results", "--json"]))

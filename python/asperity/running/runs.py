@@ -25,12 +25,13 @@ def launcher(ranks: int) -> list[str]:
     the MPI that the program was built with, if several are installed. Raises InputOutputError if there is none."""
     if ranks == 1:
         return []
-    words, names = os.environ.get("ASPERITY_MPIRUN", "").split(), ()
+    words = os.environ.get("ASPERITY_MPIRUN", "").split()
+    names: tuple[str, ...] = ()
     if not words:
         open_mpi = "Open MPI" in program.mpi()
         names = ("mpirun.openmpi", "mpirun") if open_mpi else ("mpirun.mpich", "mpiexec.hydra", "mpirun")
         options = ["--oversubscribe"] + (["--allow-run-as-root"] if os.geteuid() == 0 else []) if open_mpi else []
-        words = [next(filter(shutil.which, names), names[-1]), *options]
+        words = [next((name for name in names if shutil.which(name)), names[-1]), *options]
     if not shutil.which(words[0]):
         raise InputOutputError(f"ranks = {ranks}", f"no launcher of {program.mpi()}, which the program was built with",
                                "looked in PATH for " + ", ".join(names) if names else

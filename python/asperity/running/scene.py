@@ -13,12 +13,13 @@ import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Union
+from types import FrameType
+from typing import Any
 
 from ..errors import Error, SceneError
 
-SceneLike = Union[str, Path, Mapping[str, Any]]
-Overrides = Union[Mapping[str, Any], list]
+SceneLike = str | Path | Mapping[str, Any]
+Overrides = Mapping[str, Any] | list[str]
 
 
 OVERRIDE = "--set "
@@ -90,7 +91,7 @@ def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
 def _caller() -> str:
     """Returns file and line of the script that called the package."""
     package = str(Path(__file__).parents[1])
-    frame = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(1)
     while frame and (frame.f_code.co_filename.startswith(package) or frame.f_code.co_filename == contextlib.__file__):
         frame = frame.f_back
     return f"{os.path.basename(frame.f_code.co_filename)}:{frame.f_lineno}" if frame else "the scene"

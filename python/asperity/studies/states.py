@@ -241,8 +241,8 @@ class Search:
     def save(self, out: store.Outputs) -> None:
         states = {**self.kept, "here": self.statics.copy()}
         with out.replacing(UNFINISHED) as beside, open(beside, "wb") as file:
-            numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]),
-                        **{name: state.u for name, state in states.items()})
+            arrays: dict[str, Any] = {name: state.u for name, state in states.items()}
+            numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]), **arrays)
 
     def resume(self, place: Path) -> None:
         try:
@@ -296,6 +296,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     """
     program.refuse_ranks()
     place = None if out is None else store.chosen(os.fspath(out), "")
+    written: store.Outputs | None = None
     with contextlib.ExitStack() as stack:
         if place:
             stack.enter_context(store.in_use(place))
@@ -306,18 +307,18 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         search, saved = Search(Statics(scene, relaxed), starts), time.monotonic()
         if place:
             inputs = () if isinstance(scene, Mapping) else inputs_of(str(scene), tomllib.loads(search.case["scene"]))
-            out = stack.enter_context(store.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
+            written = stack.enter_context(store.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
         if place and (place / UNFINISHED).exists():
             search.resume(place / UNFINISHED)
         while search.advance():
             if report:
                 report(f"{search.log['stage']}, {search.now['z']:.2f} Å, states: {len(search.log['states'])}")
-            if place and time.monotonic() - saved >= SAVE_EVERY:
-                search.save(out)
+            if written and time.monotonic() - saved >= SAVE_EVERY:
+                search.save(written)
                 saved = time.monotonic()
         found = search.result()
-        if place:
-            out.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
+        if place and written:
+            written.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
     return found
 

@@ -143,7 +143,11 @@ class Flow:
             self.observed[:, SIDEWAYS] = (first + 0.5 * second * R**2) @ density
             self.observed[:, RINGS_FROM:] = np.hstack([density * (first + second * far**2), density * second * R * far])
         self.wall_bend = self._bend(self.phi)[0]
-        self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else ([], [0.0], [])
+        none: np.ndarray = np.empty(0)
+        self.q: np.ndarray
+        self.variance: np.ndarray
+        self.inside: np.ndarray
+        self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else (none, np.zeros(1), none)
 
     def _grid(self, spacing: float, last: float) -> np.ndarray:
         """Returns a grid that is even up to twice the distance from the minimum to the inflection beyond it, then wider in
