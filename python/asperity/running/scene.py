@@ -20,8 +20,8 @@ from ..errors import Error, SceneError
 
 SceneLike = str | Path | Mapping[str, Any]
 Overrides = Mapping[str, Any] | list[str]
-
-
+STANDARD_INPUT = "-"
+"""Name by which a command line asks for the standard input."""
 OVERRIDE = "--set "
 """How the place of a problem of an override begins."""
 
@@ -113,16 +113,20 @@ def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None =
 
 @contextlib.contextmanager
 def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
-    if not isinstance(scene, Mapping):
+    piped = str(scene) == STANDARD_INPUT
+    if isinstance(scene, Mapping):
+        name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})
+    elif piped:  # once: the commands start the program several times
+        name, text = "stdin", sys.stdin.read()
+    else:
         yield str(scene)
         return
-    sections = {key: value for key, value in scene.items() if key != "name"}
     with tempfile.TemporaryDirectory(prefix="asperity-", dir=folder or None) as directory:
-        file = Path(directory) / f"{scene.get('name', 'scene')}.toml"
-        file.write_text(toml_of(sections), encoding="utf-8")
+        file = Path(directory) / f"{name}.toml"
+        file.write_text(text, encoding="utf-8")
         try:
             yield str(file)
         except Error as error:  # the caller has not seen this file
-            caller = _caller()
-            error.rewrite(lambda text: re.sub(re.escape(str(file)) + r"(:\d+)*", caller, text))
+            place, caller = re.escape(str(file)) + ("" if piped else r"(:\d+)*"), "stdin" if piped else _caller()
+            error.rewrite(lambda text: re.sub(place, caller, text))
             raise
