@@ -77,7 +77,7 @@ class Error(Exception):
         return error
 
     def rewrite(self, change: Callable[[str], str]) -> None:
-        """Changes the texts of all problems, and with them the message.
+        """Replaces the texts of all problems, and with them the message.
 
         Parameters
         ----------
