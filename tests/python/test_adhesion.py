@@ -3,6 +3,8 @@
 """From a map to its adhesion: a surface of known adhesion by way of an export, and what is no map."""
 
 import re
+import shutil
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -11,6 +13,8 @@ from conftest import command
 
 import asperity
 from asperity.maps import convert, height_map
+from asperity.running import program
+from asperity.studies.estimates import surface_made
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
@@ -175,3 +179,22 @@ def test_pieces_of_a_scaled_map_are_scaled_alike(place):
     assert found.parts["places"].error == pytest.approx(1.624 * np.std(four, ddof=1) / 2, rel=1e-3)
     mirror = asperity.load("found/mirrored").binding_energy
     assert found.parts["edge"].error == pytest.approx(0.5 * abs(mirror - found.value))
+
+
+def test_a_file_in_a_folder_of_a_run_is_seen_before_anything_is_written(place):
+    np.save("map.npy", np.random.default_rng(1).normal(size=(32, 32)).cumsum(axis=0).cumsum(axis=1) / 50)
+    for folder in ("scene", "quarter-2", "finer,range=5"):
+        Path("out", folder).mkdir(parents=True)
+        Path("out", folder, "run.h5").write_text("mine")
+        with pytest.raises(asperity.SceneError, match="is there already and is not replaced"):
+            asperity.adhesion("map.npy", **{**GIVEN, "unit": "nm", "size": "100 nm"}, out="out")
+        assert [str(file) for file in Path("out").rglob("*") if file.is_file()] == [f"out/{folder}/run.h5"]
+        shutil.rmtree("out")
+
+
+def test_a_surface_is_made_by_one_start_of_the_program(place, monkeypatch):
+    started = []
+    monkeypatch.setattr(program, "call", lambda words, call=program.call, **more: started.append(words) or call(words, **more))
+    Path("rough.toml").write_text("[surface]\nsites = 16\n")
+    made = surface_made("rough.toml")
+    assert len(started) == 1 and made.heights.shape == (16, 16) and made.rms == pytest.approx(made.heights.std())
