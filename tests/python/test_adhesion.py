@@ -14,7 +14,9 @@ from conftest import command
 import asperity
 from asperity.maps import convert, height_map
 from asperity.running import program
-from asperity.studies.estimates import surface_made
+from asperity.running.pool import PoolOptions
+from asperity.running.scene import scene_file
+from asperity.studies.estimates import Estimating, surface_made
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
@@ -198,3 +200,26 @@ def test_a_surface_is_made_by_one_start_of_the_program(place, monkeypatch):
     Path("rough.toml").write_text("[surface]\nsites = 16\n")
     made = surface_made("rough.toml")
     assert len(started) == 1 and made.heights.shape == (16, 16) and made.rms == pytest.approx(made.heights.std())
+
+
+def test_the_law_of_missing_waves_is_that_of_the_map_without_its_line_noise(place):
+    draw = np.random.default_rng(5)
+    q = np.hypot(*np.meshgrid(128 * np.fft.fftfreq(128), 128 * np.fft.fftfreq(128)))
+    waves = np.fft.fft2(draw.normal(size=(128, 128))) / np.maximum(q, 1.0) ** 1.8
+    clean = np.fft.ifft2(np.where(q > 0, waves, 0.0)).real
+    clean *= 1.0 / clean.std()
+    np.save("map.npy", clean + 0.3 * draw.normal(size=(128, 1)))
+    scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "nm", "file_size": 1280.0, "sites": 64, "spacing": 20.0,
+                         "detrend": "periodic", "resample": "band-limited"},
+             "block": {"young": 0.05, "thickness": 64}, "interface": {"kind": "wall", "range": 10.0},
+             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"]}}
+    hurst = {}
+    for treatment in ("keep", "align-rows"):
+        scene["surface"]["line_noise"] = treatment
+        with scene_file(scene) as file:
+            hurst[treatment] = Estimating(file, [], treatment, PoolOptions(progress="off"), None, ["waves"]).law.hurst
+    np.save("map.npy", clean)
+    scene["surface"]["line_noise"] = "keep"
+    with scene_file(scene) as file:
+        true = Estimating(file, [], "clean", PoolOptions(progress="off"), None, ["waves"]).law.hurst
+    assert hurst["align-rows"] == pytest.approx(true, abs=0.1) and hurst["keep"] < true - 0.3

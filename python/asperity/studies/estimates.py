@@ -223,7 +223,20 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", height_map.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
+    return tuple(parts), missing_waves.law_of(_without_line_noise(heights, edge, of.text("surface.line_noise")), edge, edge / sites)
+
+
+def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
+    """Returns a map as the program treats its line noise, at its own points; with the noise, its spectrum would be that of the noise."""
+    if treatment in ("", "keep"):
+        return heights
+    n = len(heights)
+    with tempfile.TemporaryDirectory(prefix="asperity-") as there:
+        np.save(Path(there) / "map.npy", heights)
+        with scene_file({"surface": {"kind": "file", "file": f"{there}/map.npy", "file_unit": "Å", "file_size": edge, "sites": n,
+                                     "spacing": edge / n, "file_missing": "fill", "detrend": "plane", "line_noise": treatment},
+                         "block": {"thickness": 1}}) as file:
+            return surface_made(file).heights
 
 
 class SurfaceMade(NamedTuple):
