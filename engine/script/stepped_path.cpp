@@ -51,6 +51,12 @@ Surface checked_surface(const Case& c, const Communicator& ranks) {
     return surface_of(c, ranks);
 }
 
+/// Returns the same case without states of force balance at the ends of its segments.
+Case without_states(Case c) {
+    c.effects.relaxation = {false, "the script relaxes when it asks for it"};
+    return c;
+}
+
 /// Returns the scene in a file that save() wrote.
 SceneText saved_scene(const std::string& file) {
     const io::Hdf5File saved(io::FilePlace(file), io::Hdf5File::Mode::read);
@@ -110,8 +116,10 @@ void LayerCopy::take(const VectorPlane<const double>& layer) {
 }
 
 SteppedPath::SteppedPath(Case c, SceneText source, const Communicator& ranks)
-    : case_(std::move(c)), source_(std::move(source)), ranks_(ranks),
-      surface_(checked_surface(case_, ranks)), path_(case_, surface_, ranks) {}
+    : case_(without_states(std::move(c))), source_(std::move(source)), ranks_(ranks),
+      surface_(checked_surface(case_, ranks)), path_(case_, surface_, ranks) {
+    path_.simulation().push(&pushing_);
+}
 
 std::shared_ptr<SteppedPath> SteppedPath::resume(const std::string& file,
                                                  const Communicator& ranks) {
@@ -141,7 +149,7 @@ long long SteppedPath::step(long long n, const Look& look) {
     LookNowAndThen now_and_then(look);
     long long taken = 0;
     try {
-        while (taken < n && !path_.done()) {
+        while (taken < n && !done()) {
             const bool last = taken + 1 == n;
             one_step(last);
             ++taken;
@@ -162,9 +170,13 @@ void SteppedPath::one_step(bool last) {
     const bool due = number % case_.scene.output.series == 0;
     try {
         moved_ = true;
-        path_.advance({.energies = due || observed || last});
-        guard(path_, [] { return "or resume the last state that was saved"; });
-        if (path_.ended()) path_.conclude();
+        const Path::Wish wish{.energies = due || observed || last};
+        if (hand_)
+            path_.step(*hand_, wish);
+        else
+            path_.advance(wish);
+        require_physical();
+        if (path_.status() == Path::Status::behind_end) path_.advance({}); // concludes the segment
     } catch (const std::exception& error) {
         failure_ = error.what();
         throw;
@@ -180,6 +192,15 @@ void SteppedPath::one_step(bool last) {
     take_in_writes();
 }
 
+/// Throws io::PhysicsError if the last step is no longer physical.
+void SteppedPath::require_physical() const {
+    const std::optional<std::string> wrong = violation(path_.now(), case_, surface_);
+    if (!wrong) return;
+    const Path::Remedy remedy = path_.remedy();
+    throw io::PhysicsError(*wrong, remedy.why,
+                           remedy.fix + "; or resume the last state that was saved");
+}
+
 void SteppedPath::every(long long n, std::function<void()> f) {
     if (n < 1)
         refuse("every", fmt::format("{} steps", n), "an observer is called each so many steps",
@@ -187,39 +208,35 @@ void SteppedPath::every(long long n, std::function<void()> f) {
     observers_.push_back({n, std::move(f)});
 }
 
-std::string SteppedPath::segment() const {
-    return done() ? "done" : simulation().drive().now().text;
-}
+std::string SteppedPath::segment() const { return done() ? "done" : drive().now().text; }
 
-int SteppedPath::segment_number() const {
-    return simulation().drive().by_hand() ? -1 : static_cast<int>(path_.segment());
-}
+int SteppedPath::segment_number() const { return hand_ ? -1 : static_cast<int>(path_.segment()); }
 
 void SteppedPath::set_top_position(double z) {
     require_number("top.position", z);
-    path_.simulation().block_to_write().set_top(z);
+    path_.simulation().set_top(z);
 }
 
 double SteppedPath::top_velocity() const {
-    const double middle = simulation().time() + 0.5 * simulation().options().dt;
-    return simulation().drive().velocity(middle) / units::metre_per_second;
+    const TopMotion next = hand_.value_or(drive().motion(simulation().middle_of_step()));
+    return next.z / units::metre_per_second;
 }
 
 void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
-    path_.simulation().drive().set_velocity(v ? std::optional(*v * units::metre_per_second)
-                                              : std::nullopt);
+    hand_.reset();
+    if (v) hand_ = TopMotion{.z = *v * units::metre_per_second};
 }
 
-SteppedPath::View SteppedPath::view_to_write(VectorField<double> Block::Level::*field) {
+Block::Fields SteppedPath::fields_to_write() {
     if (!viewed_) take_copies(); // copies of the device's fields, if they are newer
     viewed_ = true;
-    return const_cast<VectorField<double>&>(lowest_level().*field).plane(0);
+    return path_.simulation().fields_to_view();
 }
 
 SteppedPath::View SteppedPath::f() {
     require_processor("f");
-    return const_cast<VectorField<double>&>(lowest_level().transferred).plane(0);
+    return path_.simulation().fields_to_view().transferred.plane(0);
 }
 
 std::shared_ptr<const void> SteppedPath::lease() {
@@ -229,12 +246,16 @@ std::shared_ptr<const void> SteppedPath::lease() {
     return held;
 }
 
-/// Returns maps. Positions are those of the next step: so is the place of the block over the
-/// substrate.
+/// Returns the interface at the place of the sites, which is that of the next step.
+const Interface& SteppedPath::interface_here() {
+    const std::array<double, 2>& place = simulation().top().place;
+    Interface& interface = path_.simulation().interface();
+    interface.slide_to(place[0], place[1]);
+    return interface;
+}
+
 InterfaceMaps SteppedPath::maps() {
-    const std::array<double, 2>& place = simulation().place();
-    path_.interface().slide_to(place[0], place[1]);
-    return path_.interface().maps(simulation().block().lowest_layer(), path_.reference_height());
+    return interface_here().maps(simulation().block().lowest_layer(), path_.reference_height());
 }
 
 void SteppedPath::set_external(const VectorPlane<const double>& field) {
@@ -252,11 +273,11 @@ void SteppedPath::set_external(const VectorPlane<const double>& field) {
          {std::pair{&field.x, &to.x}, {&field.y, &to.y}, {&field.z, &to.z}})
         for (int y = 0; y < tile.ny; ++y)
             std::copy_n(from->line(y), tile.nx, here->line(y));
-    path_.simulation().push(external_.get());
+    pushing_.set(external_.get());
 }
 
 void SteppedPath::clear_external() {
-    path_.simulation().push(nullptr);
+    pushing_.set(nullptr);
     if (external_) dropped_.push_back(std::move(external_));
 }
 
@@ -277,9 +298,10 @@ RestState SteppedPath::relax(const Look& look) {
         now_and_then();
         return false;
     };
-    const LayerAtRest found = path_.while_watched(told, [this] { return path_.state_from_here(); });
-    return {*found.numbers,
-            path_.interface().maps(found.layer.view()[0], path_.reference_height())};
+    const std::optional<LayerAtRest> found =
+        path_.while_watched(told, [this] { return path_.state_from_here(); });
+    return {*found->numbers,
+            interface_here().maps(found->layer.view()[0], path_.reference_height())};
 }
 
 void SteppedPath::require_whole() const {
@@ -341,37 +363,36 @@ void SteppedPath::take_in_writes() {
 /// All that a file has beside the numbers of the path.
 struct SteppedPath::Saved {
     SteppedPath& all;
-    struct ExternalWork {
-        Simulation& simulation;
-        template <class Visitor>
-        void visit(Visitor& v) {
-            simulation.visit_external(v);
-        }
-    };
     template <class Visitor>
     void visit(Visitor& v) {
-        Simulation& simulation = all.path_.simulation();
-        Drive& drive = simulation.drive();
-        bool by_hand = drive.by_hand().has_value();
-        double velocity = drive.by_hand().value_or(0.0);
+        bool by_hand = all.hand_.has_value(), pushed = all.external_ != nullptr;
+        double velocity = all.hand_.value_or(TopMotion{}).z;
         v("top.by_hand", by_hand);
         v("top.velocity", velocity);
-        if constexpr (Visitor::restores)
-            drive.set_velocity(by_hand ? std::optional(velocity) : std::nullopt);
-        ExternalWork work{simulation};
-        v("external", work);
-        bool pushed = all.external_ != nullptr;
+        v("external", all.pushing_);
         v("external.acts", pushed);
-        if (pushed && !all.external_) {
-            all.external_ = std::make_unique<VectorField<double>>(all.tile(), 1);
-            simulation.push(all.external_.get());
+        if constexpr (Visitor::restores) {
+            all.hand_.reset();
+            if (by_hand) all.hand_ = TopMotion{.z = velocity};
+            if (pushed && !all.external_) {
+                all.external_ = std::make_unique<VectorField<double>>(all.tile(), 1);
+                all.pushing_.set(all.external_.get());
+            }
         }
     }
 };
 
-std::vector<StateArray> SteppedPath::own_arrays() {
+std::vector<StateArray> SteppedPath::own_arrays() const {
     std::vector<StateArray> list;
-    add_arrays(0, "force", const_cast<VectorField<double>&>(lowest_level().transferred), 1, list);
+    add_arrays(0, "force", lowest_level().transferred, 1, list);
+    if (external_) add_arrays(0, "external", std::as_const(*external_), 1, list);
+    return list;
+}
+
+std::vector<RestoredArray> SteppedPath::own_arrays_to_restore() {
+    std::vector<RestoredArray> list;
+    Block& block = path_.simulation().block_to_write();
+    add_arrays(0, "force", block.fields(block.levels().front()).transferred, 1, list);
     if (external_) add_arrays(0, "external", *external_, 1, list);
     return list;
 }
@@ -405,7 +426,7 @@ void SteppedPath::restore(const std::string& file) {
         path_.restore(numbers);
         Saved saved{*this};
         numbers("program", saved); // decides if there is a field to be read
-        return joined(path_.arrays(), own_arrays());
+        return joined(path_.arrays_to_restore(), own_arrays_to_restore());
     };
     read_checkpoint(io::FilePlace(file), ranks_, path_.grid(), arrays, description());
     path_.restored();

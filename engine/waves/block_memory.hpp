@@ -67,6 +67,7 @@ public:
     const std::vector<SiteField<double>>& extensions() const { return h_; }
     /// Returns d0 and c0 of the last step, Å: the memory is these and the extensions.
     std::vector<SiteField<double>>& history() { return history_; }
+    const std::vector<SiteField<double>>& history() const { return history_; }
     std::size_t bytes() const;
 
 private:
