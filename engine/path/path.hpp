@@ -142,6 +142,9 @@ public:
     virtual const Phases* phases() const { return nullptr; }
     /// Returns the memory of the block and the interface on this rank, bytes.
     virtual std::size_t bytes() const = 0;
+    /// Frees the memory that the path keeps for its next relaxation, before work that needs memory
+    /// of another kind.
+    virtual void free_workspace() const {}
     /// Likely reason of an error found by a guard at now(), and its remedy.
     struct Remedy {
         std::string why, fix;

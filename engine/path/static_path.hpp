@@ -30,6 +30,7 @@ public:
     std::string position() const override;
     std::optional<long long> iterations() const override;
     std::size_t bytes() const override { return block_.bytes() + interface_.bytes(); }
+    void free_workspace() const override { block_.workspace()->free_kept(); }
     Remedy remedy() const override { return remedy_of_points(); }
     /// Returns the remedy for points whose energy balance is off.
     static Remedy remedy_of_points();

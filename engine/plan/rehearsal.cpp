@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/plan/rehearsal.hpp"
 
-#include "decomposition/aligned_array.hpp"
 #include "engine/equilibrium/zero_load.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/path/static_path.hpp"
@@ -47,11 +46,10 @@ double shortest(const auto& work) {
 
 /// Returns the bytes that this process has allocated and not freed.
 double allocated() {
-    const auto kept = static_cast<double>(kept_arrays());
     if (__sanitizer_get_current_allocated_bytes)
-        return static_cast<double>(__sanitizer_get_current_allocated_bytes()) - kept;
+        return static_cast<double>(__sanitizer_get_current_allocated_bytes());
     const struct mallinfo2 all = ::mallinfo2();
-    return static_cast<double>(all.uordblks + all.hblkhd) - kept;
+    return static_cast<double>(all.uordblks + all.hblkhd);
 }
 
 /// Returns the case on fewer sites, on one rank and on the processor. timed: with the whole path;

@@ -65,6 +65,7 @@ void PathMaps::finish(const Path& path) {
                 fmt::format("the maps \"{}\" were not written: the path ended before",
                             times_.after_approach[i].second));
     if (!std::exchange(kept_, false)) return;
+    path.free_workspace();
     const auto write_over = [&](const Interface& interface) {
         session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
                                    interface, reference_height_);
@@ -81,6 +82,7 @@ void PathMaps::finish(const Path& path) {
 void PathMaps::write(const Path& path, const std::string& state,
                      const VectorPlane<const double>& layer) {
     const auto t = session_.phases().time(Phase::output);
+    path.free_workspace();
     session_.recorder().fields(state, layer, path.grid(), path.interface(),
                                path.reference_height());
 }

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run.hpp"
 
-#include "decomposition/aligned_array.hpp"
 #include "engine/run/observers.hpp"
 #include "engine/run/path_maps.hpp"
 #include "engine/run/run_session.hpp"
@@ -34,7 +33,6 @@ void follow(Path& path, RunSession& session, const Observers& observers) {
 int run(const Case& c, const RunOptions& options, const Communicator& communicator) {
     c.require_runnable();
     RunSession session(c, options, communicator);
-    free_kept_arrays(); // arrays of the surface
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);
     Rows rows(session);
     Trajectory trajectory(session);

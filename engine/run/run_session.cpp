@@ -63,6 +63,7 @@ int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
             });
         work();
         const auto t = phases_.time(Phase::output);
+        path.free_workspace();
         recorder_->write();
     } catch (const io::Error& error) {
         progress_.finish();
@@ -204,6 +205,7 @@ void RunSession::save(const Path& path) {
         collect(numbers);
         write_state(place, path, numbers);
     });
+    path.free_workspace();
     recorder_->write_if_cheap();
     interruptions_.checkpoint_written();
 }

@@ -182,6 +182,7 @@ LedPath::Point LedPath::now() const {
 }
 
 InterfaceMaps LedPath::maps() const {
+    block_.workspace()->free_kept();
     return interface_.maps(block_.lowest_layer(), reference_height());
 }
 
