@@ -44,8 +44,14 @@ bool leaves(const test::Written& run, const std::string& what) {
 TEST(Effects, WhatAKeySwitchesNamesIt) {
     // Every effect is switched by a key of this list, and then says so.
     const io::Scratch scratch;
-    const std::string atoms = write_atoms(
-        scratch / "atoms.h5", {{"Au"}, {0.0, 1.3}, 41.6, 41.6, {0.0, 1.3}, {0.0, -1.0}, {0, 0}});
+    io::AtomsFile layer{{"Au"}, {}, 41.6, 41.6, {}, {}, {}};
+    for (int i = 0; i < 256; ++i) {
+        layer.type.push_back(0);
+        layer.x.push_back(2.6 * (i % 16));
+        layer.y.push_back(2.6 * (i / 16));
+        layer.z.push_back(0.0);
+    }
+    const std::string atoms = write_atoms(scratch / "atoms.h5", layer);
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
                         "output.checkpoint=none", "block.thickness=16"};
     const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"};
