@@ -93,8 +93,8 @@ public:
         if (device_is_newer_) download();
         return block_.fields(std::as_const(block_).levels().front());
     }
-    /// Has forces from outside act beside those of the substrate, if there are any. Keeps the
-    /// pointer; their work is counted. Not available with a device.
+    /// Adds forces from outside to those of the substrate in each step. Keeps the pointer; null:
+    /// none. Their work is counted. Not available with a device.
     void push(ExternalForces* external) { external_ = external; }
     /// Begins a new energy balance with the next observed step, because writing to the fields from
     /// outside is not work.
@@ -144,7 +144,7 @@ private:
     StepRecord record_;
     StepLedger ledger_;
     ExternalForces* external_ = nullptr;
-    Sums sums_; ///< of the current step
+    Sums sums_; ///< sums of the current step
 };
 
 template <class Visitor>

@@ -48,17 +48,18 @@ struct StepTotals {
     double external = 0.0; ///< work of forces from outside since the step before, eV
     /// Place over the substrate, Å, and force of the substrate, eV/Å; of a path that slides
     std::array<double, 2> slide{}, lateral_force{};
-    // Of an observed step, eV:
+    // Energies at an observed step, eV:
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    double time_step_energy = 0.0; ///< of a scene with a temperature (thermostat.hpp)
+    double time_step_energy = 0.0; ///< zero without a temperature (thermostat.hpp)
 };
 
 /// Ledger of the steps of a simulation.
 class StepLedger {
 public:
     const EnergyBalance& balance() const { return balance_; }
-    /// Enters a step. record: the record of the step before, to which the amounts of this one are
-    /// written; with the energies and their balance if it is marked as observed.
+    /// Adds a step to works and dissipation. record: the record of the step before, to which the
+    /// amounts of this one are written; with the energies and their balance if it is marked as
+    /// observed.
     void enter(const StepTotals& now, StepRecord& record);
     /// Begins a new energy balance with the next observed step.
     void restart() { energy_brought_.reset(); }

@@ -229,7 +229,7 @@ void Snapshot::take(const Path& path) {
 void Snapshot::restore(Path& path) const {
     RestoreNumbers restore(numbers_);
     path.restore(restore);
-    fields_.restore(path.arrays_to_restore()); // which the numbers decide
+    fields_.restore(path.arrays_to_restore()); // the numbers decide which ones
     path.restored();
 }
 

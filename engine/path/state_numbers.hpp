@@ -110,7 +110,7 @@ public:
     /// Collects the members of an object, without a name before theirs.
     template <class T>
     void members_of(const T& object) {
-        const_cast<T&>(object).visit(*this); // as above
+        const_cast<T&>(object).visit(*this); // writes to none of them
     }
 
     /// Adds a number. Throws std::logic_error if the name is taken.

@@ -34,7 +34,7 @@ TEST(AlignedArray, NoMoreIsKeptThanWasInUse) {
     Workspace home;
     EXPECT_EQ(home.kept(), 0u);
     const std::size_t bytes = 1 << 20, other = bytes - 6400, count = 40;
-    const auto make = [](std::size_t n, std::size_t of) {
+    const auto make = [&](std::size_t n, std::size_t of) {
         std::vector<AlignedArray<std::byte>> list;
         for (std::size_t i = 0; i < n; ++i)
             list.push_back(aligned_array<std::byte>(of, &home));
