@@ -21,7 +21,7 @@ namespace matrix_entry {
 enum { xx, yy, zz, xy, xz, yz, count };
 }
 
-/// A row of sites that the heavy ball moves (engine/equilibrium/heavy_ball.hpp), by components.
+/// A row of sites that the heavy ball moves (engine/statics/heavy_ball.hpp), by components.
 struct BallRow {
     const float* target[3]; ///< targets of the sites, Å
     double* u[3];           ///< displacements, Å; updated

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // A potential given by numbers: cubics over equal intervals of r, V0 and V0' continuous. The
-// numbers belong to a PotentialTable (engine/interface/potential_table.hpp), which makes them from
+// numbers belong to a PotentialTable (engine/case/potential_table.hpp), which makes them from
 // a file.
 #pragma once
 

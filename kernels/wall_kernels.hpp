@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Kernels of sites over a wall: forces, and the equilibrium of each site under its own force while
-// the elastic forces are held fixed (engine/equilibrium/wall_minimiser.hpp). All in double
+// the elastic forces are held fixed (engine/statics/wall_minimiser.hpp). All in double
 // precision except the single-precision input of the minimiser.
 #pragma once
 

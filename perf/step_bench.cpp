@@ -14,8 +14,9 @@
 // a step; waiting for other ranks is in exchange, sums, and advance where a level is gathered),
 // what the most loaded rank holds and sends, and the record of the sixth step, bitwise identical on
 // any ranks.
+#include "engine/case/case.hpp"
+#include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/setup/case.hpp"
 
 #include <nlohmann/json.hpp>
 #include <omp.h>

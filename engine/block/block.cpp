@@ -9,54 +9,6 @@
 
 namespace asperity {
 
-double BlockOptions::sound_speed() const {
-    const double density = atom_mass / (spacing * spacing * spacing);
-    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
-}
-
-CellElasticity BlockOptions::elasticity(int level) const {
-    const double s = spacing * (1 << level);
-    return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
-}
-
-double BlockOptions::highest_frequency(double site_stiffness) const {
-    // The largest eigenvalue of the bulk's dynamical matrix is that of a longitudinal wave, of
-    // phases (pi, 0, 0) or, below a Poisson ratio of about 0.12, (t, t, t). With c = cos t it is
-    // there (1 - c) (24 kappa (1 + c)^2 + k (10 + 8 c)), whose derivative vanishes at the root of
-    // 72 kappa c^2 + (48 kappa + 16 k) c + 2 k - 24 kappa that is -1/8 for kappa = 0. Surfaces and
-    // coarser levels have no higher one. tests/engine/block_test.cpp searches the whole zone.
-    const CellElasticity e = elasticity(0);
-    const double axis = 64.0 * e.kappa + 12.0 * e.k;
-    const double a = 72.0 * e.kappa, b = 48.0 * e.kappa + 16.0 * e.k,
-                 d = 2.0 * e.k - 24.0 * e.kappa;
-    const double c = -2.0 * d / (b + std::sqrt(b * b - 4.0 * a * d));
-    const double diagonal =
-        (1.0 - c) * (24.0 * e.kappa * (1.0 + c) * (1.0 + c) + e.k * (10.0 + 8.0 * c));
-    return std::sqrt((std::max(axis, diagonal) + site_stiffness) / atom_mass);
-}
-
-std::vector<LevelShape> level_shapes(const BlockOptions& options) {
-    std::vector<LevelShape> shapes;
-    int rest = options.thickness, sites = options.sites;
-    for (int level = 0;; ++level) {
-        const int least = options.layers_per_level;
-        // One cell more where the rest would not divide by two.
-        const int cells = least + ((rest - least) & 1);
-        const bool coarsen = options.multiscale && sites % 2 == 0 && (rest - cells) / 2 >= least;
-        shapes.push_back({level, sites, coarsen ? cells : rest});
-        if (!coarsen) return shapes;
-        rest = (rest - cells) / 2;
-        sites /= 2;
-    }
-}
-
-double nodes_of(const std::vector<LevelShape>& levels) {
-    double nodes = 0.0;
-    for (const LevelShape& l : levels)
-        nodes += static_cast<double>(l.sites) * l.sites * l.cells;
-    return nodes;
-}
-
 std::size_t Block::Level::bytes() const {
     return u.bytes() + v.bytes() + transferred.bytes() + upper_force.bytes();
 }

@@ -26,59 +26,13 @@
 #include "decomposition/halo_exchange.hpp"
 #include "decomposition/process_grid.hpp"
 #include "decomposition/rows_of_thread.hpp"
+#include "engine/options/block_options.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/level_transfer.hpp"
 
-#include <numbers>
 #include <vector>
 
 namespace asperity {
-
-/// A spring in series with a dashpot, beside the block's own springs.
-struct Branch {
-    double ratio = 0.0; ///< modulus over that of the block
-    double time = 0.0;  ///< relaxation time: the stress falls to 1/e in it, fs
-};
-
-/// Shape, elasticity and resolution of a block.
-struct BlockOptions {
-    int sites = 512;      ///< atoms across the box, N
-    double spacing = 2.6; ///< a, Å
-    double young = 0.0;   ///< Young's modulus, eV/Å^3
-    double poisson = 0.42;
-    double atom_mass = 0.0; ///< eV fs^2/Å^2
-    int thickness = 512;    ///< number of cells of edge a
-    int layers_per_level = 4;
-    bool multiscale = true;
-    bool finite_strain = false;
-    std::vector<Branch> branches{}; ///< branches of a block that relaxes, without inertia
-
-    double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
-    double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
-    /// Returns E/(1 - nu^2), eV/Å^3.
-    double contact_modulus() const { return young / (1.0 - poisson * poisson); }
-    /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not
-    /// thin: E* q_L / 2, eV/Å^4. Thin blocks are stiffer.
-    double softest_wave() const { return contact_modulus() * std::numbers::pi / (sites * spacing); }
-    /// Returns the speed of longitudinal waves, Å/fs.
-    double sound_speed() const;
-    CellElasticity elasticity(int level) const;
-    /// Returns the largest angular frequency of the bulk lattice with the interface's stiffness per
-    /// site (eV/Å^2) added to a surface atom, 1/fs.
-    double highest_frequency(double site_stiffness) const;
-};
-
-/// Number of a level, its nodes and its layers.
-struct LevelShape {
-    int level = 0;
-    int sites = 0; ///< nodes across the box
-    int cells = 0; ///< layers
-};
-/// Returns levels that fill the thickness exactly, each at least layers_per_level cells thick,
-/// coarsening twofold while the box and the remaining thickness allow it.
-std::vector<LevelShape> level_shapes(const BlockOptions& options);
-/// Returns the number of nodes of all levels.
-double nodes_of(const std::vector<LevelShape>& levels);
 
 /// Parameters of a step (drive.hpp), from which the block makes coefficients for each plane.
 struct StepParameters {

@@ -9,8 +9,8 @@
 //     return carry_out(commands, argc, argv, world);
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/run/run.hpp"
-#include "engine/setup/case.hpp"
 
 #include <functional>
 #include <optional>

@@ -5,7 +5,7 @@
 // mistakes in the scene; rank 0 alone prints.
 #pragma once
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 
 #include <string>
 #include <vector>

@@ -12,7 +12,7 @@
 
 #include "engine/block/block.hpp"
 #include "engine/interface/interface.hpp"
-#include "engine/scene/device_choice.hpp"
+#include "engine/options/device_choice.hpp"
 #include "kernels/device/device.hpp"
 
 #include <array>

@@ -16,7 +16,7 @@
 #pragma once
 
 #include "engine/dynamics/top.hpp"
-#include "engine/scene/segment.hpp"
+#include "engine/options/drive_options.hpp"
 #include "engine/scene/segment_rule.hpp"
 
 #include <array>
@@ -26,20 +26,6 @@
 #include <vector>
 
 namespace asperity {
-
-/// Options of the drive, in the units of the engine.
-struct DriveOptions {
-    double velocity = 5e-5;  ///< Å/fs
-    double ramp = 0.0;       ///< time over which a velocity changes, fs
-    double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
-    double area = 1.0;       ///< area of the interface, Å^2
-    /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
-    /// a warm block, whose force fluctuates.
-    double average_over = 0.0;
-    /// Segments of the path. Amounts in the units of the engine: a load in eV/Å, a hold in fs.
-    std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
-                                 {Segment::pull_off, 0.0, 0, "pull-off"}};
-};
 
 /// Returns true if a pull-off has come to its end: the top plane is back where the approach started
 /// or beyond (top, Å), and the force is no larger than at_start, or small beside the strongest

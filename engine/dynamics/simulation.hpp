@@ -20,8 +20,8 @@
 #include "engine/dynamics/thermostat.hpp"
 #include "engine/dynamics/top.hpp"
 #include "engine/interface/interface.hpp"
+#include "engine/options/simulation_options.hpp"
 #include "engine/phases.hpp"
-#include "engine/scene/device_choice.hpp"
 #include "engine/step_record.hpp"
 
 #include <array>
@@ -32,19 +32,6 @@
 namespace asperity {
 
 class DeviceBlock;
-
-/// Options of a simulation.
-struct SimulationOptions {
-    BlockOptions block;
-    InterfaceOptions interface;
-    DriveOptions drive;
-    double dt = 10.0;          ///< fs
-    double damping = 0.0;      ///< 1/fs
-    double damping_from = 0.0; ///< fraction of the thickness above which damping acts
-    double temperature = 0.0;  ///< K
-    std::uint64_t seed = 1;    ///< seed of the noise
-    DeviceChoice device;       ///< device that makes the steps; none: the processor
-};
 
 /// A block, its top plane and an interface, advanced step by step.
 class Simulation {

@@ -7,7 +7,7 @@
 
 #include "decomposition/field.hpp"
 #include "decomposition/tile.hpp"
-#include "engine/scene/surface.hpp"
+#include "engine/options/substrate.hpp"
 #include "kernels/substrates.hpp"
 
 #include <cmath>

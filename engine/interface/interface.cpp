@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/interface/interface.hpp"
 
-#include "engine/interface/sweep_limits.hpp"
+#include "engine/options/sweep_limits.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -240,14 +240,6 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
             maps.gap.push_back(reference_height + displacement.z(x, y) - below);
         }
     return maps;
-}
-
-double reach_of(const InterfaceOptions& options) {
-    if (options.wall) {
-        const double reach = std::visit([](const auto& law) { return law.reach(); }, *options.wall);
-        if (std::isfinite(reach)) return reach;
-    }
-    return (options.tail ? 4.0 : 1.0) * options.pairs().cutoff;
 }
 
 double Interface::start_height() const { return map_.highest() + reach_of(options_); }

@@ -18,12 +18,12 @@
 #include "decomposition/field.hpp"
 #include "decomposition/tile.hpp"
 #include "engine/interface/height_map.hpp"
-#include "engine/interface/interface_options.hpp"
 #include "engine/interface/over_atoms.hpp"
 #include "engine/interface/over_lattice.hpp"
 #include "engine/interface/over_rows.hpp"
 #include "engine/interface/over_wall.hpp"
-#include "engine/scene/surface.hpp"
+#include "engine/options/interface_options.hpp"
+#include "engine/options/substrate.hpp"
 #include "engine/step_record.hpp"
 
 #include <array>

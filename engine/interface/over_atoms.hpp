@@ -4,8 +4,8 @@
 // A substrate of atoms anywhere, each with the potential of its type.
 #pragma once
 
-#include "engine/interface/interface_options.hpp"
 #include "engine/interface/substrate_cells.hpp"
+#include "engine/options/interface_options.hpp"
 
 #include <vector>
 

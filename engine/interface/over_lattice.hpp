@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/interface/height_map.hpp"
-#include "engine/interface/interface_options.hpp"
+#include "engine/options/interface_options.hpp"
 
 #include <cstdint>
 #include <vector>

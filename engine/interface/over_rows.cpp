@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/interface/over_rows.hpp"
 
-#include "engine/interface/sweep_limits.hpp"
+#include "engine/options/sweep_limits.hpp"
 
 #include <cmath>
 

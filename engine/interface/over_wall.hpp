@@ -7,7 +7,7 @@
 
 #include "decomposition/field.hpp"
 #include "engine/interface/height_map.hpp"
-#include "engine/interface/interface_options.hpp"
+#include "engine/options/interface_options.hpp"
 
 namespace asperity {
 

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "decomposition/tile.hpp"
-#include "engine/scene/surface.hpp"
+#include "engine/options/substrate.hpp"
 #include "kernels/substrates.hpp"
 
 #include <cstddef>

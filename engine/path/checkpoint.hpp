@@ -12,8 +12,8 @@
 #pragma once
 
 #include "engine/block/block.hpp"
-#include "engine/equilibrium/state_array.hpp"
 #include "engine/path/state_numbers.hpp"
+#include "engine/statics/state_array.hpp"
 #include "io/files.hpp"
 
 #include <functional>

@@ -5,7 +5,7 @@
 // plan`.
 #pragma once
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 
 #include <vector>
 

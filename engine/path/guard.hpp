@@ -4,8 +4,8 @@
 // The guard: conditions under which no path goes on, dynamic or quasi-static.
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/dynamics/simulation.hpp"
-#include "engine/setup/case.hpp"
 
 #include <optional>
 #include <string>

@@ -16,8 +16,8 @@
 // is the energy of motion left at the end: kinetic energy, and that of vibrations about the state.
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/path/path_results.hpp"
-#include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 
 #include <cstddef>

@@ -27,13 +27,13 @@
 // All member functions are collective.
 #pragma once
 
-#include "engine/equilibrium/state_array.hpp"
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/case/case.hpp"
 #include "engine/path/ledger.hpp"
 #include "engine/path/path_results.hpp"
 #include "engine/path/state_numbers.hpp"
 #include "engine/phases.hpp"
-#include "engine/setup/case.hpp"
+#include "engine/statics/state_array.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/step_record.hpp"
 #include "io/error.hpp"
 

@@ -4,9 +4,9 @@
 // The results of a run so far: the numbers of the summary and of result.json.
 #pragma once
 
-#include "engine/equilibrium/dissipation.hpp"
-#include "engine/equilibrium/zero_load.hpp"
-#include "engine/scene/segment.hpp"
+#include "engine/options/segment.hpp"
+#include "engine/statics/dissipation.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/step_record.hpp"
 
 #include <algorithm>

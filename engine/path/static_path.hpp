@@ -6,8 +6,8 @@
 // in its state.
 #pragma once
 
-#include "engine/equilibrium/quasistatic.hpp"
 #include "engine/path/path.hpp"
+#include "engine/statics/quasistatic.hpp"
 
 #include <optional>
 

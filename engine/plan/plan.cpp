@@ -3,8 +3,8 @@
 #include "engine/plan/plan.hpp"
 
 #include "engine/device/device_block.hpp"
-#include "engine/equilibrium/zero_load.hpp"
 #include "engine/path/expected_path.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
 #include "io/machine.hpp"

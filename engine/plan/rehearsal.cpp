@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/plan/rehearsal.hpp"
 
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/dynamics/simulation.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/path/static_path.hpp"
 #include "engine/run/recorder.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "io/error.hpp"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 // numbers of pieces to the size of the case.
 #pragma once
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 
 #include <array>
 

@@ -4,8 +4,8 @@
 // Numbers of result.json that follow from the series of run.h5.
 #pragma once
 
+#include "engine/options/segment.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/scene/segment.hpp"
 #include "io/result.hpp"
 
 #include <vector>

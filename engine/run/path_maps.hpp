@@ -6,8 +6,8 @@
 // attraction of the last pull-off are kept until the run ends.
 #pragma once
 
-#include "engine/equilibrium/state_array.hpp"
 #include "engine/path/path.hpp"
+#include "engine/statics/state_array.hpp"
 
 #include <array>
 #include <cstddef>

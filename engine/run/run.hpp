@@ -4,7 +4,7 @@
 // `asperity run`: from a case to a result directory.
 #pragma once
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "io/terminal.hpp"
 
 #include <optional>

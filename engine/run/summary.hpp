@@ -4,8 +4,8 @@
 // Output of a run at its beginning and at its end.
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/path/path_results.hpp"
-#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 
 #include <cstdio>

@@ -7,10 +7,10 @@
 // documentation; that list is the only place with the names of keys, and the reader, `asperity
 // defaults`, result.json and docs/reference/scene.md all follow from it. Names and defaults do not
 // change from release to release: tests/engine/scene_test.cpp has them all. resolve()
-// (engine/setup/case.hpp) derives the meaning of a scene and finds its mistakes.
+// (engine/case/case.hpp) derives the meaning of a scene and finds its mistakes.
 #pragma once
 
-#include "engine/scene/device_choice.hpp"
+#include "engine/options/device_choice.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
 #include "kernels/pair_potential.hpp"
@@ -173,7 +173,7 @@ std::vector<std::pair<std::string, std::string>> keys_of_potentials();
 io::Schema bind(Scene& scene);
 
 /// Reads the keys of a scene. Overrides are "section.key=value". Throws io::SceneError with the
-/// mistakes in single keys; resolve() (engine/setup/case.hpp) checks the keys together.
+/// mistakes in single keys; resolve() (engine/case/case.hpp) checks the keys together.
 Scene read_scene(const std::string& file, const std::vector<std::string>& overrides = {});
 /// Reads a scene from a text in memory. file: name shown in messages. Throws io::SceneError.
 Scene read_scene_text(const std::string& text, const std::string& file,

@@ -12,7 +12,7 @@
 // Forces are those of the substrate on the lowest layer, eV/Å, positive upwards.
 #pragma once
 
-#include "engine/scene/segment.hpp"
+#include "engine/options/segment.hpp"
 
 namespace asperity {
 

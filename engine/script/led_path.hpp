@@ -10,8 +10,8 @@
 // quantity of drive.control. A dynamic scene is treated as if drive.mode were "quasistatic".
 #pragma once
 
-#include "engine/equilibrium/quasistatic.hpp"
 #include "engine/script/stepped_path.hpp"
+#include "engine/statics/quasistatic.hpp"
 
 #include <functional>
 #include <optional>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/theory/rough_interface.hpp"
 
-#include "engine/block/block.hpp"
+#include "engine/options/block_options.hpp"
 #include "engine/units.hpp"
 #include "io/json.hpp"
 #include "kernels/surface_stiffness.hpp"

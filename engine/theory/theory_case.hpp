@@ -14,8 +14,8 @@
 //   p      drive.load, positive pressing.
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/scene/surface.hpp"
-#include "engine/setup/case.hpp"
 #include "io/result.hpp"
 #include "theory/persson.hpp"
 

@@ -28,7 +28,7 @@
 #pragma once
 
 #include "decomposition/surface_transform.hpp"
-#include "engine/block/block.hpp"
+#include "engine/options/block_options.hpp"
 
 #include <functional>
 #include <limits>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "decomposition/waves.hpp"
-#include "engine/block/block.hpp"
+#include "engine/options/block_options.hpp"
 #include "kernels/surface_stiffness.hpp"
 
 #include <cstddef>

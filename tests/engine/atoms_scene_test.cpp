@@ -3,9 +3,9 @@
 //
 // Scenes whose substrate is a file of atoms: a surface written out as atoms gives the run of the
 // surface, boxes are compared, and what does not go together is refused.
+#include "engine/case/case.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/run_record.hpp"
-#include "engine/setup/case.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
 

@@ -4,7 +4,7 @@
 // What a path over a sphere says, and the curves of a smooth sphere beside it.
 #include "engine/run/curve.hpp"
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "engine/units.hpp"
 #include "io/json.hpp"
 

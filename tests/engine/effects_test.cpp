@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Effects are switched by the keys of the scene, which they name; one that is off makes no call.
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "support/atoms.hpp"
 #include "support/run_scene.hpp"
 

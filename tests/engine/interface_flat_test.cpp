@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Flat on flat: the numbers of docs/explanation/model.md.
-#include "engine/interface/flat_reference.hpp"
+#include "engine/case/flat_reference.hpp"
 #include "support/cases.hpp"
 #include "support/swept.hpp"
 

@@ -3,7 +3,7 @@
 //
 // The relaxation's own promises: the work of a load, an honest answer when it may not go on.
 // (Loads carried, and starts elsewhere: stability/limits_test.)
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "support/path_case.hpp"
 
 #include <gtest/gtest.h>

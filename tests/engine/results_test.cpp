@@ -4,11 +4,11 @@
 // What a run writes, against itself: the same quantity in result.json, in the series and in the
 // maps of run.h5, each converted by the unit that the file states.
 #include "decomposition/global_sum.hpp"
+#include "engine/case/case.hpp"
 #include "engine/path/path.hpp"
 #include "engine/run/recorder.hpp"
 #include "engine/run/run_record.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/setup/case.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/quantities.hpp"

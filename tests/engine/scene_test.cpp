@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // The scene against its contract: names, defaults, contradictions.
+#include "engine/case/case.hpp"
 #include "engine/run/series.hpp"
-#include "engine/setup/case.hpp"
 #include "io/json.hpp"
 #include "io/quantities.hpp"
 #include "kernels/device/device.hpp"

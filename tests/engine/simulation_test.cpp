@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Decisions of the drive; the sums and the energy balance of a simulation.
-#include "engine/interface/flat_reference.hpp"
+#include "engine/case/flat_reference.hpp"
 #include "engine/path/state_numbers.hpp"
 #include "support/cases.hpp"
 

@@ -3,7 +3,7 @@
 //
 // What becomes of a step of a quasi-static path, without a path: trails, energies and limits made
 // by hand. A spring of stiffness 2 is led from 0; its force is 2 x and its energy x^2.
-#include "engine/equilibrium/step_decision.hpp"
+#include "engine/statics/step_decision.hpp"
 
 #include <gtest/gtest.h>
 

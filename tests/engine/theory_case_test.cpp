@@ -6,7 +6,7 @@
 #include "engine/theory/rough_interface.hpp"
 #include "engine/theory/theory_case.hpp"
 
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "target.hpp"
 
 #include <vector>

@@ -23,7 +23,7 @@ random123=${RANDOM123_INCLUDE_DIR:-/usr/include}/Random123
 [ -d /usr/include/fmt ] && ln -s /usr/include/fmt "$work/layers/" # of potential_table.cpp, whose tables a test makes
 google=/usr/src/googletest/googletest
 files=("$source"/kernels/*.cpp "$source"/kernels/device/{emulated,no_cuda}.cpp "$source"/tests/kernels/*_test.cpp
-    "$source"/{tests/support/{elastic_reference,spectral_lattice},engine/interface/potential_table}.cpp "$google"/src/{gtest-all,gtest_main}.cc)
+    "$source"/{tests/support/{elastic_reference,spectral_lattice},engine/case/potential_table}.cpp "$google"/src/{gtest-all,gtest_main}.cc)
 export flags="-std=c++20 -O2 -ffp-contract=off -fopenmp -DFMT_HEADER_ONLY -I$work/layers -I$source/tests -I$google/include -I$google"
 compile() { # OBJECT SOURCE
     local more=""

@@ -7,7 +7,7 @@
 #include "kernels/lane.hpp"
 #include "kernels/simd.hpp"
 
-#include "engine/interface/potential_table.hpp"
+#include "engine/case/potential_table.hpp"
 #include "support/message.hpp"
 
 #include <gtest/gtest.h>

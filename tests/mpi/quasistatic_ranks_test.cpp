@@ -3,8 +3,8 @@
 //
 // A quasi-static path that is stopped, between points or within a relaxation, and resumed from a
 // checkpoint is the same bits as one that never stopped, and as that of one rank.
-#include "engine/equilibrium/quasistatic.hpp"
 #include "engine/path/checkpoint.hpp"
+#include "engine/statics/quasistatic.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
 

@@ -4,7 +4,7 @@
 // The spectral block in slabs over the ranks has the bits of the same on one: every rank holds
 // both, the slab it shares and a whole surface of its own. Sizes that the ranks divide, and that
 // they do not.
-#include "engine/equilibrium/relaxation.hpp"
+#include "engine/statics/relaxation.hpp"
 #include "support/cases.hpp"
 #include "support/world.hpp"
 

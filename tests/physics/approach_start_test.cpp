@@ -5,7 +5,7 @@
 // yielded there, and the works are those of the whole path.
 #include "engine/dynamics/approach_start.hpp"
 
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/units.hpp"
 #include "support/cases.hpp"
 #include "support/run_scene.hpp"

@@ -5,7 +5,7 @@
 // whole well, however soft the block; F is minus the slope of the relaxed energy; what is not lost
 // is the state's energy both ways; the state is the one that a held top plane leads to; levels and
 // waves agree.
-#include "engine/equilibrium/relaxation.hpp"
+#include "engine/statics/relaxation.hpp"
 #include "engine/units.hpp"
 #include "support/path_case.hpp"
 

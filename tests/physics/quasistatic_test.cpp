@@ -4,7 +4,7 @@
 // Quasi-static paths against their laws: flat on flat is a problem in one dimension, solved here on
 // its own (force, snap-in, snap-off, energies lost); work = energy + loss and loop area = loss on
 // rough surfaces. (Slow motion approaches the path: works_test.)
-#include "engine/equilibrium/quasistatic.hpp"
+#include "engine/statics/quasistatic.hpp"
 #include "engine/units.hpp"
 #include "support/nodes.hpp"
 #include "support/path_case.hpp"

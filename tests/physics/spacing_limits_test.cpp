@@ -3,7 +3,7 @@
 //
 // What the spacing does not resolve, and by how much: rows of sites that hold the edge of a contact
 // over a wall of short range, and waves of a few spacings.
-#include "engine/setup/spacing_limits.hpp"
+#include "engine/case/spacing_limits.hpp"
 #include "engine/units.hpp"
 #include "support/message.hpp"
 #include "support/run_scene.hpp"

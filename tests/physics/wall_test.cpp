@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // A wall in place of atoms: its laws, the states over it, and problems with closed forms.
-#include "engine/equilibrium/quasistatic.hpp"
-#include "engine/equilibrium/zero_load.hpp"
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
+#include "engine/statics/quasistatic.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"

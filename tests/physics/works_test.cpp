@@ -9,7 +9,7 @@
 // in every mode, but for what still moves where approach and pull-off end (kinetic, in time), while
 // the work of the interface, int F dz of the mean height, is the binding energy itself where the
 // surface moves as one, however much is lost.
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "engine/units.hpp"
 #include "support/run_scene.hpp"
 

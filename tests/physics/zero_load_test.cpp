@@ -4,7 +4,7 @@
 // The relaxed state under zero load against numbers from elsewhere: flat on flat for each cutoff
 // (docs/explanation/model.md), and rough maps relaxed by an independent program
 // (tests/physics/data/README.md).
-#include "engine/interface/flat_reference.hpp"
+#include "engine/case/flat_reference.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -17,7 +17,7 @@ GONE = {
     r"zero-load": "relax, relaxed", r"work_of_adhesion": "work_of_interface",
 }
 # Names that the program refuses with the new one, and the sentences that do so.
-REFUSED = {"engine/scene/scene.cpp", "engine/scene/segment.cpp"}
+REFUSED = {"engine/scene/scene.cpp", "engine/scene/parse_path.cpp"}
 
 
 def files(*patterns):
@@ -39,7 +39,7 @@ def strings_of_python(text):
 
 def texts():
     for name in files("README.md", "ARCHITECTURE.md", "docs/*.md", "docs/data/tables/*.csv", "scenes/*.toml", "asperity",
-                      "python/asperity/templates/*"):
+                      "python/asperity/reports/templates/*"):
         yield name, (ROOT / name).read_text(encoding="utf-8")
     for name in files("engine/*.cpp", "engine/*.hpp", "io/*.cpp", "io/*.hpp", "kernels/*.hpp", "python/asperity/*.cpp"):
         if name not in REFUSED:

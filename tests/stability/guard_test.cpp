@@ -4,8 +4,8 @@
 // What ends a path, in time and without: nothing that is no physics leaves a result without a word.
 #include "engine/path/guard.hpp"
 
+#include "engine/case/case.hpp"
 #include "engine/scene/scene.hpp"
-#include "engine/setup/case.hpp"
 #include "support/message.hpp"
 #include "support/run_scene.hpp"
 

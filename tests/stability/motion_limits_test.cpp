@@ -3,7 +3,7 @@
 //
 // Hard cases of motion in time. Each test says first what stable means for it. With ASPERITY_LONG
 // set, long paths are as long as in the issue (10^6 steps).
-#include "engine/setup/case.hpp"
+#include "engine/case/case.hpp"
 #include "io/error.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"

@@ -3,6 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
+#include "engine/case/potential_table.hpp"
 #include "engine/units.hpp"
 
 #include <algorithm>

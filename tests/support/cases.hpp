@@ -4,7 +4,7 @@
 // The paper's material and small scenes, in the engine's units, without going through a scene file.
 #pragma once
 
-#include "engine/equilibrium/zero_load.hpp"
+#include "engine/statics/zero_load.hpp"
 #include "engine/waves/spectral_block.hpp"
 #include "support/driven.hpp"
 

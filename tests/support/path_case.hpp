@@ -4,8 +4,8 @@
 // Quasi-static paths of small contacts, and flat on flat as a problem in one dimension.
 #pragma once
 
-#include "engine/equilibrium/quasistatic.hpp"
-#include "engine/interface/flat_reference.hpp"
+#include "engine/case/flat_reference.hpp"
+#include "engine/statics/quasistatic.hpp"
 #include "support/cases.hpp"
 
 #include <gtest/gtest.h>

@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The case: a scene complete with its consequences, in the engine's units (Å, eV, fs). Runs, plans
+// and theories take a case; none of them checks keys or derives numbers from them.
+//
+// resolve() is the only way from a scene to a case. It parses lists (resolve.cpp,
+// pair_potentials.cpp), looks for contradictions between keys (checks.cpp), switches effects on
+// (effects.cpp) and derives options and limits, before anything is allocated.
+//
+//     const Case c = read_case("scene.toml", {"surface.rms=2"}, ranks);
+//     c.require_runnable();
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "decomposition/process_grid.hpp"
+#include "engine/case/effects.hpp"
+#include "engine/case/flat_reference.hpp"
+#include "engine/options/scales.hpp"
+#include "engine/options/segment.hpp"
+#include "engine/options/simulation_options.hpp"
+#include "engine/scene/scene.hpp"
+#include "engine/scene/surface.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+/// Times at which maps are written (output.fields).
+struct MapTimes {
+    bool relaxed = false, pull_off = false;
+    bool segments = false;          ///< maps at the end of each segment of the path
+    std::optional<long long> every; ///< steps, or points of a quasi-static path
+    /// Delay after the end of the approach, ps, and name; in the order of the delays.
+    std::vector<std::pair<double, std::string>> after_approach;
+};
+
+/// A scene, checked and complete.
+struct Case {
+    Scene scene;         ///< scene of the case
+    int ranks = 1;       ///< number of ranks of the case
+    bool in_time = true; ///< a dynamic path; false: equilibria only
+    std::string file;    ///< file of the map or the atoms, as found; empty: the scene has none
+    std::vector<Segment> path; ///< segments of the path; never empty in a valid scene
+    MapTimes maps;
+    std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
+    std::vector<std::string> table_files; ///< files of simulation.interface.tables
+    std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
+    /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
+    /// over the work of adhesion
+    std::optional<double> table_error;
+    Effects effects; ///< effects of the scene, from which the following is built
+    SimulationOptions simulation;
+    std::vector<LevelShape> levels;
+    FlatReference flat; ///< flat on flat, same cutoff and lattices
+    /// Scales of the scene. Their stiffness is a bound, like largest_tension.
+    Scales scales;
+    std::string force_scale; ///< description of scales.force
+    double tolerance = 0.0;  ///< drive.tolerance times scales.force, eV/Å
+    /// Bounds over flat on flat and over flat layers of each type of atoms:
+    double largest_tension = 0.0; ///< GPa
+    /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
+    /// too large; 1 if the spacing resolves the attraction beside the edge.
+    double edge_pinning = 1.0;
+    /// Longest step of a quasi-static path, Å: half the potential's width
+    double longest_step = HUGE_VAL;
+    /// Stability limit 2/omega_max at the bottom of the well, fs; usable_timestep() of it is used.
+    double longest_timestep = 0.0;
+    std::vector<std::string> notes; ///< facts worth knowing that are no mistakes
+    /// Problems that stop a run; `theory` and `surface` can use the case.
+    std::vector<io::Problem> refused;
+
+    /// Returns the paths of the files that were read: the scene, the map or the atoms, tables.
+    std::vector<std::string> inputs() const;
+    bool has(Segment::Kind kind) const;
+    /// Returns true if the path has segments other than approach and pull-off.
+    bool guided() const;
+    bool starts_with(Segment::Kind kind) const { return !path.empty() && path[0].kind == kind; }
+    /// Returns the area of the interface, Å^2.
+    double area() const { return scene.edge() * scene.edge(); }
+    /// Returns a number of sites over that of all sites.
+    double fraction(long long sites) const {
+        const double across = scene.surface.sites;
+        return static_cast<double>(sites) / (across * across);
+    }
+    /// Returns the number of atoms of a substrate of one layer along the edge of the box.
+    int substrate() const {
+        return substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
+    }
+    /// Returns the cut of the box: slabs of rows on quasi-static paths, tiles on dynamic ones.
+    /// Throws std::invalid_argument if it cannot be cut.
+    ProcessGrid grid(int rank) const;
+    /// Throws io::SceneError with all problems that stop a run, if there are any.
+    void require_runnable() const;
+};
+
+/// Derives a case and adds the mistakes of the scene to problems; keys with earlier problems get no
+/// others. The case is complete only if problems is empty.
+Case resolve(const Scene& scene, int ranks, io::Problems& problems);
+/// Derives a case. Throws io::SceneError with all mistakes.
+Case resolve(const Scene& scene, int ranks = 1);
+
+/// Reads and resolves a scene. Throws io::SceneError with all mistakes.
+Case read_case(const std::string& file, const std::vector<std::string>& overrides = {},
+               int ranks = 1);
+/// Reads and resolves a scene from a text in memory. file: name shown in messages. Throws
+/// io::SceneError.
+Case read_case_text(const std::string& text, const std::string& file,
+                    const std::vector<std::string>& overrides = {}, int ranks = 1);
+
+/// Makes the substrate; the root of `world` reads the map. Collective. Throws io::SceneError
+/// (options, contents of the file) or io::FileError.
+Surface surface_of(const Case& c, const Communicator& world = Communicator());
+
+/// Checks all that a run would check without running: require_runnable(), and the contents of the
+/// file of a surface. Returns the notes of the case and of such a surface. Collective. Throws
+/// io::SceneError.
+std::vector<std::string> examine(const Case& c, const Communicator& world = Communicator());
+
+/// Returns the usable part of a stability limit of flat contacts, fs: pressed sites vibrate faster.
+double usable_timestep(double limit);
+/// Returns notes on a surface that is too steep or too high for its box, one sentence each.
+std::vector<std::string> notes_on_roughness(double rms, double slope, double edge);
+
+} // namespace asperity

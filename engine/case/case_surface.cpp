@@ -1,0 +1,266 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The surface of a case: made from its spectrum, or from the map or the atoms of its file.
+#include "engine/case/case.hpp"
+#include "engine/case/spacing_limits.hpp"
+
+#include "io/atoms_file.hpp"
+#include "io/error.hpp"
+#include "io/files.hpp"
+#include "io/height_map.hpp"
+#include "io/json.hpp"
+#include "io/machine.hpp"
+#include "io/scene_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+
+namespace asperity {
+
+namespace {
+
+std::string shown(const std::string& type) {
+    return type.size() <= 20 ? type : type.substr(0, 20) + "...";
+}
+
+/// Returns the types of a file in words: "2 types: Au (300 atoms), C (255)".
+std::string types_of(const io::AtomsFile& file) {
+    std::vector<std::size_t> count(file.types.size(), 0);
+    for (const std::int32_t type : file.type)
+        ++count[static_cast<std::size_t>(type)];
+    std::string text = fmt::format("{} types: ", count.size());
+    for (std::size_t t = 0; t < count.size(); ++t)
+        text += fmt::format("{}{} ({}{})", t ? ", " : "", shown(file.types[t]), count[t],
+                            t ? "" : " atoms");
+    return text;
+}
+
+/// Returns the row of interface.pairs of each type of the file.
+std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
+    std::vector<std::int32_t> rows;
+    for (const std::string& type : file.types) {
+        const auto row = std::find(c.types.begin(), c.types.end(), type);
+        if (row == c.types.end())
+            throw std::invalid_argument(
+                c.types.empty()
+                    ? fmt::format("the atoms in {} are of {}; give each type its potential, for "
+                                  "example interface.pairs = [\"{} 0.1 3.28\", \"{} 0.05 3\"] with "
+                                  "epsilon in eV and r0 in Å, or one type to all",
+                                  c.scene.surface.file, types_of(file), shown(file.types[0]),
+                                  shown(file.types[1]))
+                    : fmt::format("interface.pairs has no type '{}', and the atoms in {} are of "
+                                  "{}; give it a potential there",
+                                  shown(type), c.scene.surface.file, types_of(file)));
+        rows.push_back(static_cast<std::int32_t>(row - c.types.begin()));
+    }
+    return rows;
+}
+
+/// Returns the atoms of the scene's file, whose periodic box must be the block's.
+Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
+    const auto& s = c.scene.surface;
+    io::AtomsFile file = io::read_atoms_file(c.file);
+    const double edge = options.length;
+    // Files have six digits and more.
+    const auto differs = [&](double width) { return std::abs(width - edge) > 1e-6 * edge; };
+    if (differs(file.width_x) || differs(file.width_y)) {
+        const double sites = std::round(file.width_x / s.spacing);
+        const bool square = std::abs(file.width_x - file.width_y) <= 1e-6 * file.width_x;
+        throw std::invalid_argument(fmt::format(
+            "the periodic box of the atoms in {} is {:.8g} x {:.8g} Å, and the block's {:.8g} x "
+            "{:.8g} Å ({} sites of {:.6g} Å); {}",
+            s.file, file.width_x, file.width_y, edge, edge, s.sites, s.spacing,
+            square && sites >= 4.0 && sites <= 32768.0
+                ? fmt::format("take surface.sites = {0:.0f} and surface.spacing = {1:.10g}, or "
+                              "repeat or cut the atoms",
+                              sites, file.width_x / sites)
+                : std::string("repeat or cut the atoms to the block's square box")));
+    }
+    const std::size_t count = file.x.size();
+    std::vector<std::int32_t> type;
+    if (file.types.size() > 1 || !c.types.empty()) {
+        const std::vector<std::int32_t> rows = rows_of(c, file);
+        for (const std::int32_t t : file.type)
+            type.push_back(rows[static_cast<std::size_t>(t)]);
+    }
+    std::uint32_t digest = 0;
+    for (const auto* values : {&file.x, &file.y, &file.z})
+        digest = io::digest_of(std::as_bytes(std::span(*values)), digest);
+    digest = io::digest_of(std::as_bytes(std::span(std::as_const(type))), digest);
+    Surface surface = surface_from_atoms(
+        options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
+    surface.notes.insert(
+        surface.notes.begin(),
+        fmt::format("{}: {} atoms of {}", std::filesystem::path(s.file).filename().string(), count,
+                    file.types.size() > 1 ? types_of(file) : "type " + shown(file.types[0])));
+    surface.file_digest = digest;
+    return surface;
+}
+
+/// Returns the map of the scene's file on every rank. The root alone reads it.
+io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
+    const auto& s = c.scene.surface;
+    io::HeightMap map;
+    std::string head;
+    ranks.on_root([&] {
+        map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
+                                           s.file_crop == MapCrop::middle, s.file_size});
+        if (ranks.size() == 1) return;
+        io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
+        json["notes"] = map.notes;
+        json["doubts"] = map.doubts;
+        if (map.width) json["width"] = *map.width;
+        head = io::json_text(json);
+    });
+    if (ranks.size() == 1) return map;
+    std::array<std::uint64_t, 2> sizes = {head.size(), map.heights.size()};
+    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
+    head.resize(sizes[0]);
+    map.heights.resize(sizes[1]);
+    ranks.broadcast(std::as_writable_bytes(std::span(head)));
+    ranks.broadcast(std::span(map.heights));
+    const io::Json json = io::parse_json(head, s.file);
+    map.rows = map.columns = json["rows"];
+    map.unit = json["unit"];
+    map.origin = json["origin"];
+    map.notes = json["notes"].get<std::vector<std::string>>();
+    map.doubts = json["doubts"].get<std::vector<std::string>>();
+    if (json.contains("width")) map.width = json["width"].get<double>();
+    return map;
+}
+
+} // namespace
+
+namespace {
+
+/// Checks the memory before anything is allocated: for the heights, and for the waves that
+/// make_surface() and measure() need. Throws io::SceneError.
+void require_memory_for_heights(const Case& c) {
+    const double n = c.substrate();
+    const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
+    const io::AvailableMemory there = io::available_memory();
+    if (needed <= there.bytes) return;
+    io::Problems problems = c.scene.problems();
+    problems.add(
+        "surface.sites",
+        fmt::format("= {}: its surface does not fit into memory", c.scene.surface.sites),
+        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
+                    needed / 1e9, there.bytes / 1e9, there.because),
+        "take fewer sites; every rank makes the whole surface");
+    problems.throw_if_any();
+}
+
+} // namespace
+
+Surface surface_of(const Case& c, const Communicator& world) {
+    require_memory_for_heights(c);
+    const Scene& scene = c.scene;
+    const auto& s = scene.surface;
+    SurfaceOptions options;
+    options.kind = s.kind;
+    options.sites = c.substrate();
+    options.length = scene.edge();
+    options.rms = s.rms;
+    options.hurst = s.hurst;
+    options.rolloff = s.rolloff;
+    options.cutoff = s.q_max.value_or(0.5 * options.sites);
+    options.amplitudes = s.amplitudes;
+    options.seed = static_cast<std::uint64_t>(s.seed);
+    options.radius = s.radius.value_or(0.0);
+    try {
+        if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
+        if (s.kind != SurfaceKind::file) return make_surface(options);
+        io::HeightMap map = map_of_file(c, world);
+        options.map_edge = map.width.value_or(0.0);
+        const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
+        if (points != covered && s.resample == Resample::none)
+            throw std::invalid_argument(fmt::format(
+                "the map in {} has {} x {} values, but covers {} x {} atoms of the substrate; give "
+                "a map of that size, set surface.sites = {}, or let it be resampled with "
+                "surface.resample = \"band-limited\"",
+                s.file, points, points, covered, covered, points));
+        // The resampled map and its waves, before the box is cut out of it.
+        if (points != covered)
+            io::require_memory(s.file, "the resampled map",
+                               32.0 * covered * static_cast<double>(covered));
+        options.rms = scene.gives_rms() ? s.rms : 0.0;
+        options.detrend = s.detrend != Detrend::none;
+        options.line_noise = s.line_noise;
+        options.periodic = s.detrend == Detrend::periodic;
+        const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
+        if (options.map_edge <= 0.0)
+            map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
+                                            "wide as the box, {:.6g} Å (surface.file_size)",
+                                            edge));
+        const double width = map.width.value_or(0.0);
+        const std::uint32_t digest =
+            io::digest_of(std::as_bytes(std::span(&width, 1)),
+                          io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
+        Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
+        surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
+        surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
+        surface.origin = std::move(map.origin);
+        surface.file_digest = digest;
+        surface.notes.insert(
+            surface.notes.begin(),
+            fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
+                        std::filesystem::path(s.file).filename().string(), points, points,
+                        edge / points, edge, map.unit));
+        surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+        if (surface.statistics.rms > surface.length)
+            throw std::invalid_argument(fmt::format(
+                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; {}",
+                surface.statistics.rms, map.unit, surface.length,
+                surface.doubts.empty()
+                    ? "correct the unit of the file (surface.file_unit), or its size"
+                    : fmt::format("{}", fmt::join(surface.doubts, "; "))));
+        for (std::string& note : notes_on_roughness(surface.statistics.rms,
+                                                    surface.statistics.rms_slope, surface.length))
+            surface.notes.push_back(std::move(note));
+        const double softness = lattice_softness(c.simulation.block, surface.statistics);
+        if (softness < 0.97)
+            surface.notes.push_back(fmt::format(
+                "the roughness has waves of a few spacings, for which a lattice is softer than a "
+                "continuum: to flatten this map takes {:.0f} % less energy than q E*/2 for each "
+                "wave; resample it on more sites (surface.resample) for a continuum's numbers",
+                100.0 * (1.0 - softness)));
+        return surface;
+    } catch (const std::invalid_argument& e) {
+        io::Problems problems = scene.problems();
+        problems.add(s.reads_file() ? "surface.file" : "surface.kind",
+                     std::string(": ") + e.what());
+        problems.throw_if_any();
+        throw;
+    }
+}
+
+std::vector<std::string> examine(const Case& c, const Communicator& world) {
+    std::vector<std::string> notes = c.notes;
+    io::Problems problems = c.scene.problems();
+    for (const io::Problem& problem : c.refused)
+        problems.add(problem);
+    if (c.scene.surface.reads_file()) {
+        try {
+            const Surface surface = surface_of(c, world);
+            notes.insert(notes.end(), surface.notes.begin(), surface.notes.end());
+        } catch (const io::SceneError& error) {
+            for (const io::Problem& problem : error.problems())
+                problems.add(problem);
+        } catch (const RootFailure& error) { // whose reason the root has
+            problems.add("surface.file", std::string(": ") + error.what());
+        }
+    }
+    problems.throw_if_any();
+    return notes;
+}
+
+} // namespace asperity

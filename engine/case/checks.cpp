@@ -1,0 +1,453 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What single keys cannot know: contradictions between them, what is not available yet, and what is
+// worth a note.
+#include "engine/case/potential_table.hpp"
+#include "engine/case/resolving.hpp"
+
+#include "engine/case/spacing_limits.hpp"
+#include "engine/options/sweep_limits.hpp"
+#include "engine/units.hpp"
+#include "kernels/variant.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+#include <tuple>
+
+namespace asperity {
+
+namespace {
+
+/// Checks that the segments of the path can follow one another.
+void check_path(const Case& c, io::Problems& problems) {
+    if (c.scene.drive.path.empty())
+        problems.add("drive.path", "is empty", "there would be nothing to do",
+                     "for example path = [\"approach\", \"pull-off\"]");
+    const bool frictionless =
+        c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
+    bool apart = true; // beyond the interaction range
+    for (std::size_t i = 0; i < c.path.size(); ++i) {
+        const Segment& segment = c.path[i];
+        const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
+            problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
+                         instead);
+        };
+        const bool after_all = apart;
+        apart = segment.kind == Segment::pull_off;
+        switch (segment.kind) {
+        case Segment::approach:
+            if (!after_all)
+                refuse("from a state that is in contact already",
+                       "an approach starts beyond the interaction range",
+                       "put a \"pull-off\" before it, or lead it further with \"load\" or "
+                       "\"height\"");
+            break;
+        case Segment::pull_off:
+            if (after_all)
+                refuse("with nothing to pull off",
+                       "it starts where an \"approach\" or \"relax\" ends",
+                       "for example path = [\"approach\", \"pull-off\"]");
+            break;
+        case Segment::relax:
+            if (i > 0)
+                refuse("after something else",
+                       "it goes straight to the relaxed state and needs nothing before it",
+                       "take it out, or take path = [\"relax\"]: after an approach the state "
+                       "under zero load is found anyway");
+            break;
+        case Segment::load:
+        case Segment::height:
+            break;
+        case Segment::slide:
+            if (after_all)
+                refuse("beyond the interaction range", "nothing slides there",
+                       "put an \"approach\" before it");
+            if (c.scene.interface.tail)
+                refuse("with interface.tail = true", "the tail has no lateral forces",
+                       "take a larger interface.cutoff and tail = false");
+            if (frictionless)
+                refuse("without lateral forces",
+                       "over a wall, or with interface.frictionless, nothing resists a slide",
+                       "take interface.kind = \"atoms\" with frictionless = false");
+            break;
+        case Segment::hold:
+            if (!c.in_time && c.scene.block.prony.empty())
+                refuse("on a quasi-static path", "equilibria do not change while they are held",
+                       "take it out, or give the block branches that relax (block.prony), or take "
+                       "drive.mode = \"dynamic\"");
+            else if (after_all)
+                refuse("beyond the interaction range", "nothing happens there",
+                       "put an \"approach\" before it");
+            break;
+        }
+    }
+}
+
+/// Checks the keys that cannot be combined with a substrate of atoms anywhere.
+void check_atoms(const Scene& scene, io::Problems& problems) {
+    const auto& [surface, interface] = std::tie(scene.surface, scene.interface);
+    const auto refuse = [&](const char* key, const std::string& value, const char* why,
+                            const char* instead) {
+        problems.add(key, "= " + value + " with surface.kind = \"atoms\"", why, instead);
+    };
+    const auto refuse_number = [&](const char* key, double value, const char* why,
+                                   const char* instead) {
+        refuse(key, fmt::format("{:.6g}", value), why, instead);
+    };
+    constexpr const char* as_they_are = "the atoms stand where their file says";
+    if (interface.kind == InterfaceKind::wall)
+        refuse("interface.kind", "\"wall\"", "a wall stands in place of atoms",
+               "take interface.kind = \"atoms\", or surface.kind = \"file\" with a map");
+    if (interface.tail)
+        refuse("interface.tail", "true", "the tail is that of one layer of known density",
+               "take a larger interface.cutoff, and tail = false");
+    if (interface.cutoff && *interface.cutoff > largest_cell_cutoff)
+        refuse_number("interface.cutoff", *interface.cutoff,
+                      "the cells of atoms hold for cutoffs up to 100 Å",
+                      "take a cutoff of 100 Å or less");
+    if (scene.gives_rms())
+        refuse_number("surface.rms", surface.rms, as_they_are, "leave it out, and scale the file");
+    if (surface.radius)
+        refuse_number("surface.radius", *surface.radius, as_they_are,
+                      "leave it out, and curve the file");
+    if (surface.lattice_ratio != 1.0)
+        refuse_number("surface.lattice_ratio", surface.lattice_ratio, as_they_are,
+                      "leave it out: the file has its own spacing");
+    if (surface.file_size)
+        refuse_number("surface.file_size", *surface.file_size,
+                      "the file says how wide its periodic box is", "leave it out");
+    if (surface.file_unit != "auto")
+        refuse("surface.file_unit", "\"" + surface.file_unit + "\"",
+               "files of atoms say their unit, or are in Å",
+               "leave it out; give /position and /box of the file an attribute unit");
+    if (surface.detrend != Detrend::none)
+        refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
+               as_they_are, "leave it out");
+    if (surface.line_noise != LineNoise::keep)
+        refuse("surface.line_noise",
+               surface.line_noise == LineNoise::isotropic ? "\"isotropic\"" : "\"align-rows\"",
+               as_they_are, "leave it out");
+    if (surface.resample != Resample::none)
+        refuse("surface.resample", "\"band-limited\"", as_they_are, "leave it out");
+}
+
+} // namespace
+
+void check_keys(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
+    const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
+
+    const bool wall = interface.kind == InterfaceKind::wall;
+    const bool pairs = !wall || interface.law == WallLawKind::smeared;
+    const PairPotential& potential = c.simulation.interface.potential;
+    const double half = scene.edge() / 2.0;
+    const double cutoff = interface.cutoff.value_or(cutoff_of(potential));
+    if (cutoff > half && !wall)
+        // If the cutoff is the default, the box is the choice of the scene.
+        problems.add(io::Problem{
+            scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
+                                                                             : "surface.sites"),
+            fmt::format("interface.cutoff = {:.6g} Å is more than half the box", cutoff),
+            fmt::format(
+                "the box is {} x {:.6g} Å = {:.6g} Å wide, and an atom must not meet the same "
+                "neighbour twice",
+                surface.sites, surface.spacing, scene.edge()),
+            fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
+                        half, std::ceil(2.0 * cutoff / surface.spacing))});
+    else if (!wall && surface.kind != SurfaceKind::atoms) {
+        const double between_atoms =
+            scene.edge() / substrate_sites(surface.sites, surface.lattice_ratio);
+        const double most = largest_cutoff(surface.spacing, between_atoms);
+        if (cutoff > most)
+            problems.add(
+                "interface.cutoff", fmt::format("= {:.6g} Å reaches over too many atoms", cutoff),
+                fmt::format("with sites {:.6g} Å and atoms of the substrate {:.6g} Å apart it may "
+                            "be {:.6g} Å",
+                            surface.spacing, between_atoms, most),
+                fmt::format("take {:.6g} Å (4 r0) and interface.tail = true, or a smaller "
+                            "surface.lattice_ratio",
+                            4.0 * zero_of(potential)));
+    }
+    const double minimum = minimum_of(potential);
+    if (cutoff <= minimum && pairs)
+        problems.add("interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", cutoff),
+                     fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
+                     fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * zero_of(potential)));
+
+    if (surface.kind == SurfaceKind::self_affine && surface.q_max &&
+        surface.rolloff > *surface.q_max)
+        problems.add("surface.rolloff",
+                     fmt::format("= {:.6g} is above surface.q_max = {:.6g}", surface.rolloff,
+                                 *surface.q_max),
+                     "the spectrum falls between the two", "give rolloff <= q_max");
+    if (surface.kind == SurfaceKind::self_affine && surface.rms > 0.0 &&
+        surface.rolloff > surface.sites / 2.0)
+        problems.add("surface.rolloff", fmt::format("= {:.6g} is beyond Nyquist", surface.rolloff),
+                     fmt::format("a grid of {} sites holds nothing above q = {} q_L", surface.sites,
+                                 surface.sites / 2),
+                     "give a smaller rolloff or more sites");
+    if (surface.radius && *surface.radius < scene.edge() * std::numbers::sqrt2 / 2.0)
+        problems.add(
+            "surface.radius",
+            fmt::format("= {:.6g} Å is less than half the diagonal of the box", *surface.radius),
+            fmt::format("the cap would not reach the corners, {:.6g} Å from the centre",
+                        scene.edge() * std::numbers::sqrt2 / 2.0),
+            "give a larger radius or fewer sites");
+
+    if (surface.kind == SurfaceKind::atoms)
+        check_atoms(scene, problems);
+    else if (!interface.pairs.empty())
+        problems.add("interface.pairs", "= [...] without a substrate of atoms from a file",
+                     "the atoms of other substrates are of one type, with interface.potential",
+                     "leave it out, or take surface.kind = \"atoms\"");
+
+    if (wall && c.in_time)
+        problems.add("interface.kind", "= \"wall\" on a dynamic path",
+                     "a wall takes no lateral tractions, and dynamic paths cannot leave lateral "
+                     "displacements "
+                     "be left out",
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or kind = "
+                     "\"atoms\"");
+    else if (wall && !interface.frictionless)
+        problems.add("interface.frictionless", "= false with a wall",
+                     "a law of the gap has no lateral forces", "leave it out");
+    if (wall && surface.lattice_ratio != 1.0)
+        problems.add("surface.lattice_ratio",
+                     fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
+                     "a wall has a height below each site, and no lattice of its own",
+                     "take lattice_ratio = 1, or interface.kind = \"atoms\"");
+    if (interface.frictionless && !wall && c.in_time)
+        problems.add("interface.frictionless", "= true on a dynamic path",
+                     "lateral displacements can be left out only where the block's stiffness for "
+                     "normal forces alone is known wave by wave",
+                     "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or "
+                     "frictionless = false");
+
+    check_path(c, problems);
+    if (drive.control == Control::mean_height && c.in_time)
+        problems.add("drive.control", "= \"mean-height\" on a dynamic path",
+                     "a dynamic path prescribes the top plane; the mean height of the lowest layer "
+                     "follows from the motion of the block",
+                     "take drive.mode = \"quasistatic\", or control = \"top\"");
+    if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
+        problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
+                     "take kind = \"flat\", or leave rms out to take the map as it is");
+    if (scene.block.strain == Strain::finite && !c.in_time)
+        problems.add(
+            "block.strain", "= \"finite\" on a quasi-static path",
+            "on such a path the block is a sum of waves, and at finite strain waves do not "
+            "add up",
+            "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
+    const auto& prony = scene.block.prony;
+    if (!prony.empty() && c.in_time)
+        problems.add("block.prony", "= [...] on a dynamic path",
+                     "only the block of a quasi-static path can relax",
+                     "take drive.mode = \"quasistatic\", or leave prony out");
+    for (std::size_t i = 1; i < prony.size(); ++i)
+        if (prony[i].second <= prony[i - 1].second)
+            problems.add(
+                "block.prony",
+                fmt::format("has {:.6g} ps after {:.6g} ps", prony[i].second, prony[i - 1].second),
+                "the relaxation times are to grow from branch to branch",
+                "write the branches in the order of their times, each time once");
+    if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
+        problems.add("drive.damping_from",
+                     fmt::format("= {:.6g} with a temperature", drive.damping_from),
+                     "the thermostat acts where the damping does, and that is nowhere",
+                     "give a fraction below 1");
+    if (drive.temperature > 0.0 && drive.damping == 0.0)
+        problems.add("drive.temperature",
+                     fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
+                     "the Langevin thermostat gives and takes heat through the damping",
+                     "give a damping, for example 0.05 1/ps");
+    if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
+        for (const io::Problem& p : device_problems(c))
+            problems.add(p.where, p.what, p.why, p.fix);
+    if (!c.maps.after_approach.empty() && (!c.in_time || !c.has(Segment::pull_off)))
+        problems.add("output.fields", "asks for \"" + c.maps.after_approach.front().second + "\"",
+                     "no dynamic pull-off follows an approach",
+                     "take a dynamic path with a pull-off, or take it out of output.fields");
+    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::relax))
+        problems.add("output.fields", "asks for \"segments\"",
+                     "drive.path is one relaxation, whose state is \"relaxed\"",
+                     "take \"relaxed\" in its place");
+    if (c.maps.pull_off && !c.has(Segment::pull_off))
+        problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
+                     "add it to drive.path or take it out of output.fields");
+    if (scene.output.trajectory && !c.in_time)
+        problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
+                     "frames are taken from time steps, and a quasi-static path has none",
+                     "leave it out: the maps of output.fields hold the states");
+}
+
+std::vector<io::Problem> device_problems(const Case& c) {
+    std::vector<io::Problem> list;
+    const auto refuse = [&](std::string with, std::string why, std::string instead) {
+        list.push_back({"numerics.device", "is not available with " + std::move(with),
+                        std::move(why), std::move(instead)});
+    };
+    if (!c.in_time)
+        refuse("a quasi-static path",
+               "a device takes time steps; equilibria are relaxed by the "
+               "processor",
+               "take numerics.device = \"none\", or drive.mode = \"dynamic\" with an approach");
+    if (c.scene.surface.kind == SurfaceKind::atoms)
+        refuse("surface.kind = \"atoms\"",
+               "the device sums over a map of heights, and has no lists of cells of atoms anywhere",
+               "take numerics.device = \"none\"");
+    else if (c.scene.surface.lattice_ratio != 1.0)
+        refuse(fmt::format("surface.lattice_ratio = {:.6g}", c.scene.surface.lattice_ratio),
+               "the device sums over a substrate of the block's own lattice only",
+               "take numerics.device = \"none\", or surface.lattice_ratio = 1");
+    if (c.scene.block.strain == Strain::finite)
+        refuse("block.strain = \"finite\"",
+               "the device has the elastic forces of small strain only",
+               "take numerics.device = \"none\", or block.strain = \"linear\"");
+    if (c.has(Segment::slide))
+        refuse("a slide in drive.path",
+               "a device keeps its copy of the substrate where it is, and a slide moves it",
+               "take numerics.device = \"none\"");
+    if (!fuses(processor_level()))
+        refuse(fmt::format("kernels of level {}", name(processor_level())),
+               "a device fuses multiplications with additions, and these kernels do not: the same "
+               "scene would have other bits",
+               "take a processor with AVX2 and FMA (and no ASPERITY_KERNELS), or numerics.device = "
+               "\"none\"");
+    return list;
+}
+
+void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    const auto refuse = [&](const std::string& key, const std::string& value, std::string instead) {
+        refused.add(key, "= " + value + " is not available yet",
+                    "it is part of the scene format, and this release does not compute it",
+                    std::move(instead));
+    };
+    if (scene.drive.mode == DriveMode::dynamic && c.path.size() > 1 &&
+        c.starts_with(Segment::relax))
+        refuse("drive.path", "a dynamic path from \"relax\"",
+               "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
+}
+
+std::vector<std::string> notes_on_keys(const Case& c) {
+    const Scene& scene = c.scene;
+    std::vector<std::string> list;
+    const auto& surface = scene.surface;
+    if (c.in_time && scene.block.model == BlockModel::multiscale) {
+        int sites = surface.sites, halvings = 0;
+        while (sites % 2 == 0)
+            sites /= 2, ++halvings;
+        double reach = 0.0; // layers above that halving, at layers_per_level each
+        for (int level = 0; level <= halvings; ++level)
+            reach += std::ldexp(scene.block.layers_per_level, level);
+        if (2.0 * reach < scene.block.thickness)
+            list.push_back(
+                fmt::format("{} sites can be halved {} times only, so the coarsest level is "
+                            "much thicker than layers_per_level; a power of two costs least",
+                            surface.sites, halvings));
+    }
+    if (scene.block.thickness < surface.sites)
+        list.push_back(
+            fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
+                        "feel the rigid top plane",
+                        scene.block.thickness, surface.sites));
+    if (c.has(Segment::relax) && scene.drive.load != 0.0)
+        list.push_back(fmt::format("the relaxed state carries drive.load = {:.6g} MPa; its "
+                                   "binding energy leaves out the load's potential",
+                                   scene.drive.load));
+    double load = std::abs(scene.drive.load); // MPa
+    for (const Segment& segment : c.path)
+        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount));
+    const double poisson = scene.block.poisson;
+    const double strain = 1e-3 * load * (1.0 + poisson) * (1.0 - 2.0 * poisson) /
+                          // Modulus of a block that cannot widen
+                          (scene.block.young * (1.0 - poisson));
+    if (strain > 0.05 && scene.block.strain == Strain::linear)
+        list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
+                                   "block.strain = \"linear\" describes small strains",
+                                   load, 100.0 * strain));
+    if (const auto note = note_on_contact_edge(scene)) list.push_back(*note);
+    for (std::size_t i = 0; i < c.table_files.size(); ++i) // no pair of atoms binds with more
+        if (const double depth = c.simulation.interface.tables[i]->depth(); depth > 10.0)
+            list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "
+                                       "eV, and may be meV",
+                                       c.table_files[i], depth));
+    const bool wall = scene.interface.kind == InterfaceKind::wall;
+    const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
+    const auto idle = [&](const std::string& key, const std::string& reason) {
+        if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
+    };
+    if (c.effects.branches) {
+        // A way of some hundred steps, and holds; as slow as the path can look closer.
+        const double a_step =
+            100.0 * scene.drive.displacement_step / scene.drive.velocity; // ps: Å over m/s
+        double path = 200.0 * a_step;
+        for (const Segment& segment : c.path)
+            if (segment.kind == Segment::hold) path += segment.amount;
+        for (const auto& [ratio, time] : scene.block.prony)
+            if (time > 1000.0 * path)
+                list.push_back(fmt::format("block.prony: {:.4g} ps is far beyond the path, which "
+                                           "takes some {:.1g} ps: this branch stays a spring",
+                                           time, path));
+            else if (time < 0x1p-16 * a_step)
+                list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
+                                           "the path, {:.1g} ps: this branch is always relaxed",
+                                           time, 0x1p-16 * a_step));
+    } else if (!c.in_time && !scene.block.prony.empty()) {
+        idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
+    }
+    if (c.path.size() == 1 && c.starts_with(Segment::relax))
+        idle("drive.control", "drive.path relaxes with nothing held");
+    if (!c.in_time) {
+        std::vector<std::string> timed; // a scene that was dynamic has many: one note
+        for (const char* key :
+             {"drive.velocity", "drive.temperature", "drive.seed", "drive.timestep",
+              "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
+              "block.atom_mass", "block.model", "block.layers_per_level"})
+            if (scene.positions.is_set(key) &&
+                !(c.effects.branches && std::string_view(key) == "drive.velocity"))
+                timed.push_back(key);
+        if (timed.size() == 1) idle(timed.front(), "no time passes on this path");
+        if (timed.size() > 1)
+            list.push_back(fmt::format("{} and {} have no effect: no time passes on this path",
+                                       fmt::join(timed.begin(), timed.end() - 1, ", "),
+                                       timed.back()));
+    } else {
+        idle("drive.displacement_step", "drive.mode is \"dynamic\"");
+    }
+    if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
+    if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
+    for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
+        if (!exponential) idle(key, "there is no wall with the exponential law");
+    for (const char* key : {"interface.potential", "interface.cutoff", "interface.tail"})
+        if (exponential) idle(key, "the wall has the exponential law");
+    for (const auto& [key, potential] : keys_of_potentials())
+        if (exponential)
+            idle(key, "the wall has the exponential law");
+        else if (potential != scene.interface.potential_name() && scene.interface.pairs.empty())
+            idle(key, "interface.potential is not \"" + potential + "\"");
+    if (!surface.reads_file())
+        idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
+    if (surface.kind != SurfaceKind::file)
+        for (const char* key : {"surface.detrend", "surface.line_noise", "surface.resample",
+                                "surface.file_size", "surface.file_unit"})
+            idle(key, "surface.kind is not \"file\"");
+    if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
+    if (surface.kind == SurfaceKind::atoms)
+        for (const char* key : {"surface.file_missing", "surface.file_crop", "theory.delta_gamma"})
+            idle(key, "surface.kind is \"atoms\"");
+    if (surface.kind != SurfaceKind::self_affine)
+        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.q_max", "surface.seed",
+                                "surface.amplitudes"})
+            idle(key, "surface.kind is not \"self-affine\"");
+    if (c.in_time && scene.block.model != BlockModel::multiscale)
+        idle("block.layers_per_level", "block.model is not \"multiscale\"");
+    return list;
+}
+
+} // namespace asperity

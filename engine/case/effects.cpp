@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/case/resolving.hpp"
+
+#include "kernels/device/device.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace asperity {
+
+namespace {
+
+Effect device_effect(const Case& c) {
+    const DeviceChoice& asked = c.scene.numerics.device;
+    if (!asked) return {false, "numerics.device = \"none\""};
+    if (asked.kind == DeviceChoice::Kind::emulated) return {true, "numerics.device = \"emulated\""};
+    if (asked.kind != DeviceChoice::Kind::automatic)
+        return {true, fmt::format("numerics.device = {}", asked.index)};
+    const std::string any = "numerics.device = \"auto\"";
+    if (cuda_device_count() == 0) return {false, any + ": no CUDA device is here"};
+    const auto problems = device_problems(c);
+    if (!problems.empty()) return {false, any + ": it " + problems.front().what};
+    return {true, any};
+}
+
+} // namespace
+
+std::vector<std::pair<const char*, Effect>> Effects::list() const {
+    // clang-format off
+    return {{"inertia", inertia}, {"lateral displacements", lateral}, {"damping", damping},
+            {"temperature", temperature}, {"finite strain", finite_strain},
+            {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
+            {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
+            {"relaxing block", branches}, {"relaxation", relaxation},
+            {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
+            {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
+    // clang-format on
+}
+
+Effects effects_of(const Case& c) {
+    const Scene& s = c.scene;
+    const bool wall = s.interface.kind == InterfaceKind::wall, in_time = c.in_time;
+    const bool follows_path = std::any_of(c.path.begin(), c.path.end(), [](const Segment& segment) {
+        return segment.kind != Segment::relax;
+    });
+    const std::string rest =
+        c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
+    const std::string no_time = "a state of force balance: " + rest;
+    const auto timed = [&](bool on, std::string why) {
+        return in_time ? Effect{on, std::move(why)} : Effect{false, no_time};
+    };
+    const auto pairs = [&](bool on, std::string why, const char* of_wall) {
+        return wall ? Effect{false, std::string("interface.kind = \"wall\"") + of_wall}
+                    : Effect{on, std::move(why)};
+    };
+    Effects e;
+    e.inertia = timed(true, "the path is dynamic");
+    e.lateral = pairs(
+        !s.interface.frictionless,
+        s.interface.frictionless ? "interface.frictionless = true" : "three components a node", "");
+    const bool nowhere = s.drive.damping > 0.0 && s.drive.damping_from >= 1.0;
+    e.damping = timed(s.drive.damping > 0.0 && !nowhere,
+                      nowhere ? fmt::format("drive.damping_from = {:.4g}: no layer is damped",
+                                            s.drive.damping_from)
+                              : fmt::format("drive.damping = {:.4g} 1/ps", s.drive.damping));
+    e.temperature = timed(s.drive.temperature > 0.0,
+                          fmt::format("drive.temperature = {:.4g} K", s.drive.temperature));
+    const bool finite = s.block.strain == Strain::finite;
+    e.finite_strain = {finite, finite ? "block.strain = \"finite\"" : "block.strain = \"linear\""};
+    const bool lattice = s.block.model == BlockModel::lattice;
+    e.coarse_levels = timed(!lattice && c.levels.size() > 1,
+                            lattice ? "block.model = \"lattice\""
+                            : c.levels.size() == 1
+                                ? fmt::format("{} layers make one level", s.block.thickness)
+                                : fmt::format("block.model = \"multiscale\", {} layers a level",
+                                              s.block.layers_per_level));
+    e.skipping =
+        pairs(true, "always: what is beyond interface.cutoff adds exact zeros", ": one gap a site");
+    e.sliding.on = c.has(Segment::slide);
+    e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
+    e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
+                   ": a part of its law");
+    e.curvature = {s.surface.radius.has_value(),
+                   s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
+                                    : "surface.radius = \"none\""};
+    e.branches = {!s.block.prony.empty() && !in_time && follows_path,
+                  s.block.prony.empty()
+                      ? "block.prony = []"
+                      : fmt::format("block.prony has {} of them", s.block.prony.size())};
+    e.relaxation = {!in_time || !finite,
+                    !in_time ? rest
+                    : finite ? "block.strain = \"finite\": states are found wave by wave, and "
+                               "waves do not add up"
+                             : "a copy of the lowest layer is relaxed where the approach ends"};
+    e.observation = {follows_path,
+                     !follows_path ? no_time
+                     : in_time     ? fmt::format("every {} steps (output.series)", s.output.series)
+                                   : "always: at every point of a quasi-static path"};
+    const MapTimes& m = c.maps;
+    e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||
+                !m.after_approach.empty();
+    e.maps.why =
+        e.maps ? "output.fields asks for them" : "output.fields asks for no state of this path";
+    e.trajectory = {s.output.trajectory.has_value(),
+                    s.output.trajectory
+                        ? fmt::format("output.trajectory = {}", *s.output.trajectory)
+                        : "output.trajectory = \"none\""};
+    e.checkpoints = {s.output.checkpoint > 0.0,
+                     fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
+    const bool atoms = s.surface.kind == SurfaceKind::atoms;
+    e.theory = {!atoms, atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
+                              : "always: Persson's theory of this scene"};
+    e.device = device_effect(c);
+    return e;
+}
+
+} // namespace asperity

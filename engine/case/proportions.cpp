@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Values out of proportion with the box, the block or the step of a scene, as a wrong unit makes
+// them: a run with them would not end, or its numbers would mean nothing.
+#include "engine/case/resolving.hpp"
+
+#include "engine/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace asperity {
+
+namespace {
+
+constexpr double most_steps = 1e9, most_points = 1e6;
+constexpr const char* unit_fix = "correct the number or its unit";
+
+/// A part of the time or the way of a path, the key that decides it, and what to do.
+struct Part {
+    double amount;
+    std::string key, what, fix;
+};
+
+/// Returns the least way of the top plane that the path asks for, at right angles and along, Å.
+double least_way(const Case& c) {
+    double way = 0.0, at = 0.0;
+    for (const Segment& segment : c.path) {
+        if (segment.kind == Segment::slide) way += std::abs(segment.amount);
+        if (segment.kind == Segment::height)
+            way += std::abs(segment.amount - at), at = segment.amount;
+        if (segment.kind == Segment::approach || segment.kind == Segment::pull_off)
+            way += c.scales.length;
+    }
+    if (c.scene.surface.kind == SurfaceKind::self_affine) way += 3.0 * c.scene.surface.rms;
+    return way;
+}
+
+void refuse_heights(const Case& c, io::Problems& refused) {
+    const auto& surface = c.scene.surface;
+    const double edge = c.scene.edge();
+    const bool given = surface.kind == SurfaceKind::self_affine || c.scene.gives_rms();
+    if (given && surface.kind != SurfaceKind::flat && surface.rms > edge)
+        refused.add(
+            "surface.rms", fmt::format("= {:.6g} Å is higher than the box is wide", surface.rms),
+            fmt::format("the box is {:.6g} Å wide, and a surface as high as that is none", edge),
+            fmt::format("{}: the rms height of a rough surface is below a tenth of its "
+                        "width, here {:.3g} Å",
+                        unit_fix, 0.1 * edge));
+    const auto& interface = c.scene.interface;
+    if (interface.kind == InterfaceKind::wall && interface.law == WallLawKind::exponential &&
+        interface.adhesion > 0.0 && interface.range > edge)
+        refused.add("interface.range",
+                    fmt::format("= {:.6g} Å is wider than the box", interface.range),
+                    fmt::format("the box is {:.6g} Å wide, and an attraction that reaches beyond "
+                                "it acts on the block as a whole",
+                                edge),
+                    fmt::format("{}, or take a wider box (surface.sites)", unit_fix));
+}
+
+/// Refuses a dynamic path of more steps than a run can make.
+void refuse_long_times(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    const double dt = c.simulation.dt, velocity = c.simulation.drive.velocity;
+    double hold = 0.0;
+    for (const Segment& segment : c.path)
+        if (segment.kind == Segment::hold) hold += segment.amount * units::picosecond;
+    const double turns = static_cast<double>(c.path.size()) - 1.0,
+                 ramps = c.simulation.drive.ramp * turns;
+    const double way = least_way(c) / velocity;
+    const Part parts[] = {
+        {way, "drive.velocity",
+         fmt::format("= {:.6g} m/s makes a path that cannot end", scene.drive.velocity),
+         fmt::format("take {:.2g} m/s or more, or drive.mode = \"quasistatic\"",
+                     2e3 * scene.drive.velocity * way / (most_steps * dt))},
+        {ramps, scene.drive.ramp ? "drive.ramp" : "block.young",
+         scene.drive.ramp
+             ? fmt::format("= {:.6g} ps makes a path that cannot end", *scene.drive.ramp)
+             : fmt::format("= {:.6g} GPa: sound takes {:.3g} ps through so soft or thick a block, "
+                           "and the drive changes its velocity over that time",
+                           scene.block.young, c.simulation.drive.ramp / units::picosecond),
+         scene.drive.ramp ? "leave it out: the default is one transit of sound"
+                          : "correct block.young or block.thickness, or give drive.ramp"},
+        {hold, "drive.path", "has a \"hold\" that cannot end", "give a shorter time"}};
+    const Part& largest =
+        *std::max_element(std::begin(parts), std::end(parts),
+                          [](const Part& a, const Part& b) { return a.amount < b.amount; });
+    const double steps = (way + ramps + hold) / dt;
+    if (!(steps > most_steps) || scene.drive.max_steps > 0) return;
+    const std::string why = fmt::format("the path takes {:.2g} steps of {:.3g} fs at least, and "
+                                        "{:.0e} are the most",
+                                        steps, dt, most_steps);
+    const std::string some = "; drive.max_steps makes a part of it";
+    if (dt < 1e-3 * c.longest_timestep)
+        refused.add("drive.timestep", fmt::format("= {:.6g} fs makes a path that cannot end", dt),
+                    why,
+                    fmt::format("take {:.2g} fs, a tenth of the fastest vibration's period{}",
+                                0.1 * 3.14159 * c.longest_timestep, some));
+    else
+        refused.add(largest.key, largest.what, why, largest.fix + some);
+}
+
+/// Refuses a quasi-static path of more points than a run can make.
+void refuse_short_steps(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    if (c.path.size() == 1 && c.starts_with(Segment::relax)) return;
+    const double asked = scene.drive.displacement_step, way = least_way(c);
+    const double step = std::min(asked, c.longest_step);
+    if (!(way / step > most_points) || scene.drive.max_steps > 0) return;
+    const std::string why = fmt::format(
+        "the path takes {:.2g} points at least, and {:.0e} are the most", way / step, most_points);
+    if (asked <= c.longest_step)
+        refused.add("drive.displacement_step",
+                    fmt::format("= {:.6g} Å makes a path that cannot end", asked), why,
+                    fmt::format("take {:.2g} Å; drive.max_steps makes a part of it",
+                                std::max(asked * way / step / (0.01 * most_points),
+                                         std::min(0.25, c.longest_step))));
+    else
+        refused.add("drive.path",
+                    fmt::format("takes steps of {:.2g} Å over a way of {:.3g} Å", step, way),
+                    why + ": a step is half the width of the attraction at most",
+                    "take a longer range of the attraction, or a shorter way");
+}
+
+/// Refuses damping, heat and loads that a time step or the block cannot follow.
+void refuse_violence(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    const double dt = c.simulation.dt;
+    if (c.effects.damping && c.in_time && c.simulation.damping * dt > 1.0)
+        refused.add(
+            "drive.damping",
+            fmt::format("= {:.6g} 1/ps stops the atoms within a time step", scene.drive.damping),
+            fmt::format("the momentum decays in {:.3g} fs, and a step is {:.3g} fs",
+                        1.0 / c.simulation.damping, dt),
+            fmt::format("take {:.2g} 1/ps or less", 0.1 * units::picosecond / dt));
+    if (c.effects.temperature && c.largest_tension > 0.0) {
+        constexpr double boltzmann = 8.617333e-5; // eV/K
+        const double width = c.scales.length;
+        const double travel =
+            dt * std::sqrt(boltzmann * scene.drive.temperature / c.simulation.block.atom_mass);
+        if (travel > 0.3 * width)
+            refused.add("drive.temperature",
+                        fmt::format("= {:.6g} K moves an atom by {:.3g} Å in a time step",
+                                    scene.drive.temperature, travel),
+                        fmt::format("the potential is {:.3g} Å wide", width),
+                        fmt::format("take {:.2g} K or less with this time step",
+                                    scene.drive.temperature * std::pow(0.1 * width / travel, 2)));
+    }
+    const double poisson = scene.block.poisson;
+    const double modulus = 1e3 * scene.block.young * (1.0 - poisson) /
+                           ((1.0 + poisson) * (1.0 - 2.0 * poisson)); // MPa, that cannot widen
+    const auto look = [&](const char* key, double load, const std::string& shown) {
+        if (std::abs(load) > modulus)
+            refused.add(key, fmt::format("{} strains the block by more than its thickness", shown),
+                        fmt::format("its modulus in compression is {:.4g} MPa", modulus),
+                        fmt::format("{}: take a load below {:.2g} MPa", unit_fix, 0.05 * modulus));
+    };
+    look("drive.load", scene.drive.load, fmt::format("= {:.6g} MPa", scene.drive.load));
+    for (const Segment& segment : c.path)
+        if (segment.kind == Segment::load)
+            look("drive.path", segment.amount, fmt::format("has \"{}\", which", segment.text));
+    if (!c.in_time && scene.drive.tolerance >= 1.0)
+        refused.add("drive.tolerance",
+                    fmt::format("= {:.6g} takes every state for balanced", scene.drive.tolerance),
+                    "it is a fraction of the smallest force that decides the state",
+                    "take 2.5e-4, the default");
+}
+
+} // namespace
+
+void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
+    const std::size_t before = refused.list().size();
+    refuse_heights(c, refused);
+    if (refused.list().size() > before) return; // further problems would have the same cause
+    if (c.in_time)
+        refuse_long_times(c, refused);
+    else
+        refuse_short_steps(c, refused);
+    refuse_violence(c, refused);
+}
+
+} // namespace asperity

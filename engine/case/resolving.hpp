@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Parts of resolve(): each uses the contents of the case so far.
+#pragma once
+
+#include "engine/case/case.hpp"
+
+namespace asperity {
+
+/// Fills in the types and the potentials of simulation.interface from interface.potential and
+/// interface.pairs.
+void find_potentials(Case& c, io::Problems& problems);
+/// Returns the file that a key names, beside the scene or in the working directory; empty if there
+/// is none.
+std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);
+/// Compares the errors of tables of potentials with the work of adhesion: fills in table_error,
+/// adds notes. Returns false, with problems, if a table is too coarse or too noisy.
+bool check_tables(Case& c, io::Problems& problems);
+/// Fills in the scales except the stiffness, and the tolerance. smallest_tension: the largest
+/// tension of the least attractive type of atoms, GPa (0: nothing attracts).
+void find_scales(Case& c, double smallest_tension);
+/// Adds contradictions between keys to problems.
+void check_keys(const Case& c, io::Problems& problems);
+/// Returns the problems that keep the scene from a device.
+std::vector<io::Problem> device_problems(const Case& c);
+/// Adds the keys that this release reads but cannot act upon yet, which stop a run.
+void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused);
+/// Refuses values out of proportion with the box, the block or the step.
+void refuse_out_of_proportion(const Case& c, io::Problems& refused);
+/// Returns notes on the keys (a block thinner than wide, keys without effect), one sentence each.
+std::vector<std::string> notes_on_keys(const Case& c);
+/// Returns notes on limits of validity (roughness, velocity, time step), one sentence each.
+std::vector<std::string> notes_on_validity(const Case& c);
+
+} // namespace asperity

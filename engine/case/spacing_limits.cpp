@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/case/spacing_limits.hpp"
+
+#include "engine/units.hpp"
+#include "kernels/surface_stiffness.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace asperity {
+
+namespace {
+
+/// Attraction of an exponential wall beside the edge of a contact.
+struct ContactEdge {
+    double strip = 0.0;   ///< width of the strip, Å
+    double pinning = 1.0; ///< Case::edge_pinning
+    std::string remedy;   ///< a range or a spacing that resolves it
+};
+
+std::optional<ContactEdge> edge_of(const Scene& scene) {
+    const auto& wall = scene.interface;
+    if (wall.kind != InterfaceKind::wall || wall.law != WallLawKind::exponential ||
+        wall.adhesion == 0.0)
+        return std::nullopt;
+    // The gap opens as the root of the distance from the edge of a contact.
+    const double modulus =
+        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
+    const double adhesion = wall.adhesion / units::milli_per_unit, spacing = scene.surface.spacing;
+    ContactEdge edge;
+    edge.strip = modulus * wall.range * wall.range / adhesion;
+    // A row lets go at its largest tension, adhesion / range, whatever the work of adhesion: where
+    // the strip is short the force goes as spacing / strip. Between that and 1 as measured on
+    // smooth spheres (docs/explanation/model.md).
+    edge.pinning = std::pow(1.0 + std::pow(0.68 * spacing / edge.strip, 2.5), 0.4);
+    edge.remedy =
+        fmt::format("interface.range = {:.3g} Å or more, or surface.spacing = {:.3g} Å or less,",
+                    std::sqrt(2.0 * spacing * adhesion / modulus), 0.5 * edge.strip);
+    return edge;
+}
+
+} // namespace
+
+std::optional<std::string> note_on_contact_edge(const Scene& scene) {
+    const auto edge = edge_of(scene);
+    if (!edge || edge->strip >= 2.0 * scene.surface.spacing) return std::nullopt;
+    return fmt::format(
+        "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / adhesion), "
+        "{:.2g} spacings: single rows of sites hold the edge in place, and a sphere's pull-off "
+        "force is about {:.3g} times too large; {} avoids that",
+        edge->strip, edge->strip / scene.surface.spacing, edge->pinning, edge->remedy);
+}
+
+double edge_pinning(const Scene& scene) {
+    const auto edge = edge_of(scene);
+    return edge ? edge->pinning : 1.0;
+}
+
+void refuse_pinned_edge(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    if (!scene.surface.radius || !c.has(Segment::pull_off) || c.edge_pinning <= 1.3 ||
+        scene.interface.edge_pinning == EdgePinning::allow)
+        return;
+    refused.add(
+        "interface.range",
+        fmt::format("= {:.3g} Å is not resolved by surface.spacing = {:.3g} Å",
+                    scene.interface.range, scene.surface.spacing),
+        fmt::format("single rows of sites hold the edge of the contact in place, and the sphere's "
+                    "pull-off force would be about {:.3g} times too large",
+                    c.edge_pinning),
+        edge_of(scene)->remedy + " resolves it; interface.edge_pinning = \"allow\" runs as it is");
+}
+
+double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surface) {
+    const double a = block.spacing;
+    const double modulus = block.young / (1.0 - block.poisson * block.poisson);
+    const CellElasticity elasticity = block.elasticity(0);
+    constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
+    double lattice = 0.0, continuum = 0.0;
+    for (const SpectrumBin& bin : surface.spectrum) {
+        if (!(bin.q > 0.0) || bin.q * a > std::numbers::pi) continue;
+        const double weight = bin.realised * bin.modes;
+        // Deep enough that the top plane does not matter.
+        const int layers = static_cast<int>(std::ceil(8.0 * std::numbers::pi / (bin.q * a)));
+        double stiffness = 0.0;
+        for (int k = 0; k < directions; ++k) {
+            const double angle = 0.25 * std::numbers::pi * k / (directions - 1);
+            const double x = bin.q * a * std::cos(angle), y = bin.q * a * std::sin(angle);
+            const SurfaceMatrix s = surface_stiffness(elasticity, {std::cos(x), std::sin(x)},
+                                                      {std::cos(y), std::sin(y)}, layers);
+            stiffness += 1.0 / (inverse(s).zz * a * a * directions);
+        }
+        lattice += weight * stiffness;
+        continuum += weight * 0.5 * modulus * bin.q;
+    }
+    return continuum > 0.0 ? lattice / continuum : 1.0;
+}
+
+} // namespace asperity

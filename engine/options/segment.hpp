@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The segments of a path (drive.path), one after the other: an action on the block and its end.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+namespace asperity {
+
+/// A segment of a path.
+struct Segment {
+    enum Kind {
+        approach, ///< down, through attraction, to drive.load
+        pull_off, ///< up, until beyond the interaction range
+        relax,    ///< straight to the relaxed state under drive.load, nothing held
+        load,     ///< up or down to a pressure, MPa
+        height,   ///< up or down to a height of the lowest layer, Å: its mean height if that is
+                  ///< held; otherwise its height in the undeformed block
+        hold,     ///< at rest, for a time, ps
+        slide     ///< sideways by a distance, Å, at the same height
+    };
+    static constexpr std::size_t kinds = 7;
+
+    Kind kind = approach;
+    double amount = 0.0; ///< amount in the unit above
+    int axis = 0;        ///< axis of a slide: 0 along x, 1 along y
+    std::string text{};  ///< text of the scene
+};
+
+/// Returns the word of a kind: "slide" for Segment::slide.
+constexpr const char* word(Segment::Kind kind) {
+    constexpr std::array<const char*, Segment::kinds> words = {
+        "approach", "pull-off", "relax", "load", "height", "hold", "slide"};
+    return words[static_cast<std::size_t>(kind)];
+}
+
+} // namespace asperity

@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The segments of drive.path, parsed.
+#pragma once
+
+#include "engine/options/segment.hpp"
+#include "io/scene_reader.hpp"
+
+#include <string>
+#include <vector>
+
+namespace asperity {
+
+/// Returns one segment for each member of drive.path; adds wrong members to problems and leaves
+/// them out.
+std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Problems& problems);
+
+} // namespace asperity

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/statics/last_point.hpp"
+
+#include "decomposition/global_sum.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+namespace asperity {
+
+double LastPoint::lead(Along along) {
+    if (along == along_) return at_;
+    along_ = along;
+    at_ = along == Along::z      ? normal_
+          : along == Along::time ? clock_
+                                 : place_[static_cast<std::size_t>(along)];
+    return at_;
+}
+
+/// Moves the block over the substrate to the place with this coordinate.
+void LastPoint::place_block(double at) {
+    std::array<double, 2> place = place_;
+    if (along_ == Along::x || along_ == Along::y) place[static_cast<std::size_t>(along_)] = at;
+    interface_.slide_to(place[0], place[1]);
+}
+
+void LastPoint::accept(double at) {
+    state_.take(state_of(block_));
+    block_.end_step();
+    last_dt_ = dt_ > 0.0 ? dt_ : HUGE_VAL;
+    at_ = at;
+    if (along_ == Along::z) normal_ = at;
+    if (along_ == Along::time) clock_ = at;
+    place_ = interface_.place();
+}
+
+void LastPoint::put_back() {
+    state_.restore(state_to_restore(block_));
+    block_.hold(constraint(at_));
+    place_block(at_);
+}
+
+RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
+                                 const ForceWindow& window) {
+    state_.restore(state_to_restore(block_));
+    block_.constrain(constraint(at_));
+    block_.begin_step(dt, last_dt_);
+    dt_ = dt;
+    place_block(at);
+    RelaxOptions options;
+    options.start = Start::near;
+    options.tolerance = options_.tolerance;
+    options.scales = options_.scales;
+    options.balance = balance_;
+    options.report = report;
+    options.force_window = window;
+    const RelaxedState state =
+        relax(block_, interface_, options_.reference_height, constraint(at), options, phases_);
+    iterations_ += state.iterations;
+    return state;
+}
+
+std::function<double(int, int)> LastPoint::moves() const {
+    const auto layer = block_.lowest_layer();
+    const VectorPlane<const double> old = {state_[0].plane(0), state_[1].plane(0),
+                                           state_[2].plane(0)};
+    return [=](int x, int y) {
+        return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
+                          layer.z(x, y) - old.z(x, y));
+    };
+}
+
+double LastPoint::all_moves() const {
+    const auto moved = moves();
+    const auto layer = block_.lowest_layer();
+    ExactSum sum;
+    for (int y = 0; y < layer.x.ny; ++y) {
+        for (int x = 0; x < layer.x.nx; ++x)
+            sum.add(moved(x, y));
+        sum.carry();
+    }
+    return global_sum(block_.communicator(), sum);
+}
+
+namespace {
+
+/// Adds the memory of a block's branches to a list of arrays.
+void add_memory(auto& block, auto& list) {
+    const auto add = [&](const char* name, auto* fields) {
+        for (std::size_t k = 0; fields && k < fields->size(); ++k)
+            for (std::size_t c = 0; c < (*fields)[k].size(); ++c)
+                list.push_back(
+                    {fmt::format("/level0/{}{}_{}", name, k, c), 0, &(*fields)[k][c], 1});
+    };
+    add("branch", block.memory());
+    add("history", block.history());
+}
+
+} // namespace
+
+std::vector<StateArray> LastPoint::states() const {
+    std::vector<StateArray> list = state_.arrays(state_of(block_));
+    add_memory(std::as_const(block_), list);
+    return list;
+}
+
+std::vector<RestoredArray> LastPoint::states_to_restore() {
+    const std::vector<StateArray> arrays = state_of(block_);
+    if (state_.empty()) state_.take(arrays);
+    std::vector<RestoredArray> list = state_.arrays_to_restore(arrays);
+    add_memory(block_, list);
+    return list;
+}
+
+} // namespace asperity

@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The last point of a sequence of equilibria along a prescribed coordinate (the top plane or the
+// mean height of the lowest layer; or, with one of these fixed, the place of the block over the
+// substrate along x or y), and the relaxation from it to the next one.
+#pragma once
+
+#include "decomposition/global_largest.hpp"
+#include "engine/statics/relaxation.hpp"
+#include "engine/statics/state_array.hpp"
+
+#include <array>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace asperity {
+
+/// The last point of a quasi-static path.
+class LastPoint {
+public:
+    struct Options {
+        Constraint::Of along = Constraint::Of::top;
+        double tolerance = 0.0; ///< tolerance of the first point, eV/Å
+        Scales scales;
+        double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    };
+    LastPoint(SpectralBlock& block, Interface& interface, const Options& options)
+        : block_(block), interface_(interface), options_(options) {}
+
+    /// Coordinate of the path: the place along x or y; the prescribed quantity along z, with the
+    /// place fixed; or time, in units of the distance that the held quantity would move meanwhile
+    /// (block_memory.hpp).
+    enum class Along { x, y, z, time };
+    /// Selects the coordinate that changes from now on. Returns its value.
+    double lead(Along along);
+    double at() const { return at_; }
+    /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
+    void balance_to(double balance) { balance_ = balance; }
+
+    /// Sets the largest residual force of points from now on, eV/Å.
+    void relax_to(double tolerance) { options_.tolerance = tolerance; }
+    double tolerance() const { return options_.tolerance; }
+
+    /// Makes the present state of the block the last point.
+    void accept(double at);
+    /// Returns the sum of the displacements of the sites of the lowest layer since the last point,
+    /// Å. Collective.
+    double all_moves() const;
+    /// Puts the block back to the last point.
+    void put_back();
+    using Report = std::function<bool(long long, double)>;
+    /// Relaxes from the last point with the coordinate at this value, dt later (fs; infinite: at
+    /// rest), as the continuation of the step before unless turn() was called since. report and
+    /// window as in RelaxOptions. Collective.
+    RelaxedState relax_at(double at, double dt, const Report& report,
+                          const ForceWindow& window = {});
+
+    /// Notes that the next step in time does not continue the last one, as the displacements have
+    /// changed their course.
+    void turn() { last_dt_ = HUGE_VAL; }
+    /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
+    double last_dt() const { return last_dt_; }
+
+    long long iterations() const { return iterations_; }
+    void set_iterations(long long iterations) { iterations_ = iterations; }
+    /// Returns the distance that a site of the lowest layer has moved since the last point, Å.
+    std::function<double(int, int)> moves() const;
+    /// Returns the site that has moved most. Collective.
+    LargestSite largest_move() const {
+        return global_largest(block_.communicator(), interface_.tile(), moves());
+    }
+
+    /// Passes the numbers to a visitor, for checkpoints; states() lists the arrays, and
+    /// states_to_restore() those to be read before put_back().
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("at", at_);
+        v("along", along_);
+        v("normal", normal_);
+        v("place", place_);
+        v("clock", clock_);
+        v("iterations", iterations_);
+        v("balance", balance_);
+        v("last_dt", last_dt_);
+    }
+    std::vector<StateArray> states() const;
+    std::vector<RestoredArray> states_to_restore();
+
+private:
+    /// Returns the constraint along z with the coordinate at this value.
+    Constraint constraint(double at) const {
+        return {options_.along, along_ == Along::z ? at : normal_};
+    }
+    void place_block(double at);
+
+    SpectralBlock& block_;
+    Interface& interface_;
+    Options options_;
+    Phases phases_; ///< clocks of the relaxations, apart from those of the step
+    StateCopy state_;
+    double at_ = 0.0;
+    Along along_ = Along::z;
+    double balance_ = HUGE_VAL;     ///< eV/Å
+    double normal_ = 0.0;           ///< prescribed value along z, Å
+    double clock_ = 0.0;            ///< coordinate along time, Å
+    std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
+    long long iterations_ = 0;
+    double dt_ = HUGE_VAL;      ///< length of the step under way, fs
+    double last_dt_ = HUGE_VAL; ///< length of the step that this one continues, fs
+};
+
+} // namespace asperity

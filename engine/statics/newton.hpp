@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Newton's direction of a spectral block: (S + H) d = -g by conjugate gradients, preconditioned
+// with (S + k)^-1, in single precision and without sweeps: H, the interface's Hessian, is a map of
+// 3 x 3 matrices (interface_stiffness.hpp).
+#pragma once
+
+#include "engine/interface/interface_stiffness.hpp"
+#include "engine/options/scales.hpp"
+#include "engine/waves/preconditioner.hpp"
+
+namespace asperity {
+
+class Newton {
+public:
+    Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales);
+
+    /// Computes the direction at the block's displacements, whose interface_force() and gradient g
+    /// are up to date, to a residual of `forcing` times the gradient, both measured by the
+    /// preconditioner. Returns false, without a direction, if the curvature along it is negative.
+    /// Collective.
+    bool direction(const Interface& interface, double reference_height, double forcing,
+                   const Waves<double>& g, Waves<float>& d);
+    /// Returns the mean stiffness of the interface for a site at the block's displacements, eV/Å^2.
+    /// Collective.
+    double mean_stiffness(const Interface& interface, double reference_height);
+
+private:
+    /// Sets p to P r + fraction p and q to (S + H) p. Returns p.q.
+    double multiply(double fraction);
+    /// Sets d to d + a p and r to r - a q. Returns r.(P r).
+    double advance(double a, Waves<float>& d);
+
+    const Response& block_;
+    const Preconditioner& preconditioner_;
+    InterfaceStiffness stiffness_;
+    Waves<float> r_, p_, q_;
+};
+
+} // namespace asperity

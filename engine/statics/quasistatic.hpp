@@ -1,0 +1,254 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A quasi-static path: equilibria at one prescribed position of the top plane after another, each
+// relaxed from the last, so that hysteresis is kept.
+//
+// Alternatively the mean height of the lowest layer is prescribed, as by a machine that is hard
+// whatever the thickness of the block: the top plane follows, the block is not stretched as a
+// whole, and the force of the constraint is the interface's, F. A block that would be unstable as a
+// whole on its own spring is then stable; only patches of the surface can be unstable. "Top" then
+// means this mean height, as a displacement.
+//
+// A slide changes the place of the block over the substrate at a fixed top or mean height. The
+// force is then that of the substrate along the slide, and "top" means the place.
+//
+// Between two points, the work of the top plane -int F dz_top is the change of the energy
+// U_LJ + U_el, unless the block became unstable in between and changed to another state: the
+// missing energy was then dissipated. From the last point a step is tried and
+//
+//   accepted  if no energy is missing;
+//   accepted, and the missing energy counted as dissipated, if the work is known well enough: the
+//             force is smooth, or its jump times the step is too small to matter;
+//   halved    otherwise, and tried again from the last point. The place and force of the failed try
+//             are kept: they tell how close the last point has to come.
+//
+// An instability thus ends up between two points so close that its place and its energy are known.
+// Beyond the instability only one point of the new branch is known, and a step may hide the next
+// instability: the force may return to its former value, and the error of the integral may equal
+// the lost energy. Forces are therefore compared with the slope of the branch before, and a step is
+// halved if the force misses this slope by too much. This does not find all instabilities
+// (docs/explanation/relaxation.md). As long as a place further on is kept, steps go half of the way
+// to that place. A relaxation whose force jumps by more than a step of its length allows is
+// abandoned on its way through the instability: with few exceptions its step would be halved
+// anyway. "No energy" is drive.tolerance for each site and Å of the step: this bounds the errors of
+// the energy on the whole path. Points are therefore relaxed to a quarter of the tolerance. The
+// tolerance follows the force that presses, if that is larger than the scale of forces. decide()
+// (step_decision.hpp) chooses among the three.
+#pragma once
+
+#include "engine/case/case.hpp"
+#include "engine/scene/segment_rule.hpp"
+#include "engine/statics/dissipation.hpp"
+#include "engine/statics/last_point.hpp"
+#include "engine/statics/step_decision.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace asperity {
+
+struct PathOptions {
+    Constraint::Of along = Constraint::Of::top; ///< or mean_height
+    double step = 0.25;                         ///< largest step of the prescribed coordinate, Å
+    double tolerance = 0.0;                     ///< tolerance at small forces, eV/Å
+    Scales scales;
+    double load = 0.0;             ///< force at which the approach ends, eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    double velocity = 0.0;         ///< velocity of the drive if the block relaxes in time, Å/fs
+    double depth = HUGE_VAL;       ///< energy that flat surfaces of this area bind with, eV
+    /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
+    std::function<bool(long long, double)> report;
+};
+
+/// Returns the options of a case over its interface. report: as in PathOptions.
+PathOptions path_options(const Case& c, const Interface& interface,
+                         std::function<bool(long long, double)> report = {});
+
+class QuasistaticPath {
+public:
+    QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);
+
+    /// Starts from the undisplaced block beyond the interaction range. Collective.
+    void start();
+    /// Start from the block as it is. from_apart: works are counted from the solids at rest apart,
+    /// so that the first point has the energy of this state; otherwise from here. remembers:
+    /// branches keep their extensions; otherwise the block has relaxed.
+    struct Here {
+        bool from_apart = false, remembers = false;
+    };
+    void start_here(Here here);
+
+    /// Begins a segment of the path, with its number for the records; amounts in the engine's units
+    /// (a load in eV/Å).
+    void begin(const Segment& segment, std::size_t number = 0);
+    /// Begins a segment that ends exactly at a displacement of the held coordinate, Å.
+    void begin_to(double at);
+    enum class Outcome { point, at_load, apart, there, interrupted };
+    /// Makes the next point of the segment. Returns at_load if an approach or a load has reached
+    /// its load exactly; apart if no force is left on a pull-off and the block is at rest; there if
+    /// a height or a slide has reached its end exactly. After an interrupted relaxation block and
+    /// path are back at the last point, and the next call makes the whole point again. Collective.
+    /// Throws io::PhysicsError if no equilibrium is found, or if the solids part on the way to a
+    /// pull.
+    Outcome advance();
+
+    /// Returns the last point: step counts points, damped is the dissipated energy.
+    const StepRecord& now() const { return record_; }
+    /// Returns the work done on the block in the segment under way, eV. At a held mean height the
+    /// work is minus that of the interface's force, because the mean height does not jump.
+    double work() const { return course_.work; }
+    /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV: the sum
+    /// of the gaps in the energy balance of the steps and of their errors in time, and three times
+    /// the root of the summed squares of the uncertainty of the work of each step with an
+    /// instability. (Three, because these errors are not independent:
+    /// docs/explanation/relaxation.md has how often the uncertainty holds.)
+    double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
+    /// Returns the energy that a block that relaxes has dissipated in the segment under way,
+    /// without the dissipation at instabilities, eV.
+    double relaxed() const { return course_.relaxed; }
+    /// Returns the change of the energy of interface and block, branches included, in the segment
+    /// under way, eV: work() less this and what was dissipated is 0 to within uncertainty().
+    double stored() const { return record_.energy() - course_.stored_at_start; }
+    const Dissipation& dissipation() const { return dissipation_; }
+    /// Returns the uncertainty of the force of the last point, eV/Å.
+    double slack() const { return slack(record_.in_contact); }
+    long long iterations() const { return last_.iterations(); }
+    /// Puts the block back to the last point, from wherever it was taken.
+    void put_back() { last_.put_back(); }
+
+    /// Passes all numbers of the path to v, for checkpoints; states() has the displacements at its
+    /// last point, states_to_restore() those to be read. A path that has read both and is resumed
+    /// makes points bitwise identical to those of a path that never stopped.
+    template <class Visitor>
+    void visit(Visitor& v);
+    std::vector<StateArray> states() const { return last_.states(); }
+    std::vector<RestoredArray> states_to_restore() { return last_.states_to_restore(); }
+    void resume();
+
+private:
+    using Along = LastPoint::Along;
+    /// Numbers of the segment under way.
+    struct Course {
+        Segment::Kind kind = Segment::approach;
+        std::size_t number = 0;       ///< in the path
+        Along along = Along::z;       ///< coordinate that the segment leads
+        double direction = -1.0;      ///< sign of the motion; 0: none
+        std::optional<double> end;    ///< end, Å; none: at a load, or apart
+        std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
+        SegmentRule rule;             ///< rule of a segment that a force ends
+        bool bracketed = false;       ///< the load at which the segment ends
+        bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
+        double work = 0.0;            ///< work of the top plane, eV
+        double relaxed = 0.0;         ///< dissipated by the block, eV
+        double stored_at_start = 0.0; ///< energy of interface and block, eV
+        double gap = 0.0;             ///< sum of the steps' gaps and errors in time, eV
+        double squares = 0.0;         ///< summed squares of the uncertainties of works, eV^2
+        template <class Visitor>
+        void visit(Visitor& v) {
+            v("kind", kind);
+            v("number", number);
+            v("along", along);
+            v("direction", direction);
+            v("end", end);
+            v("load", load);
+            v("rule", rule);
+            v("bracketed", bracketed);
+            v("comes_to_rest", comes_to_rest);
+            v("work", work);
+            v("relaxed", relaxed);
+            v("stored_at_start", stored_at_start);
+            v("gap", gap);
+            v("squares", squares);
+        }
+    };
+    double at() const { return last_.at(); }
+    double force() const;
+    double time_of(double step) const;
+    bool is_short_in_time(double step) const;
+    std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
+    /// Returns the last point. Its energy contains the energy that the block has dissipated in
+    /// time.
+    PathPoint point() const {
+        return {at(), force(), record_.interface_energy + record_.elastic_energy + record_.relaxed};
+    }
+    /// Returns the point of an equilibrium at this value of the prescribed coordinate.
+    PathPoint point(const RelaxedState& state, double at) const;
+    std::array<double, 2> lateral_force() const;
+    void begin(Along along, double direction);
+    Outcome outcome();
+    Outcome come_to_rest();
+    [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
+    double slack(std::int64_t in_contact) const;
+    double load() const { return course_.load.value_or(options_.load); }
+    /// Returns true if the segment under way ends at a load.
+    bool to_load() const { return !course_.end && course_.kind != Segment::pull_off; }
+    bool passes_load(const RelaxedState& state, double aim) const;
+    bool bisect();
+    bool work_is_known(double at, double force) const;
+    ForceWindow acceptable_force(double at) const;
+    void accept(const RelaxedState& state, double at, const StepDecision& step);
+    Instability describe(const RelaxedState& state, double energy) const;
+    void set_record(const RelaxedState& state, double at);
+    void first_point(double top, Here here);
+    double longest_step() const;
+    double smallest_step() const;
+    /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
+    /// (setup/scales.cpp), or of a site's part of this force, if that is larger.
+    double tolerance_under(double force) const {
+        return options_.tolerance * std::max(1.0, force / (sites_ * options_.scales.force));
+    }
+    double tolerance_to(double at) const;
+    double allowed_missing(double way, double tolerance) const;
+    /// Returns the same of a step in which a block that relaxes may go on without the drive, eV.
+    /// Collective.
+    double allowed_missing_in_time(double way, double tolerance) const;
+    /// Sets the displacements to change their course in time: the next step continues none, and is
+    /// short.
+    void turn();
+    /// Returns the uncertainty that the work of a step with an instability may have, eV.
+    double allowed_uncertainty(double tolerance) const {
+        return allowed_missing(options_.step, tolerance);
+    }
+
+    SpectralBlock& block_;
+    Interface& interface_;
+    PathOptions options_;
+    double sites_ = 0.0; ///< N^2
+
+    LastPoint last_;
+    StepRecord record_; ///< record of the last point
+    ForceTrail trail_;
+    Course course_;
+    double length_ = 0.0; ///< length of the next step, Å
+    /// The far end of an interval that is bisected. Between the last point and it the block becomes
+    /// unstable, or the force is not smooth enough to tell.
+    std::optional<ForceAt> bracket_;
+    Dissipation dissipation_;
+    double strongest_ = 0.0;       ///< attraction so far, eV/Å
+    double energy_at_start_ = 0.0; ///< energy from which works are counted, eV
+    double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
+    double way_ = 0.0;             ///< so far, in and out, Å
+};
+
+template <class Visitor>
+void QuasistaticPath::visit(Visitor& v) {
+    v("record", record_);
+    v("last", last_);
+    v("trail", trail_);
+    v("course", course_);
+    v("length", length_);
+    v("bracket", bracket_);
+    v("dissipation", dissipation_);
+    v("strongest", strongest_);
+    v("energy_at_start", energy_at_start_);
+    v("scale", scale_);
+    v("way", way_);
+}
+
+} // namespace asperity

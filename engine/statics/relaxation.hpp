@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The relaxed state of a contact: the spectral block over its substrate, without inertia.
+//
+// Over atoms there are two stages. While contact spreads, sites jump into contact one after the
+// other, and the energy is far from quadratic. However well a step is chosen, it is good for some
+// tenths of an angstrom only, the range of an attraction; so steps must be cheap. Every site is a
+// heavy ball of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component,
+// no energy, no line search. The stiffness k of the preconditioner follows the interface's mean, so
+// that a block supported by a few summits converges as fast as one in full contact.
+//
+// Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
+// is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same preconditioner,
+// without sweeps and in single precision, and g is in double. It is solved loosely, and more
+// closely once a step has not halved the residual. Where a step solved closely has not halved it
+// either, where the curvature is negative, or where a site would move further than it may, the
+// heavy balls go on.
+//
+// A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
+// Newton's method; steps that would move a site further than it may, but no further than ten times
+// that, are then shortened.
+//
+// Sweeps are rough (SweepOptions: in mixed precision over a lattice) until the forces are near
+// their error; the last ones, and the state that is reported, are not.
+//
+// Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
+//
+// The minimum that is found is the one downhill: no site moves further than max_move in an
+// iteration, and one that has passed its target stops. A state whose forces cannot be brought below
+// the tolerance is reported as not converged, and so is one whose sum of forces is not the load:
+// forces below the tolerance that all point one way add up.
+#pragma once
+
+#include "engine/interface/interface.hpp"
+#include "engine/options/scales.hpp"
+#include "engine/phases.hpp"
+#include "engine/waves/constraint.hpp"
+#include "engine/waves/spectral_block.hpp"
+
+#include <functional>
+#include <limits>
+#include <string>
+
+namespace asperity {
+
+/// Knowledge of the state that a relaxation starts from.
+enum class Start {
+    anywhere,
+    near, ///< close to an equilibrium, which may have just been lost
+};
+
+/// The relaxation is abandoned if the total force leaves this interval, eV/Å.
+struct ForceWindow {
+    double expected = 0.0;
+    double furthest = std::numeric_limits<double>::infinity(); ///< distance from the expected force
+};
+
+struct RelaxOptions {
+    Start start = Start::anywhere;
+    double tolerance = 0.0; ///< largest residual force on a site, eV/Å
+    Scales scales;
+    /// Largest sum of the residual forces under a prescribed top plane, eV/Å. (Under a load the
+    /// largest sum is load_accuracy of the load.)
+    double balance = std::numeric_limits<double>::infinity();
+    long long max_iterations = 200000;
+    ForceWindow force_window; ///< atoms only
+    /// Called during relaxations, on all ranks, with the iteration and the largest residual force,
+    /// eV/Å. Returns true to stop the relaxation.
+    std::function<bool(long long, double)> report;
+};
+
+/// A load is met to this fraction of itself, and no load to this fraction of the forces on the
+/// sites added up without their signs. (A load below a millionth of these is met to this fraction
+/// of that.)
+inline constexpr double load_accuracy = 1e-3;
+
+/// Constants that tune the minimisers, in the scales of the interface (scales.hpp): distances in
+/// its length, forces in Scales::interface_force(). The states that they end in do not depend on
+/// these, as far as was measured; iterations do.
+struct RelaxationConstants {
+    // The loop: over when the residual has not halved in so many iterations.
+    static constexpr long long stagnation = 3000;
+    // The force is compared with its window after so many iterations, and every so many.
+    static constexpr long long first_look = 20, look = 5;
+
+    // Heavy balls (heavy_ball.hpp): of the momentum kept; a step size is cut where a site has
+    // passed its target, and is raised elsewhere, to this at most.
+    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.12f, largest_step_size = 2.0f;
+    /// In an iteration: well below the range of the potential, so that no site passes a barrier.
+    static constexpr double max_move = 0.17;
+    /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
+    /// iterations, taken over where it has changed by this fraction.
+    static constexpr double softer = 0.35, changed = 0.2;
+    static constexpr long long tuned_every = 8;
+    /// Least stiffness of the preconditioner over the interface's, for hardly a site in contact.
+    static constexpr double least_stiffness = 1e-4;
+
+    // Newton's method (newton.hpp).
+    static constexpr double close_by = 8e-4;     ///< mean force, to try it at once
+    static constexpr double close_enough = 0.08; ///< the same from near an equilibrium
+    static constexpr double near = 4e-3;         ///< the largest distance to a target, to try it
+    static constexpr long long patience = 20;    ///< iterations of heavy balls before that
+    /// Share of the residual that conjugate gradients leave: at first, and after a step that has
+    /// not halved the residual.
+    static constexpr double loose = 0.3, tight = 0.1;
+    static constexpr int most_products = 100; ///< limit of conjugate gradients
+    static constexpr double shortest = 0.1;   ///< fraction of a step near an equilibrium
+    /// Sweeps are in mixed precision down to a mean residual ten times their error.
+    static constexpr double rough_enough = 2.6e-6;
+    /// The displacement by which the interface's stiffness is measured.
+    static constexpr double difference = 6e-4;
+
+    // Over a wall (wall_minimiser.hpp): what may be left of the mean force, in tolerances (steps of
+    // the secant more than this asks for are few: it converges faster than linearly), and how much
+    // elastic forces of single precision let sites rest off, in the largest displacement of a site
+    // from the mean.
+    static constexpr double closure = 1e-3, rounding = 4e-6;
+};
+
+struct RelaxedState : ContactCount {
+    bool converged = false;
+    bool interrupted = false; ///< report() asked for it
+    bool jumped = false;      ///< abandoned: the force has left its window
+    bool balanced = true;     ///< the forces add up to what is prescribed
+    long long iterations = 0;
+    double residual = 0.0;         ///< eV/Å
+    double rounding = 0.0;         ///< estimate of the residual left by rounding, eV/Å
+    double interface_energy = 0.0; ///< U_LJ, eV
+    double elastic_energy = 0.0;   ///< U_el, that of branches included, eV
+    BranchEnergies branches{};     ///< energy of branches, and their dissipation in the step
+    double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
+    /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
+    /// that this takes, which is `force`.
+    double top_force = 0.0;
+    double mean_height = 0.0; ///< height of the lowest layer above the reference, Å
+};
+
+/// Estimates the residual force that rounding leaves at sites of this height (Å) above the zero of
+/// heights, eV/Å: positions are rounded, and the interface and the block turn the error into
+/// forces.
+double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height);
+
+/// Explains, for an error message, why the relaxation found no equilibrium.
+std::string why_not_converged(const RelaxedState& state, double tolerance);
+
+/// Relaxes the block in place under the constraint, after setting it. Collective.
+RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
+                   const Constraint& constraint, const RelaxOptions& options, Phases& phases);
+
+} // namespace asperity
