@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// asperity._engine: the paths of the engine that a script steps and leads, for Python. running/engine.py
-// makes the classes of them that users see.
+// asperity._engine: the paths of the engine that a script steps and leads, for Python.
+// running/engine.py makes the classes of them that users see.
 #include "decomposition/communicator.hpp"
 #include "engine/script/led_path.hpp"
 #include "engine/script/stepped_path.hpp"
@@ -96,7 +96,7 @@ py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& 
     const auto one = [&](const PlaneView<double>& plane) {
         return array_of(plane, path.lease(), writable);
     };
-    return py::module_::import("asperity.engine")
+    return py::module_::import("asperity.running.engine")
         .attr("Components")(one(view->x), one(view->y), one(view->z));
 }
 
