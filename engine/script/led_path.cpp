@@ -6,6 +6,7 @@
 #include "engine/path/state_numbers.hpp"
 #include "engine/path/static_path.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/script/refuse.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
@@ -18,10 +19,6 @@
 namespace asperity {
 
 namespace {
-
-[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix) {
-    throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
-}
 
 void require_number(double value) {
     if (!std::isfinite(value))
