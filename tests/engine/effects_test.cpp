@@ -75,7 +75,9 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
                            {plain, "numerics.device=emulated"},
                            {rest, "interface.frictionless=true"},
                            {rest, "interface.kind=wall"},
-                           {relaxing, "block.prony=[[2.0, \"1 ns\"]]"}}) {
+                           {relaxing, "block.prony=[[2.0, \"1 ns\"]]"},
+                           {relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]"},
+                           {relaxing, "block.surface_stress=0.1"}}) {
         Keys keys = row.with;
         keys.emplace_back(row.key);
         const std::string text = row.key, key = text.substr(0, text.find('='));
