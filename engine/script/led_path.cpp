@@ -175,7 +175,7 @@ LedPath::Point LedPath::now() const {
     if (!points_) return before_;
     Point p{points_->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double sites = static_cast<double>(surface_.sites) * surface_.sites;
+    const double edge = case_.scene.surface.sites, sites = edge * edge;
     p.instabilities = points_->dissipation().events;
     p.contact_fraction = static_cast<double>(p.in_contact) / sites;
     p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
@@ -207,7 +207,7 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{surface_.sites, {}, block_.top()};
+    State state{case_.scene.surface.sites, {}, block_.top()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
@@ -223,10 +223,10 @@ LedPath::State LedPath::copy() const {
 }
 
 void LedPath::restore(const State& state) {
-    if (state.sites != surface_.sites)
+    const int sites = case_.scene.surface.sites;
+    if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
-               fmt::format("the scene has {0} x {0}", surface_.sites),
-               "give a state of this scene");
+               fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
     std::size_t extensions = 0;
     if (const auto* memory = block_.memory())
         for (const SiteField<double>& branch : *memory)
