@@ -66,7 +66,7 @@ void find_scales(Case& c, double smallest_tension) {
             scales.force = softest * c.scene.drive.displacement_step;
             c.force_scale = "displaces the block's longest wave by drive.displacement_step";
         }
-        scales.length = scales.force / softest;
+        scales.length = std::max(scales.force / softest, c.scene.drive.displacement_step);
     }
     c.tolerance = c.scene.drive.tolerance * scales.force;
 }
