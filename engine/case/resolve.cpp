@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -73,15 +72,7 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
             maps.after_approach.emplace_back(std::stod(field.substr(after_approach.size())), field);
         if (field.starts_with(every)) {
             kind = every;
-            long long n = 0;
-            const char* end = field.data() + field.size();
-            const auto [stop, error] = std::from_chars(field.data() + every.size(), end, n);
-            if (error == std::errc() && stop == end && n > 0)
-                maps.every = n;
-            else
-                problems.add("output.fields", "has an \"every:\" without a number of steps",
-                             "maps are written every so many steps (points of a quasi-static path)",
-                             "for example fields = [\"relaxed\", \"every:1000\"]");
+            maps.every = std::stoll(field.substr(every.size()));
         }
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end())
             problems.add("output.fields", fmt::format("has \"{}\" twice", kind),
@@ -105,6 +96,10 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     block.finite_strain = scene.block.strain == Strain::finite;
     for (const auto& [ratio, time] : scene.block.prony)
         block.branches.push_back({ratio, time * units::picosecond});
+    for (const auto& [thickness, young, poisson] : scene.block.layers)
+        block.layers.push_back({{young * units::gigapascal, poisson},
+                                static_cast<int>(std::lround(thickness / block.spacing))});
+    block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
     return block;
 }
 
@@ -143,8 +138,9 @@ void fill_interface(Case& c) {
     }
     const double adhesion = i.adhesion / units::milli_per_unit;
     // E* q/2 of the shortest wave along an axis, q = pi / a, and the attraction's own curvature.
-    const double modulus =
-        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
+    double modulus = 0.0;
+    for (const Material& material : c.simulation.block.materials())
+        modulus = std::max(modulus, material.contact_modulus());
     const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
     const double curvature = adhesion / (i.range * i.range);
     const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
@@ -329,7 +325,7 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 void derive(Case& c, io::Problems& problems) {
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
-    c.edge_pinning = edge_pinning(c.scene);
+    c.edge_pinning = edge_pinning(c);
     refuse_pinned_edge(c, refused);
     for (std::string& note : notes_on_keys(c))
         c.notes.push_back(std::move(note));

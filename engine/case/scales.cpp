@@ -12,7 +12,9 @@
 //   which displaces the block's longest wave by drive.displacement_step.
 //
 // A path and a state under a load that presses with more than this on each site take a site's part
-// of that load in its place (equilibrium/quasistatic.hpp).
+// of that load in its place (statics/quasistatic.hpp). Without an attraction no length of the
+// interface bounds a move: that is drive.displacement_step, or what the smallest load displaces the
+// longest wave by.
 #include "engine/case/resolving.hpp"
 
 #include "engine/units.hpp"

@@ -21,14 +21,14 @@ struct ContactEdge {
     std::string remedy;   ///< a range or a spacing that resolves it
 };
 
-std::optional<ContactEdge> edge_of(const Scene& scene) {
+std::optional<ContactEdge> edge_of(const Case& c) {
+    const Scene& scene = c.scene;
     const auto& wall = scene.interface;
     if (wall.kind != InterfaceKind::wall || wall.law != WallLawKind::exponential ||
         wall.adhesion == 0.0)
         return std::nullopt;
     // The gap opens as the root of the distance from the edge of a contact.
-    const double modulus =
-        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
+    const double modulus = c.simulation.block.surface_material().contact_modulus();
     const double adhesion = wall.adhesion / units::milli_per_unit, spacing = scene.surface.spacing;
     ContactEdge edge;
     edge.strip = modulus * wall.range * wall.range / adhesion;
@@ -44,8 +44,9 @@ std::optional<ContactEdge> edge_of(const Scene& scene) {
 
 } // namespace
 
-std::optional<std::string> note_on_contact_edge(const Scene& scene) {
-    const auto edge = edge_of(scene);
+std::optional<std::string> note_on_contact_edge(const Case& c) {
+    const Scene& scene = c.scene;
+    const auto edge = edge_of(c);
     if (!edge || edge->strip >= 2.0 * scene.surface.spacing) return std::nullopt;
     return fmt::format(
         "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / adhesion), "
@@ -54,8 +55,8 @@ std::optional<std::string> note_on_contact_edge(const Scene& scene) {
         edge->strip, edge->strip / scene.surface.spacing, edge->pinning, edge->remedy);
 }
 
-double edge_pinning(const Scene& scene) {
-    const auto edge = edge_of(scene);
+double edge_pinning(const Case& c) {
+    const auto edge = edge_of(c);
     return edge ? edge->pinning : 1.0;
 }
 
@@ -71,26 +72,27 @@ void refuse_pinned_edge(const Case& c, io::Problems& refused) {
         fmt::format("single rows of sites hold the edge of the contact in place, and the sphere's "
                     "pull-off force would be about {:.3g} times too large",
                     c.edge_pinning),
-        edge_of(scene)->remedy + " resolves it; interface.edge_pinning = \"allow\" runs as it is");
+        edge_of(c)->remedy + " resolves it; interface.edge_pinning = \"allow\" runs as it is");
 }
 
 double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surface) {
     const double a = block.spacing;
-    const double modulus = block.young / (1.0 - block.poisson * block.poisson);
-    const CellElasticity elasticity = block.elasticity(0);
+    BlockOptions deep; // one material, and its top plane does not matter
+    static_cast<Material&>(deep) = block.surface_material();
+    deep.spacing = a;
+    const double modulus = deep.contact_modulus();
     constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
     double lattice = 0.0, continuum = 0.0;
     for (const SpectrumBin& bin : surface.spectrum) {
         if (!(bin.q > 0.0) || bin.q * a > std::numbers::pi) continue;
         const double weight = bin.realised * bin.modes;
-        // Deep enough that the top plane does not matter.
-        const int layers = static_cast<int>(std::ceil(8.0 * std::numbers::pi / (bin.q * a)));
+        deep.thickness = static_cast<int>(std::ceil(8.0 * std::numbers::pi / (bin.q * a)));
         double stiffness = 0.0;
         for (int k = 0; k < directions; ++k) {
             const double angle = 0.25 * std::numbers::pi * k / (directions - 1);
             const double x = bin.q * a * std::cos(angle), y = bin.q * a * std::sin(angle);
-            const SurfaceMatrix s = surface_stiffness(elasticity, {std::cos(x), std::sin(x)},
-                                                      {std::cos(y), std::sin(y)}, layers);
+            const SurfaceMatrix s =
+                deep.stiffness({std::cos(x), std::sin(x)}, {std::cos(y), std::sin(y)});
             stiffness += 1.0 / (inverse(s).zz * a * a * directions);
         }
         lattice += weight * stiffness;

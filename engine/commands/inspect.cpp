@@ -188,12 +188,13 @@ void print_map_file(const Case& c) {
     fmt::print("\n");
 }
 
-void write_surface(const Case& c, const Surface& surface, const std::string& out) {
+/// Writes the files of a surface. Returns lines to print.
+std::vector<std::string> write_surface(const Case& c, const Surface& surface,
+                                       const std::string& out) {
     const Scene& scene = c.scene;
     const io::ResultDirectory place(
         {out, scene.name + "-surface", false, false, {"heights.h5", "result.json"}, c.inputs()});
 
-    const SurfaceStatistics& statistics = surface.statistics;
     const std::string file = place.directory() / "heights.h5";
     io::HeightMap map;
     map.rows = map.columns = static_cast<std::size_t>(surface.sites);
@@ -201,7 +202,7 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     map.width = map.height = surface.length;
     map.origin = surface.origin;
     std::vector<double> q, realised, target;
-    for (const SpectrumBin& bin : statistics.spectrum) {
+    for (const SpectrumBin& bin : surface.statistics.spectrum) {
         q.push_back(bin.q);
         realised.push_back(bin.realised);
         target.push_back(bin.target);
@@ -218,7 +219,15 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
                           {"/spectrum/scale_dependent_slope", "1", lines.slope}});
 
     io::write_result(place.directory(), surface_result(c, surface));
+    std::vector<std::string> said;
+    for (const std::string& note : place.notes())
+        said.push_back("note: " + note);
+    said.push_back("heights and spectrum in " + file);
+    return said;
+}
 
+void print_surface(const Surface& surface) {
+    const SurfaceStatistics& statistics = surface.statistics;
     io::Table table({"the surface made", "", ""}, "<><");
     if (surface.atoms.size() > 0) table.row({"atoms", fmt::format("{}", surface.atoms.size()), ""});
     table.row({surface.atoms.size() > 0 ? "sites" : "atoms",
@@ -241,9 +250,6 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     table.print(stdout);
     for (const std::string& note : surface.notes)
         fmt::print("note: {}\n", note);
-    for (const std::string& note : place.notes())
-        fmt::print("note: {}\n", note);
-    fmt::print("heights and spectrum in {}\n", file);
 }
 
 } // namespace
@@ -258,12 +264,20 @@ int surface_command(const Case& c, const std::string& out, bool json, const Comm
                                map_statistics(surface.height, n, n, pixel, pixel, true).rms_slope},
                               {"doubts", surface.doubts},
                               {"notes", surface.notes}};
-        if (world.root()) fmt::print("{}\n", io::json_text(all));
+        world.on_root([&] {
+            if (!out.empty()) write_surface(c, surface, out);
+            fmt::print("{}\n", io::json_text(all));
+        });
         return io::exit_code::done;
     }
     if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
-    world.on_root([&] { write_surface(c, surface, out); });
+    world.on_root([&] {
+        const std::vector<std::string> lines = write_surface(c, surface, out);
+        print_surface(surface);
+        for (const std::string& line : lines)
+            fmt::print("{}\n", line);
+    });
     return io::exit_code::done;
 }
 

@@ -181,10 +181,21 @@ io::Schema bind(Scene& scene) {
     schema.choice<Strain>("strain", block.strain,
                           {{"linear", Strain::linear}, {"finite", Strain::finite}},
                           "small strain, or geometrically exact springs");
-    schema.pairs("prony", block.prony, "ps", positive(),
-                 "branches of a block that relaxes, on a quasi-static path: modulus over young, "
-                 "which is then the relaxed one, and relaxation time, as in [[9.0, \"1 ns\"], "
-                 "[1.5, \"20 ns\"]], the times growing; drive.velocity says how fast time passes");
+    schema.rows<2>("prony", block.prony,
+                   {{{"modulus over young", "", positive(), "0.5"},
+                     {"relaxation time", "ps", positive(), "\"1 ns\""}}},
+                   "branches of a block that relaxes, on a quasi-static path, as in [[9.0, \"1 "
+                   "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
+                   "modulus, and drive.velocity says how fast time passes");
+    schema.rows<3>(
+        "layers", block.layers,
+        {{{"thickness", "Å", positive(), "\"2 nm\""},
+          {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
+          {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
+        "coatings between the block's own material and its surface, on a quasi-static "
+        "path, from the surface upwards; a thickness is rounded to whole lattice layers");
+    schema.number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
+                  "tension of the block's surface, on a quasi-static path");
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "

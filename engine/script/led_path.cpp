@@ -71,9 +71,13 @@ void LedPath::set_load(double pressure) {
 
 void LedPath::set_hold(double time) {
     if (!case_.effects.branches)
-        refuse("hold", "has no effect on this block",
-               "it does not relax, so that force balance does not change with time",
-               "give the block branches (block.prony)");
+        refuse(
+            "hold", "has no effect on this block",
+            "it does not relax, so that force balance does not change with time",
+            case_.scene.block.prony.empty()
+                ? "give the block branches (block.prony)"
+                : "take drive.path = [\"approach\"] in the scene: of one relaxation the state is "
+                  "the relaxed one");
     if (!(time > 0.0) || !std::isfinite(time))
         refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");
     target_ = {.hold = time * units::picosecond};
@@ -126,7 +130,7 @@ LedPath::Point LedPath::now() const {
     if (!points) return before_;
     Point p{points->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double sites = static_cast<double>(surface_.sites) * surface_.sites;
+    const double edge = case_.scene.surface.sites, sites = edge * edge;
     p.instabilities = points->dissipation().events;
     p.contact_fraction = static_cast<double>(p.in_contact) / sites;
     p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
@@ -155,7 +159,7 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{surface_.sites, {}, path_.block().top()};
+    State state{case_.scene.surface.sites, {}, path_.block().top()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
@@ -171,17 +175,17 @@ LedPath::State LedPath::copy() const {
 }
 
 void LedPath::restore(const State& state) {
-    if (state.sites != surface_.sites)
+    const int sites = case_.scene.surface.sites;
+    if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
-               fmt::format("the scene has {0} x {0}", surface_.sites),
-               "give a state of this scene");
+               fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
     std::size_t extensions = 0;
     if (const auto* memory = path_.block().memory())
         for (const SiteField<double>& branch : *memory)
             extensions += branch.size() * state.u.size() / 3;
     if (!state.branches.empty() && state.branches.size() != extensions)
         refuse("restore", "of a state with other branches", "the scene has another block.prony",
-               "give a state of this scene, or State(u, top), which has relaxed");
+               "give a state of this scene, or asperity.State(u, top), which has relaxed");
     if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
         !std::isfinite(state.top))
         refuse("restore", "of displacements that are no numbers", "no state follows from them",

@@ -206,7 +206,8 @@ double QuasistaticPath::tolerance_to(double to) const {
 /// Returns the uncertainty of the energy of a point on a reversible path, eV: that of residual
 /// forces in the softest wave.
 double QuasistaticPath::energy_error() const {
-    const double softest = options_.scales.force / options_.scales.length;
+    const BlockOptions& block = block_.options();
+    const double softest = block.softest_wave() * block.spacing * block.spacing;
     return 0.5 * sites_ * last_.tolerance() * last_.tolerance() / softest;
 }
 

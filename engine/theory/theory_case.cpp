@@ -29,8 +29,6 @@ auto with_scene_errors(const F& work) {
         throw io::SceneError(io::Problem{
             "theory", error.what(), "the scene's keys lead there",
             "look at [surface] (rms, rolloff, q_max), [block] (young, poisson) and [theory]"});
-    } catch (const theory::NoSolution& error) {
-        throw io::SceneError(io::Problem{"theory", error.what(), "", "try another drive.load"});
     }
 }
 
@@ -121,18 +119,28 @@ bool theory_needs_surface(const Case& c) {
                                            c.scene.theory.spectrum == TheorySpectrum::realised);
 }
 
-std::string no_theory(const Case& c) {
-    if (c.scene.surface.kind != SurfaceKind::atoms) return {};
-    return "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories are "
-           "of one layer with heights, whose flat reference they divide by";
+NoTheory no_theory(const Case& c) {
+    if (c.scene.surface.kind == SurfaceKind::atoms)
+        return {"surface.kind",
+                "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
+                "are of one layer with heights, whose flat reference they divide by",
+                "take a surface with heights: self-affine, flat or file"};
+    constexpr const char* of_one = "the theories are of a half-space of one modulus";
+    if (c.effects.layers)
+        return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),
+                "leave block.layers out, with block.young that of the material that bends most"};
+    if (c.effects.surface_stress)
+        return {"block.surface_stress",
+                fmt::format("the surface has a tension (block.surface_stress), and {}", of_one),
+                "leave block.surface_stress out"};
+    return {};
 }
 
 TheoryCase theory_case(const Case& c, const Surface* surface) {
     const Scene& scene = c.scene;
-    if (const std::string why = no_theory(c); !why.empty())
-        throw io::SceneError(io::Problem{scene.positions.where("surface.kind"),
-                                         "no theory applies to this scene", why,
-                                         "take a surface with heights: self-affine, flat or file"});
+    if (const NoTheory none = no_theory(c); !none.why.empty())
+        throw io::SceneError(io::Problem{scene.positions.where(none.key),
+                                         "no theory applies to this scene", none.why, none.fix});
     TheoryCase out;
     out.flat = c.flat.work_of_adhesion;
     out.delta_gamma = scene.theory.delta_gamma.value_or(out.flat);
@@ -188,7 +196,7 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
 }
 
 void add_theory(const Case& c, const Surface& surface, io::Result& result) {
-    if (const std::string why = no_theory(c); !why.empty()) {
+    if (const std::string why = no_theory(c).why; !why.empty()) {
         result.set("theory.persson.note", why);
         return;
     }

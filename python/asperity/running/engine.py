@@ -230,18 +230,26 @@ class Simulation(_engine.Simulation):
     """
 
     __setattr__ = _set_what_is_there
+    _made = False
 
     def __repr__(self) -> str:
+        if not self._made:  # the engine has nothing to show then
+            return "<Simulation that could not be made>"
         return (f"<Simulation {self._name}: {self.segment}, step {self.steps}, {self.time:.4g} ps, "
                 f"{self.stress:.4g} MPa, contact {self.contact:.4g}>")
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """Places a scene at the start of its path."""
-        with scene_file(scene, overrides=overrides) as file:
-            super().__init__(file, assignments(overrides), _number(comm))
+        try:
+            with scene_file(scene, overrides=overrides) as file:
+                super().__init__(file, assignments(overrides), _number(comm))
+        except BaseException:
+            del self  # or a debugger would look into what the engine has not made
+            raise
         self._begin(comm)
 
     def _begin(self, comm: Any) -> None:
+        self._made = True
         self._comm = comm
         self._observers: list[tuple[Callable, str]] = []
         self._rows: list[dict[str, float]] = []
@@ -481,8 +489,11 @@ class Statics(_engine.Statics):
     """
 
     __setattr__ = _set_what_is_there
+    _made = False
 
     def __repr__(self) -> str:
+        if not self._made:
+            return "<Statics that could not be made>"
         return (f"<Statics {self._case['name']}: point {self.now.number}, mean height {self.now.mean_height:.4g} Å, "
                 f"{self.stress:.4g} MPa, contact {self.now.contact:.4g}>")
 
@@ -513,8 +524,13 @@ class Statics(_engine.Statics):
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
         """Places the solids of a scene beyond the interaction range."""
-        with scene_file(scene, overrides=overrides) as file:
-            super().__init__(file, assignments(overrides))
+        try:
+            with scene_file(scene, overrides=overrides) as file:
+                super().__init__(file, assignments(overrides))
+        except BaseException:
+            del self
+            raise
+        self._made = True
 
     @property
     def load(self) -> None:

@@ -125,6 +125,14 @@ def look_at(job: Job) -> Outcome:
     return outcome
 
 
+def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool = False) -> list[dict[str, str]]:
+    """Returns the files that are in the way of a run in a directory, as problems. damaged: its result cannot be read and is set
+    aside."""
+    aside = (RESULT, "run.h5") if damaged and store.is_named(directory, RESULT) else ()
+    names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
+    return store.in_the_way(directory, names, renew=False, inputs=inputs) + store.in_the_way(directory, [LOG], inputs=inputs)
+
+
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError with the files that are in
     the way of the jobs that wait."""
@@ -132,11 +140,7 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     problems = []
     for job, outcome in zip(jobs, outcomes):
         if outcome.status == WAITING:
-            aside = (RESULT, "run.h5") if outcome.damaged and store.is_named(job.directory, RESULT) else ()
-            names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
-            inputs = inputs_of(job.file, job.answer["scene"])
-            problems += store.in_the_way(job.directory, names, renew=False, inputs=inputs)
-            problems += store.in_the_way(job.directory, [LOG], inputs=inputs)
+            problems += in_the_way_of_run(job.directory, inputs_of(job.file, job.answer["scene"]), bool(outcome.damaged))
     if problems:
         raise SceneError.of(problems)
     for job, outcome in zip(jobs, outcomes):

@@ -121,9 +121,10 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
-def surface(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map."""
-    return json.loads(call(["surface", scene, *sets(overrides), "--json"]))
+def surface(scene: str, overrides: Iterable[str] = (), out: str = "") -> dict[str, Any]:
+    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map. out: a
+    directory for heights.h5."""
+    return json.loads(call(["surface", scene, *sets(overrides), "--json", *(["--out", out] if out else [])]))
 
 
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:

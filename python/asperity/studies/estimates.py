@@ -22,7 +22,7 @@ from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
 from ..running import program
-from ..running.pool import DONE, PoolOptions, refuse_jobs
+from ..running.pool import DONE, PoolOptions, in_the_way_of_run, refuse_jobs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from ..terminal import duration
 from ..units import GIGAPASCAL
@@ -141,6 +141,15 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
 """What the parts of a measured map are written to, in the folder maps."""
+OF_A_MAP = re.compile(r"(scene|finer|mirrored|quarter-\d)(,.*)?|\w+=.*")
+"""Folders of the runs of a map's estimate."""
+
+
+def require_free_runs(place: Path) -> None:
+    """Checks that no file is in the way of the runs of a map's estimate, before anything is written. Raises SceneError."""
+    folders = [one for one in sorted(place.glob("*/")) if OF_A_MAP.fullmatch(one.name) and not (one / "result.json").exists()]
+    if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
+        raise SceneError.of(problems)
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
@@ -214,7 +223,20 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", height_map.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
+    return tuple(parts), missing_waves.law_of(_without_line_noise(heights, edge, of.text("surface.line_noise")), edge, edge / sites)
+
+
+def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
+    """Returns a map as the program treats its line noise, at its own points; with the noise, its spectrum would be that of the noise."""
+    if treatment in ("", "keep"):
+        return heights
+    n = len(heights)
+    with tempfile.TemporaryDirectory(prefix="asperity-") as there:
+        np.save(Path(there) / "map.npy", heights)
+        with scene_file({"surface": {"kind": "file", "file": f"{there}/map.npy", "file_unit": "Å", "file_size": edge, "sites": n,
+                                     "spacing": edge / n, "file_missing": "fill", "detrend": "plane", "line_noise": treatment},
+                         "block": {"thickness": 1}}) as file:
+            return surface_made(file).heights
 
 
 class SurfaceMade(NamedTuple):
@@ -228,9 +250,8 @@ class SurfaceMade(NamedTuple):
 
 def surface_made(file: str) -> SurfaceMade:
     """Returns the surface that a scene makes."""
-    made = program.surface(file)
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        made = program.surface(file, out=str(Path(place) / "surface"))
         heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
     return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
@@ -322,6 +343,7 @@ class Estimating:
                              "smaller surface.spacing")
         of_file, map_parts, self.law = keys["surface"]["kind"] == "file", (), None
         if of_file:
+            require_free_runs(self.place)
             map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
@@ -387,7 +409,9 @@ class Estimating:
         part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
         if part is None:
             return ""
-        modulus = self.varied.own("block.young") * GIGAPASCAL / (1.0 - self.varied.own("block.poisson") ** 2)
+        layers = self.varied.scene.find("block.layers")
+        young, poisson = layers[0][1:] if layers else (self.varied.own("block.young"), self.varied.own("block.poisson"))
+        modulus = young * GIGAPASCAL / (1.0 - poisson ** 2)  # of the surface, where short waves are
         found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
         part.what, part.relative = found.what, found.relative
         self.notes += [found.note] * bool(found.note)
