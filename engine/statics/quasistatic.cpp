@@ -101,7 +101,8 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             if (!decided && !step.excess && !step.coarse)
                 bracket_ = {t.there, point(state, t.there).force};
         } else if (state.jumped && is_short_in_time(t.way)) {
-            bracket_ = {t.there, state.force};
+            // It was abandoned on its way, and goes about as far again.
+            bracket_ = {t.there, 2.0 * state.force - trail_.continued(t.there)};
         }
         length_ *= 0.5;
     }
@@ -257,7 +258,8 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     record_.work += step.work;
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
-        course_.errors.add_instability(at, way, step.uncertain, step.dissipated);
+        course_.errors.add_instability(at, way, step.uncertain,
+                                       step.smooth ? 0.0 : step.dissipated);
     if (options_.velocity > 0.0) record_.time += time_of(way);
     if (course_.along != Along::time) way_ += way;
     if (step.dissipated > 0.0) {

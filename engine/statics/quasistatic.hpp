@@ -34,13 +34,13 @@
 // anyway. "No energy" is drive.tolerance for each site and Å of the step: this bounds the errors of
 // the energy on the whole path. Points are therefore relaxed to a quarter of the tolerance. The
 // tolerance follows the force that presses, if that is larger than the scale of forces, or the load
-// to which a segment leads without attraction on the way. decide() (step_decision.hpp) chooses among
-// the three.
+// to which a segment leads without attraction on the way. decide() (step_decision.hpp) chooses
+// among the three.
 //
 // An elastic block over a wall that only repels has a convex energy, and one state at each
 // position: nothing is dissipated, and the work of a step is the energy gained, however long it is.
-// (The force has a kink wherever a site touches; integrated, it would take steps of a few hundredths
-// of an angstrom.)
+// (The force has a kink wherever a site touches; integrated, it would take steps of a few
+// hundredths of an angstrom.)
 #pragma once
 
 #include "engine/scene/segment_rule.hpp"

@@ -78,8 +78,8 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         return d;
     }
     d.coarse = !limits.short_in_time;
-    // Missing energy below the uncertainty of the work or below the limit is not counted as
-    // dissipated: it shows in the residual.
+    // Missing energy below the uncertainty of the work and the limit is not counted as dissipated:
+    // it shows in the residual.
     d.uncertain = integral.error;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;
@@ -88,7 +88,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         d.uncertain = 0.5 * std::abs(trial.at - last.at) * trail.jump(trial.at, trial.force);
         known = d.uncertain <= limits.uncertain;
     }
-    const double least = std::max(d.uncertain, limits.missing);
+    const double least = d.uncertain + limits.missing;
     if (d.work - gained > least) d.dissipated = d.work - gained;
     d.gap = d.work - gained - d.dissipated;
     d.excess = gained - d.work > least;

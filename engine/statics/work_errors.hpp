@@ -23,8 +23,8 @@ public:
     void begin() { *this = {}; }
     /// Adds what is missing in the energy balance of a step, eV.
     void add_gap(double gap) { gap_ += std::abs(gap); }
-    /// Adds a step that ends at a place, Å, passes an instability with a work that is known to
-    /// `uncertain`, and dissipates so much, eV.
+    /// Adds a step that ends at a place, Å, whose work is known to `uncertain`, and in which so
+    /// much was dissipated by a jump of the force, eV.
     void add_instability(double at, double step, double uncertain, double dissipated) {
         squares_ += 9.0 * uncertain * uncertain;
         if (!(dissipated > 0.0)) return;
