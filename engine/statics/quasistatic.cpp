@@ -101,7 +101,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             if (!decided && !step.excess && !step.coarse)
                 bracket_ = {t.there, point(state, t.there).force};
         } else if (state.jumped && is_short_in_time(t.way)) {
-            // It was abandoned on its way, and goes about as far again.
+            // The relaxation was abandoned on its way: the force goes about as far again.
             bracket_ = {t.there, 2.0 * state.force - trail_.continued(t.there)};
         }
         length_ *= 0.5;

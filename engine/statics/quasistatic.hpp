@@ -133,7 +133,7 @@ private:
         double work = 0.0;            ///< work of the top plane, eV
         double relaxed = 0.0;         ///< dissipated by the block, eV
         double stored_at_start = 0.0; ///< energy of interface and block, eV
-        WorkErrors errors;            ///< of work and of what was dissipated
+        WorkErrors errors;            ///< uncertainty of work and dissipated energy
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);

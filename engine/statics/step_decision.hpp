@@ -45,7 +45,7 @@ struct StepDecision {
     double growth = 1.0;     ///< factor of the length of the next step
 };
 
-/// Decides a step of a path on which nothing can be dissipated: the work is the energy gained.
+/// Returns a step of a path on which nothing can be dissipated: the work is the energy gained.
 /// error: of the energy of a point, eV.
 inline StepDecision reversible_step(const PathPoint& last, const PathPoint& trial, double error) {
     StepDecision d;
