@@ -7,9 +7,8 @@ import importlib
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, command, found
-
 import asperity
+from conftest import ROOT, command, found
 
 PATH = """[surface]
 sites = 24
