@@ -7,6 +7,7 @@ import importlib
 from pathlib import Path
 
 import pytest
+
 import asperity
 from conftest import ROOT, command, found
 
