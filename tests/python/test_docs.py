@@ -4,10 +4,11 @@
 overrides put behind the command's own; a comment "# exit N" behind a command says with which code it is to end."""
 
 import re
+import shlex
 import subprocess
 
 import pytest
-from conftest import ROOT, command
+from conftest import OF_PYTHON, ROOT, command
 
 import asperity
 
@@ -53,6 +54,9 @@ def test_commands(work, line):
         words += SMALL + (SHORT if wanted == 0 else "")  # what is meant to fail has to get there
         if " sweep scenes/paper/" in words and "surface.rms=" not in words:
             words += FEW
+    if words.split()[1] in OF_PYTHON and words.startswith("./"):
+        command(*shlex.split(words)[1:], expect=wanted, cwd=work)
+        return
     words = words.replace("./asperity", '"$ASPERITY_PROGRAM"')
     if words.startswith("mpirun "):
         words = " ".join(asperity.running.runs.launcher(2)[:-2]) + words.removeprefix("mpirun")
