@@ -58,8 +58,7 @@ io::Json check_json(const Case& c, const Communicator& world) {
         all["edge_pinning"] = c.edge_pinning;
         all["notes"] = notes;
     } catch (const io::SceneError& error) {
-        for (const io::Problem& problem : error.problems())
-            all["problems"].push_back(io::format(problem));
+        all["problems"] = io::problems_json(error.problems());
     }
     return all;
 }
@@ -140,11 +139,17 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int plan_command(const Case& c, const Communicator& world) {
+int plan_command(const Case& c, bool json, const Communicator& world) {
     const std::vector<std::string> notes = examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root([&] {
         const int threads = std::max(1, cores / c.ranks);
+        if (json) {
+            io::Json all = plan_json(c, threads, make_plan(c, threads));
+            all["notes"] = notes;
+            fmt::print("{}\n", io::json_text(all));
+            return;
+        }
         print_plan(stdout, c, threads, make_plan(c, threads));
         for (const std::string& note : notes)
             fmt::print("note: {}\n", note);
@@ -312,9 +317,24 @@ int schema_command(bool results, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int info_command(const Communicator& world) {
+int info_command(bool json, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     const io::BuildInfo build = io::build_info();
+    if (json) {
+        const io::Json all = {{"version", build.version},
+                              {"git", build.git},
+                              {"compiler", build.compiler},
+                              {"flags", build.flags},
+                              {"mpi", ParallelSession::library()},
+                              {"hdf5", build.hdf5},
+                              {"fftw", std::string(fftw_version)},
+                              {"ranks", world.size()},
+                              {"threads", omp_get_max_threads()},
+                              {"cuda", static_cast<bool>(cuda_device())},
+                              {"processor", name(processor_level())}};
+        fmt::print("{}\n", io::json_text(all));
+        return io::exit_code::done;
+    }
     io::Table table({"", ""}, "<<");
     table.row({"version", build.version});
     table.row({"git", build.git});

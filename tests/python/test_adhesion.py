@@ -9,7 +9,6 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import command
 
 import asperity
 from asperity.maps import convert, height_map
@@ -17,6 +16,7 @@ from asperity.running import program
 from asperity.running.pool import PoolOptions
 from asperity.running.scene import scene_file
 from asperity.studies.estimates import Estimating, surface_made
+from conftest import command
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}

@@ -8,9 +8,9 @@ import shlex
 import subprocess
 
 import pytest
-from conftest import OF_PYTHON, ROOT, command
 
 import asperity
+from conftest import OF_PYTHON, ROOT, command
 
 PAGES = [ROOT / "ARCHITECTURE.md", ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./asperity .*)", page.read_text(), re.M)

@@ -6,9 +6,9 @@ there is."""
 from pathlib import Path
 
 import pytest
-from conftest import command, found
 
 import asperity
+from conftest import command, found
 
 PATH = """[surface]
 sites = 24

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy
 import pytest
-from conftest import ROOT, SMALL
 
 import asperity
+from conftest import ROOT, SMALL
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5},
         "drive": {"velocity": 100.0, "timestep": 20.0}}

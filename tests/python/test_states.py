@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import command, started, wait_for
 
 import asperity
 import asperity.studies.states
 from asperity.files import store
+from conftest import command, started, wait_for
 
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }

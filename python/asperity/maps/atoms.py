@@ -62,7 +62,8 @@ def lammps(path: Path, content: str) -> dict:
         raise refuse(path, "the box of the atoms is not orthogonal", "", "repeat or cut the atoms to a square box")
     if style in ("charge", "full"):
         unread["charges"] = True
-    return {"notes": _not_read("sections and columns", unread), "types": [atom[0] for atom in atoms.values()], "position": [atom[1] for atom in atoms.values()],
+    return {"notes": _not_read("sections and columns", unread),
+            "types": [atom[0] for atom in atoms.values()], "position": [atom[1] for atom in atoms.values()],
             "low": [side[0] if side else 0.0 for side in box],
             "width": [side[1] - side[0] if side else 0.0 for side in box]}
 

@@ -47,6 +47,7 @@ def load() -> Any:
             if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
                 os.environ.setdefault("GOMP_SPINCOUNT", "3000")
             spec = importlib.util.spec_from_file_location(NAME, file)
+            assert spec and spec.loader
             module = importlib.util.module_from_spec(spec)
             spec.loader.exec_module(module)
             sys.modules[NAME] = module
@@ -62,8 +63,12 @@ if TYPE_CHECKING:
     from .. import _engine
 else:
     _engine = load()
-RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
-State, quantity = _engine.State, _engine.quantity
+RestState = _engine.RestState
+SiteMaps = _engine.SiteMaps
+Energies = _engine.Energies
+Point = _engine.Point
+State = _engine.State
+quantity = _engine.quantity
 
 
 class Components(NamedTuple):
@@ -362,7 +367,12 @@ class Simulation(_engine.Simulation):
                              "give a function of the simulation")
         # The engine must not keep alive what keeps the engine alive.
         itself, number = weakref.ref(self), len(self._observers)
-        self._every(n, lambda: itself()._observe(number))
+
+        def observe() -> None:
+            if (simulation := itself()) is not None:
+                simulation._observe(number)
+
+        self._every(n, observe)
         self._observers.append((observer, name or getattr(observer, "__name__", "value").replace("<lambda>", "value")))
 
     def _observe(self, number: int) -> None:
