@@ -35,7 +35,7 @@ def jkr(a: Any) -> tuple[Any, Any, Any]:
 
 
 class Openings(NamedTuple):
-    """What Maugis' equations take of s = √(m² - 1) alone: s, m, arctan s, and the parts of the opening at c by λ/2 and 4λ²/3."""
+    """Terms of Maugis' equations that s = √(m² - 1) alone decides: s, m, arctan s, and the parts of the opening at c by λ/2 and 4λ²/3."""
 
     s: np.ndarray
     m: np.ndarray
