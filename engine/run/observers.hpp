@@ -37,7 +37,7 @@ public:
 
 private:
     std::vector<std::unique_ptr<Observer>> own_;
-    std::vector<Observer*> all_; ///< those above and the maps of the session
+    std::vector<Observer*> all_; ///< the observers above and the maps of the session
     std::function<void(const Path&, long long, double)> look_within_;
 };
 
