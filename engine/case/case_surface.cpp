@@ -146,7 +146,7 @@ namespace {
 /// make_surface() and measure() need. Throws io::SceneError.
 void require_memory_for_heights(const Case& c) {
     const double n = c.substrate();
-    const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
+    const double needed = n * n * (8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
     const io::AvailableMemory there = io::available_memory();
     if (needed <= there.bytes) return;
     io::Problems problems = c.scene.problems();
@@ -163,22 +163,11 @@ void require_memory_for_heights(const Case& c) {
 
 Surface surface_of(const Case& c, const Communicator& world) {
     require_memory_for_heights(c);
-    const Scene& scene = c.scene;
-    const auto& s = scene.surface;
-    SurfaceOptions options;
-    options.kind = s.kind;
-    options.sites = c.substrate();
-    options.length = scene.edge();
-    options.rms = s.rms;
-    options.hurst = s.hurst;
-    options.rolloff = s.rolloff;
-    options.cutoff = s.q_max.value_or(0.5 * options.sites);
-    options.amplitudes = s.amplitudes;
-    options.seed = static_cast<std::uint64_t>(s.seed);
-    options.radius = s.radius.value_or(0.0);
+    const auto& s = c.scene.surface;
+    SurfaceOptions options = c.surface;
     try {
-        if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
-        if (s.kind != SurfaceKind::file) return make_surface(options);
+        if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
+        if (options.kind != SurfaceKind::file) return make_surface(options);
         io::HeightMap map = map_of_file(c, world);
         options.map_edge = map.width.value_or(0.0);
         const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
@@ -192,10 +181,6 @@ Surface surface_of(const Case& c, const Communicator& world) {
         if (points != covered)
             io::require_memory(s.file, "the resampled map",
                                32.0 * covered * static_cast<double>(covered));
-        options.rms = scene.gives_rms() ? s.rms : 0.0;
-        options.detrend = s.detrend != Detrend::none;
-        options.line_noise = s.line_noise;
-        options.periodic = s.detrend == Detrend::periodic;
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
         if (options.map_edge <= 0.0)
             map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
@@ -235,7 +220,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
                 100.0 * (1.0 - softness)));
         return surface;
     } catch (const std::invalid_argument& e) {
-        io::Problems problems = scene.problems();
+        io::Problems problems = c.scene.problems();
         problems.add(s.reads_file() ? "surface.file" : "surface.kind",
                      std::string(": ") + e.what());
         problems.throw_if_any();

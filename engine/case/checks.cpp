@@ -31,8 +31,8 @@ void check_path(const Case& c, io::Problems& problems) {
     const bool frictionless =
         c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
     bool apart = true; // beyond the interaction range
-    for (std::size_t i = 0; i < c.path.size(); ++i) {
-        const Segment& segment = c.path[i];
+    for (std::size_t i = 0; i < c.path().size(); ++i) {
+        const Segment& segment = c.path()[i];
         const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
             problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
                          instead);
@@ -76,7 +76,7 @@ void check_path(const Case& c, io::Problems& problems) {
                        "take interface.kind = \"atoms\" with frictionless = false");
             break;
         case Segment::hold:
-            if (!c.in_time && c.scene.block.prony.empty())
+            if (!c.effects.dynamic && c.scene.block.prony.empty())
                 refuse("on a quasi-static path", "equilibria do not change while they are held",
                        "take it out, or give the block branches that relax (block.prony), or take "
                        "drive.mode = \"dynamic\"");
@@ -206,7 +206,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "the atoms of other substrates are of one type, with interface.potential",
                      "leave it out, or take surface.kind = \"atoms\"");
 
-    if (wall && c.in_time)
+    if (wall && c.effects.dynamic)
         problems.add("interface.kind", "= \"wall\" on a dynamic path",
                      "a wall takes no lateral tractions, and dynamic paths cannot leave lateral "
                      "displacements "
@@ -221,7 +221,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
                      "a wall has a height below each site, and no lattice of its own",
                      "take lattice_ratio = 1, or interface.kind = \"atoms\"");
-    if (interface.frictionless && !wall && c.in_time)
+    if (interface.frictionless && !wall && c.effects.dynamic)
         problems.add("interface.frictionless", "= true on a dynamic path",
                      "lateral displacements can be left out only where the block's stiffness for "
                      "normal forces alone is known wave by wave",
@@ -229,7 +229,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "frictionless = false");
 
     check_path(c, problems);
-    if (drive.control == Control::mean_height && c.in_time)
+    if (drive.control == Control::mean_height && c.effects.dynamic)
         problems.add("drive.control", "= \"mean-height\" on a dynamic path",
                      "a dynamic path prescribes the top plane; the mean height of the lowest layer "
                      "follows from the motion of the block",
@@ -237,14 +237,14 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
-    if (scene.block.strain == Strain::finite && !c.in_time)
+    if (scene.block.strain == Strain::finite && !c.effects.dynamic)
         problems.add(
             "block.strain", "= \"finite\" on a quasi-static path",
             "on such a path the block is a sum of waves, and at finite strain waves do not "
             "add up",
             "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
     const auto& prony = scene.block.prony;
-    if (!prony.empty() && c.in_time)
+    if (!prony.empty() && c.effects.dynamic)
         problems.add("block.prony", "= [...] on a dynamic path",
                      "only the block of a quasi-static path can relax",
                      "take drive.mode = \"quasistatic\", or leave prony out");
@@ -268,18 +268,18 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
         for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
-    if (!c.maps.after_approach.empty() && (!c.in_time || !c.has(Segment::pull_off)))
+    if (!c.maps.after_approach.empty() && (!c.effects.dynamic || !c.has(Segment::pull_off)))
         problems.add("output.fields", "asks for \"" + c.maps.after_approach.front().second + "\"",
                      "no dynamic pull-off follows an approach",
                      "take a dynamic path with a pull-off, or take it out of output.fields");
-    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::relax))
+    if (c.maps.segments && c.path().size() == 1 && c.starts_with(Segment::relax))
         problems.add("output.fields", "asks for \"segments\"",
                      "drive.path is one relaxation, whose state is \"relaxed\"",
                      "take \"relaxed\" in its place");
     if (c.maps.pull_off && !c.has(Segment::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
-    if (scene.output.trajectory && !c.in_time)
+    if (scene.output.trajectory && !c.effects.dynamic)
         problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
                      "frames are taken from time steps, and a quasi-static path has none",
                      "leave it out: the maps of output.fields hold the states");
@@ -291,7 +291,7 @@ std::vector<io::Problem> device_problems(const Case& c) {
         list.push_back({"numerics.device", "is not available with " + std::move(with),
                         std::move(why), std::move(instead)});
     };
-    if (!c.in_time)
+    if (!c.effects.dynamic)
         refuse("a quasi-static path",
                "a device takes time steps; equilibria are relaxed by the "
                "processor",
@@ -328,7 +328,7 @@ void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
                     "it is part of the scene format, and this release does not compute it",
                     std::move(instead));
     };
-    if (scene.drive.mode == DriveMode::dynamic && c.path.size() > 1 &&
+    if (scene.drive.mode == DriveMode::dynamic && c.path().size() > 1 &&
         c.starts_with(Segment::relax))
         refuse("drive.path", "a dynamic path from \"relax\"",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
@@ -338,7 +338,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const Scene& scene = c.scene;
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    if (c.in_time && scene.block.model == BlockModel::multiscale) {
+    if (c.effects.dynamic && scene.block.model == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
@@ -361,8 +361,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
     double load = std::abs(scene.drive.load); // MPa
-    for (const Segment& segment : c.path)
-        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount));
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
     const double poisson = scene.block.poisson;
     const double strain = 1e-3 * load * (1.0 + poisson) * (1.0 - 2.0 * poisson) /
                           // Modulus of a block that cannot widen
@@ -387,8 +387,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         const double a_step =
             100.0 * scene.drive.displacement_step / scene.drive.velocity; // ps: Å over m/s
         double path = 200.0 * a_step;
-        for (const Segment& segment : c.path)
-            if (segment.kind == Segment::hold) path += segment.amount;
+        for (const Segment& segment : c.path())
+            if (segment.kind == Segment::hold) path += segment.amount / units::picosecond;
         for (const auto& [ratio, time] : scene.block.prony)
             if (time > 1000.0 * path)
                 list.push_back(fmt::format("block.prony: {:.4g} ps is far beyond the path, which "
@@ -398,12 +398,12 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                 list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
                                            "the path, {:.1g} ps: this branch is always relaxed",
                                            time, 0x1p-16 * a_step));
-    } else if (!c.in_time && !scene.block.prony.empty()) {
+    } else if (!c.effects.dynamic && !scene.block.prony.empty()) {
         idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
     }
-    if (c.path.size() == 1 && c.starts_with(Segment::relax))
+    if (c.path().size() == 1 && c.starts_with(Segment::relax))
         idle("drive.control", "drive.path relaxes with nothing held");
-    if (!c.in_time) {
+    if (!c.effects.dynamic) {
         std::vector<std::string> timed; // a scene that was dynamic has many: one note
         for (const char* key :
              {"drive.velocity", "drive.temperature", "drive.seed", "drive.timestep",
@@ -445,7 +445,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
         for (const char* key : {"surface.hurst", "surface.rolloff", "surface.q_max", "surface.seed",
                                 "surface.amplitudes"})
             idle(key, "surface.kind is not \"self-affine\"");
-    if (c.in_time && scene.block.model != BlockModel::multiscale)
+    if (c.effects.dynamic && scene.block.model != BlockModel::multiscale)
         idle("block.layers_per_level", "block.model is not \"multiscale\"");
     return list;
 }

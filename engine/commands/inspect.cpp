@@ -132,7 +132,7 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
                scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
                c.levels.size() == 1 ? "" : "s");
-    if (c.in_time)
+    if (c.effects.dynamic)
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", scene.drive.timestep,
                    usable_timestep(c.longest_timestep));
     for (const std::string& note : notes)

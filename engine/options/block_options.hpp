@@ -30,13 +30,15 @@ struct BlockOptions {
     bool finite_strain = false;
     std::vector<Branch> branches{}; ///< branches of a block that relaxes, without inertia
 
+    /// Returns the edge of the box, Å.
+    double edge() const { return sites * spacing; }
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
     /// Returns E/(1 - nu^2), eV/Å^3.
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
     /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not
     /// thin: E* q_L / 2, eV/Å^4. Thin blocks are stiffer.
-    double softest_wave() const { return contact_modulus() * std::numbers::pi / (sites * spacing); }
+    double softest_wave() const { return contact_modulus() * std::numbers::pi / edge(); }
     /// Returns the speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;

@@ -55,12 +55,11 @@ void guard(const Path& path, const std::function<std::string()>& kept) {
     double lowest = path.surface().statistics.lowest - reach_of(c.simulation.interface);
     // A wall gives way: the mean gap is no less than that of flat surfaces under the same force.
     if (const auto& wall = c.simulation.interface.wall) {
-        const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
-        const auto depth = [&](const auto& law) { return law.depth_under(now.force / sites); };
+        const auto depth = [&](const auto& law) { return law.depth_under(now.force / c.sites()); };
         lowest -= 2.0 * std::visit(depth, *wall);
     }
     const auto wrong =
-        violation(now, lowest, fmt::format("{} {}", c.in_time ? "step" : "point", now.step));
+        violation(now, lowest, fmt::format("{} {}", c.effects.dynamic ? "step" : "point", now.step));
     if (!wrong) return;
     Path::Remedy remedy = path.remedy();
     if (kept) remedy.fix += "; " + kept(); // may put the path back

@@ -10,7 +10,7 @@
 namespace asperity {
 
 std::unique_ptr<Path> path_of(const Case& c, const Surface& surface, const Communicator& ranks) {
-    if (c.in_time) return std::make_unique<TimePath>(c, surface, ranks);
+    if (c.effects.dynamic) return std::make_unique<TimePath>(c, surface, ranks);
     return std::make_unique<StaticPath>(c, surface, ranks);
 }
 

@@ -12,13 +12,13 @@ namespace asperity {
 
 StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator& ranks)
     : Path(c, surface), grid_(c.grid(ranks.rank())),
-      interface_(surface, grid_.tile(0), c.scene.surface.spacing, c.simulation.interface),
-      block_(c.simulation.block, ranks, c.scene.interface.frictionless) {
+      interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
+      block_(c.simulation.block, ranks, !c.effects.lateral) {
     nowhere_.mean_height = interface_.start_height();
 }
 
 Constraint::Of StaticPath::held_of(const Case& c) {
-    return c.scene.drive.control == Control::top ? Constraint::Of::top
+    return c.simulation.drive.control == Control::top ? Constraint::Of::top
                                                  : Constraint::Of::mean_height;
 }
 
@@ -34,12 +34,12 @@ void StaticPath::make_points(Constraint::Of held) {
 Path::Made StaticPath::advance(const Wish&) {
     const long long before = now().step;
     const bool first = segment_ == 0;
-    const bool from_state = !first && case_.path[segment_ - 1].kind == Segment::relax;
+    const bool from_state = !first && case_.path()[segment_ - 1].kind == Segment::relax;
     if (!begun_) {
         if (first || from_state) make_points(held_of(case_));
         if (first) points_->start();
         if (from_state) points_->start_here({.from_apart = true});
-        points_->begin(case_.simulation.drive.path[segment_], segment_);
+        points_->begin(case_.path()[segment_], segment_);
         begun_ = true;
         if (first || from_state) return Made::step;
     }
@@ -48,7 +48,7 @@ Path::Made StaticPath::advance(const Wish&) {
     at_end_ = outcome != QuasistaticPath::Outcome::point;
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Made::nothing;
-    results_.record_force(case_.path[segment_], now());
+    results_.record_force(case_.path()[segment_], now());
     return Made::step;
 }
 
@@ -98,7 +98,7 @@ void StaticPath::conclude() {
                     .interface = {},
                     .uncertainty = points_->uncertainty()};
         // A held mean height does not jump: the holder's force is that of the interface.
-        if (case_.scene.drive.control == Control::mean_height)
+        if (case_.simulation.drive.control == Control::mean_height)
             works.interface = slide ? 0.0 : -points_->work();
         ledger_.conclude(segment_, now(), works, {});
     }

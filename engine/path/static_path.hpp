@@ -21,7 +21,7 @@ public:
     /// Places the block beyond the interaction range. Collective.
     StaticPath(const Case& c, const Surface& surface, const Communicator& ranks);
 
-    bool done() const override { return segment_ == case_.path.size(); }
+    bool done() const override { return segment_ == case_.path().size(); }
     /// Makes the next point. The first point of a path, and the first one after a state, is the
     /// present state of the block.
     Made advance(const Wish& wish) override;
@@ -102,7 +102,7 @@ private:
         if (on_points) v("points", *points_);
     }
     static Constraint::Of held_of(const Case& c);
-    Segment::Kind kind() const { return case_.path[segment_].kind; }
+    Segment::Kind kind() const { return case_.path()[segment_].kind; }
     void make_points(Constraint::Of held);
     bool lead(const std::function<void()>& look);
 

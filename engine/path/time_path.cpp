@@ -16,7 +16,7 @@ namespace asperity {
 TimePath::TimePath(const Case& c, const Surface& surface, const Communicator& ranks)
     : Path(c, surface), simulation_(c.simulation, surface, ranks, c.grid(ranks.rank())) {
     start_.height = simulation_.interface().start_height();
-    if (c.scene.drive.temperature == 0.0)
+    if (!c.effects.temperature)
         start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
     simulation_.start(start_.height);
 }
@@ -41,7 +41,7 @@ Path::Made TimePath::advance(const Wish& wish) {
         // The energy of a block that starts at full speed is that of the first step, unless noise
         // is part of it.
         const bool as_seen =
-            simulation_.drive().velocity(0.0) != 0.0 && case_.scene.drive.temperature == 0.0;
+            simulation_.drive().velocity(0.0) != 0.0 && !case_.effects.temperature;
         kinetic_at_full_speed_ =
             as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
@@ -75,7 +75,7 @@ std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
     Drive& drive = simulation_.drive();
     if (drive.done()) return std::nullopt;
     const std::size_t number = drive.segment();
-    const Segment& segment = case_.path[number];
+    const Segment& segment = case_.path()[number];
     results_.record_force(segment, now);
     if (drive.by_hand()) return std::nullopt;
     const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
@@ -110,7 +110,7 @@ LayerAtRest TimePath::state_at(const std::array<double, 2>& place) {
 
 void TimePath::conclude() {
     const std::size_t number = *std::exchange(concluding_, std::nullopt);
-    const Segment& segment = case_.path[number];
+    const Segment& segment = case_.path()[number];
     const StepRecord& now = simulation_.now();
     const double energy = now.energy();
     Works end = so_far();
@@ -122,7 +122,7 @@ void TimePath::conclude() {
         end = at_rest_apart(end, bound, moving);
         kinetic = energy - bound - moving;
     } else if (segment.kind == Segment::approach && results_.zero_load &&
-               case_.scene.drive.load == 0.0) {
+               case_.simulation.drive.load_force == 0.0) {
         kinetic =
             energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
     }
@@ -166,7 +166,7 @@ std::vector<StateArray> TimePath::arrays() {
 }
 
 Path::Remedy TimePath::remedy() const {
-    const double set = case_.scene.drive.timestep, limit = case_.longest_timestep;
+    const double set = case_.simulation.dt, limit = case_.longest_timestep;
     return {fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
                         "contact, and less where atoms are pressed into the wall or hit it fast",
                         fastest_site(simulation_), set, limit),

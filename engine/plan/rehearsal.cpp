@@ -60,9 +60,9 @@ Case piece_of(const Case& c, int sites) {
     piece.ranks = 1;
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
-    Scene::Surface& surface = piece.scene.surface;
-    const double fraction = static_cast<double>(sites) / surface.sites;
-    if (c.in_time)
+    SurfaceOptions& surface = piece.surface;
+    const double fraction = static_cast<double>(sites) / block.sites;
+    if (c.effects.dynamic)
         block.thickness =
             std::min(block.thickness, c.levels.size() > 1 ? most_layers : most_layers_of_lattice);
     if (fraction < 1.0 && surface.kind == SurfaceKind::self_affine) {
@@ -70,10 +70,12 @@ Case piece_of(const Case& c, int sites) {
         // the power 2H.
         surface.rms *= std::pow(std::min(1.0, surface.rolloff * fraction), surface.hurst);
         surface.rolloff = std::max(1.0, surface.rolloff * fraction);
-        if (surface.q_max) surface.q_max = std::max(surface.rolloff, *surface.q_max * fraction);
+        surface.cutoff = std::max(surface.rolloff, surface.cutoff * fraction);
     }
-    surface.sites = block.sites = sites;
-    piece.scene.block.thickness = block.thickness;
+    const double ratio = static_cast<double>(block.sites) / surface.sites;
+    block.sites = sites;
+    surface.sites = substrate_sites(sites, ratio);
+    surface.length = block.edge();
     piece.levels = level_shapes(block);
     piece.simulation.drive.load_force *= fraction * fraction;
     for (Segment& segment : piece.simulation.drive.path)
@@ -83,7 +85,8 @@ Case piece_of(const Case& c, int sites) {
 
 /// Returns a surface in place of one from a file: a rough one, or as many atoms in flat layers.
 Surface stand_in(Case piece, double rms, int atoms) {
-    Scene::Surface& s = piece.scene.surface;
+    SurfaceOptions& s = piece.surface;
+    const BlockOptions& block = piece.simulation.block;
     if (s.kind == SurfaceKind::file) {
         s.kind = SurfaceKind::self_affine;
         s.rms = rms;
@@ -91,32 +94,28 @@ Surface stand_in(Case piece, double rms, int atoms) {
     }
     AtomPositions at;
     for (int i = 0; i < atoms; ++i) {
-        at.x.push_back(s.spacing * (i % s.sites));
-        at.y.push_back(s.spacing * (i / s.sites % s.sites));
-        at.z.push_back(-s.spacing * (i / (s.sites * s.sites)));
+        at.x.push_back(block.spacing * (i % block.sites));
+        at.y.push_back(block.spacing * (i / block.sites % block.sites));
+        at.z.push_back(-block.spacing * (i / (block.sites * block.sites)));
         if (!piece.types.empty()) at.type.push_back(0);
     }
-    SurfaceOptions options;
-    options.kind = SurfaceKind::atoms;
-    options.sites = piece.substrate();
-    options.length = piece.scene.edge();
-    return surface_from_atoms(options, std::move(at));
+    return surface_from_atoms(s, std::move(at));
 }
 
 /// Follows all segments of a quasi-static path, as a run does. relax: leads to the state under a
 /// load. Returns true if the path came to its end.
 bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto& stop) {
-    for (std::size_t n = 0; n < c.path.size(); ++n) {
-        if (c.path[n].kind == Segment::relax) {
+    for (std::size_t n = 0; n < c.path().size(); ++n) {
+        if (c.path()[n].kind == Segment::relax) {
             if (!relax(c.simulation.drive.load_force)) return false;
             path.start_here({});
             continue;
         }
         if (n == 0) path.start();
-        path.begin(c.simulation.drive.path[n], n);
+        path.begin(c.path()[n], n);
         while (!stop() && path.advance() == QuasistaticPath::Outcome::point)
-            if (path.now().step == c.scene.drive.max_steps) return true;
-        if (stop() || (c.path[n].kind == Segment::approach && !relax(0.0))) return false;
+            if (path.now().step == c.simulation.drive.max_steps) return true;
+        if (stop() || (c.path()[n].kind == Segment::approach && !relax(0.0))) return false;
         path.put_back();
     }
     return true;
@@ -136,14 +135,14 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     };
     const double begin = now();
     Surface heights;
-    if (!piece.scene.surface.reads_file())
+    if (!piece.surface.reads_file())
         heights = surface_of(piece);
-    else if (of_file && sites == c.scene.surface.sites)
+    else if (of_file && sites == c.simulation.block.sites)
         heights = *of_file;
     else
         heights =
             stand_in(piece, of_file ? of_file->statistics.rms : 1.0,
-                     static_cast<int>(atoms * std::pow(1.0 * sites / c.scene.surface.sites, 2)));
+                     static_cast<int>(atoms * std::pow(1.0 * sites / c.simulation.block.sites, 2)));
     done.bytes[Piece::surface] =
         sizeof(double) * static_cast<double>(heights.height.size() + 3 * heights.atoms.size());
     const ProcessGrid grid = piece.grid(0);
@@ -154,7 +153,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     });
     std::optional<SpectralBlock> waves;
     part(Piece::block,
-         [&] { waves.emplace(options, Communicator(), piece.scene.interface.frictionless); });
+         [&] { waves.emplace(options, Communicator(), !piece.effects.lateral); });
     done.sites = sites;
     done.atoms = std::pow(piece.substrate(), 2) + static_cast<double>(heights.atoms.size());
     done.nodes = nodes_of(piece.levels);
@@ -179,13 +178,13 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         return find_zero_load(*waves, *below, start, load, piece, stop).has_value();
     };
     const auto come_to_rest = [&] {
-        if (piece.in_time)
+        if (piece.effects.dynamic)
             return bring_to_rest(simulation->block(), heights, height, piece, stop, {})
                 .numbers.has_value();
         if (path && timed) return follow(piece, *path, relax, stop);
         return relax(piece.simulation.drive.load_force);
     };
-    if (piece.in_time) {
+    if (piece.effects.dynamic) {
         waves.reset();
         part(Piece::block, [&] {
             simulation.emplace(piece.simulation, heights, Communicator(), grid);
@@ -203,7 +202,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     }
     double begun = now();
     try {
-        if (!piece.in_time && piece.effects.observation)
+        if (!piece.effects.dynamic && piece.effects.observation)
             part(Piece::kept, [&] {
                 path.emplace(*waves, *below, path_options(piece, *below, stop));
                 path->start();
@@ -216,7 +215,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     }
     done.resting = now() - begun;
     const VectorPlane<const double> layer =
-        piece.in_time ? std::as_const(*simulation).block().lowest_layer() : waves->lowest_layer();
+        piece.effects.dynamic ? std::as_const(*simulation).block().lowest_layer() : waves->lowest_layer();
     std::optional<io::PayloadWriter> record;
     if (piece.effects.maps)
         part(Piece::maps, [&] {

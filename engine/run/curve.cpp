@@ -37,7 +37,7 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 } // namespace
 
 void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
-                     const Scene& scene, io::Result& result) {
+                     double edge, double radius, io::Result& result) {
     if (!result.number("work_of_drive.pull_off")) return; // the pull-off did not come to its end
     /// Rows of the last segment of a kind, from the first to behind the last.
     const auto rows_of = [&](Segment::Kind kind) {
@@ -56,11 +56,11 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
                          path.force.begin() + static_cast<std::ptrdiff_t>(out.second));
     const double fraction =
         path.contact_fraction[static_cast<std::size_t>(strongest - path.force.begin())];
-    result.set("contact_radius.pull_off", scene.edge() * std::sqrt(fraction / std::numbers::pi));
+    result.set("contact_radius.pull_off", edge * std::sqrt(fraction / std::numbers::pi));
     const auto averaged = [&](std::size_t from, std::size_t to, io::Key key) {
         if (const auto force = attraction_averaged(path, from, to))
             result.set(key, units::milli_per_unit *
-                                theory::jkr::work_from_pull_off(*force, *scene.surface.radius));
+                                theory::jkr::work_from_pull_off(*force, radius));
     };
     averaged(in.first, in.second, "jkr.approach_averaged");
     averaged(out.first, out.second, "jkr.pull_off_averaged");

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "engine/options/segment.hpp"
-#include "engine/scene/scene.hpp"
+#include "engine/options/segment.hpp"
 #include "io/result.hpp"
 
 #include <vector>
@@ -22,6 +22,6 @@ struct PathSeries {
 /// Adds the numbers of the last approach and pull-off of a whole path over a sphere to a result:
 /// jkr.approach_averaged, jkr.pull_off_averaged and contact_radius.pull_off.
 void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
-                     const Scene& scene, io::Result& result);
+                     double edge, double radius, io::Result& result);
 
 } // namespace asperity

@@ -23,7 +23,7 @@ constexpr std::uint64_t rows_between_snapshots = 10;
 } // namespace
 
 void LastGood::look(Path& path) {
-    const bool kept = path.scene_case().in_time && path.now().observed;
+    const bool kept = path.scene_case().effects.dynamic && path.now().observed;
     if (!kept || session_.recorder().rows() % rows_between_snapshots != 1) return;
     const auto t = session_.phases().time(Phase::output);
     snapshot_.take(path);
@@ -46,15 +46,15 @@ std::string LastGood::write(Path& path) {
 void Guard::look(Path& path) {
     failed_ = path.now();
     Path::Kept kept;
-    if (path.scene_case().in_time) kept = [&] { return last_good_.write(path); };
+    if (path.scene_case().effects.dynamic) kept = [&] { return last_good_.write(path); };
     guard(path, kept);
     failed_.reset();
 }
 
 bool row_is_due(const Path& path) {
     const Case& c = path.scene_case();
-    if (!c.in_time || path.about_to_conclude()) return true;
-    return path.steps() % c.scene.output.series == 0;
+    if (!c.effects.dynamic || path.about_to_conclude()) return true;
+    return path.steps() % c.output.series == 0;
 }
 
 Path::Wish Rows::wish(const Path& path) const {
@@ -68,19 +68,19 @@ void Rows::look(Path& path) {
 }
 
 bool Trajectory::is_due(long long step) const {
-    const std::optional<long long>& every = session_.scene_case().scene.output.trajectory;
+    const std::optional<long long>& every = session_.scene_case().output.trajectory;
     return every && step % *every == 0;
 }
 
 Path::Wish Trajectory::wish(const Path& path) const {
     const bool due = is_due(path.steps());
-    return {.layer = due, .velocities = due && session_.scene_case().scene.output.velocities};
+    return {.layer = due, .velocities = due && session_.scene_case().output.velocities};
 }
 
 void Trajectory::look(Path& path) {
     if (!is_due(path.now().step)) return;
     const auto t = session_.phases().time(Phase::output);
-    session_.recorder().frame(path, session_.scene_case().scene.output.velocities);
+    session_.recorder().frame(path, session_.scene_case().output.velocities);
 }
 
 void ProgressLine::look(Path& path) {
@@ -98,10 +98,10 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
         return;
     }
     const std::string where =
-        progress_phase(c, c.path[path.segment()].text, now.force, now.in_contact, now.mean_height) +
+        progress_phase(c, c.path()[path.segment()].text, now.force, now.in_contact, now.mean_height) +
         (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
-                     c.in_time ? now.time : 0.0,
+                     c.effects.dynamic ? now.time : 0.0,
                      way_done(c, path.reference_height(), path.segment(), now.top)});
 }
 

@@ -35,7 +35,7 @@ Path::Wish PathMaps::wish(const Path& path) const {
 
 void PathMaps::look(Path& path) {
     const StepRecord& now = path.now();
-    const Segment::Kind kind = path.scene_case().path[path.segment()].kind;
+    const Segment::Kind kind = path.scene_case().path()[path.segment()].kind;
     if (is_due(now.step)) write(path, fmt::format("step-{}", now.step), path.layer());
     while (delayed_is_due(path, now.time))
         write(path, times_.after_approach[delayed_written_++].second, path.layer());

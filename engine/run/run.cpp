@@ -22,7 +22,7 @@ using Observers = std::vector<Observer*>;
 bool conclude(Path& path, RunSession& session, const Observers& observers) {
     const Case& c = path.scene_case();
     const std::size_t number = *path.ended();
-    const Segment& segment = c.path[number];
+    const Segment& segment = c.path()[number];
     const bool approached = segment.kind == Segment::approach;
     if (c.effects.relaxation && (approached || segment.kind == Segment::relax)) {
         if (approached) {
@@ -39,7 +39,7 @@ bool conclude(Path& path, RunSession& session, const Observers& observers) {
             o->look_at_state(path, *state);
     }
     path.conclude();
-    if (number + 1 < c.path.size()) session.progress().say(c.path[number + 1].text + " begins");
+    if (number + 1 < c.path().size()) session.progress().say(c.path()[number + 1].text + " begins");
     return true;
 }
 

@@ -38,7 +38,7 @@ void print_unless_closed(const Print& print) {
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
     : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
       grid_(c.grid(ranks.rank())), storage_(options, c, ranks),
-      interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
+      interruptions_(options, c.effects.checkpoints ? c.output.checkpoint : HUGE_VAL, ranks),
       progress_(options.progress, !ranks.root()), maps_(*this),
       fingerprint_(physics_of(c, surface_)) {
     print_notes();
@@ -112,13 +112,13 @@ Interruption RunSession::ask() {
 }
 
 bool RunSession::stop_here(Path& path) {
-    const long long most = case_.scene.drive.max_steps;
+    const auto& most = case_.simulation.drive.max_steps;
     if (most > 0 && path.steps() >= most && !path.about_to_conclude()) {
         stopped_ = Stopped::max_steps;
         save_if_on(path);
         return true;
     }
-    if (case_.in_time && !interruptions_.look_is_due()) return false; // steps are short
+    if (case_.effects.dynamic && !interruptions_.look_is_due()) return false; // steps are short
     const Interruption now = ask();
     if (now > Interruption::checkpoint) {
         stop_now(path);
@@ -194,7 +194,7 @@ void RunSession::open_recorder() {
     };
     std::vector<const SeriesColumn*> columns;
     for (const SeriesColumn& c : series_columns())
-        if (c.is_in(case_.in_time, case_.effects)) columns.push_back(&c);
+        if (c.is_in(case_.effects.dynamic, case_.effects)) columns.push_back(&c);
     recorder_.emplace(ranks_.root() ? storage_.directory() : io::Directory("."), surface_, ranks_,
                       std::move(columns), resumed_at_, add);
 }
@@ -253,14 +253,14 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure,
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);
     }
-    if (recorder_ && case_.scene.surface.radius) {
+    if (recorder_ && case_.radius()) {
         auto series = recorder_->series();
         add_sphere_path({.segment = series["segment"],
                          // A quasi-static path has no vibrations to average.
-                         .time = case_.in_time ? series["time"] : std::vector<double>(),
+                         .time = case_.effects.dynamic ? series["time"] : std::vector<double>(),
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},
-                        case_.path, case_.scene, result);
+                        case_.path(), case_.edge(), *case_.radius(), result);
     }
     io::write_result(storage_.directory(), result);
     if (failure || stopped_ != Stopped::no) return result;

@@ -11,10 +11,12 @@
 #pragma once
 
 #include "engine/options/device_choice.hpp"
+#include "engine/options/drive_options.hpp"
+#include "engine/options/output_options.hpp"
+#include "engine/options/theory_options.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
 #include "kernels/pair_potential.hpp"
-#include "theory/area_factor.hpp"
 
 #include <optional>
 #include <string>
@@ -38,10 +40,6 @@ enum class WallLawKind { smeared, exponential };
 /// Treatment of rows of sites that hold the edge of a contact.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
-/// Quantity that a quasi-static path moves from point to point.
-enum class Control { top, mean_height };
-using theory::AreaFactor;
-enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
 /// Returns a tuple with one of each kind of PairPotential (never called).
 template <class... P>
@@ -126,25 +124,15 @@ struct Scene {
         double tolerance = 2.5e-4;      ///< fraction of the smallest force that decides the state
     } drive;
 
-    struct Theory {
-        std::optional<double> delta_gamma; ///< meV/Å^2; empty: the flat reference
-        double beta = 0.45;
-        AreaFactor area_factor = AreaFactor::gaussian;
-        TheorySpectrum spectrum = TheorySpectrum::target;
-        bool clip = true;
-    } theory;
+    TheoryOptions theory;
 
     struct Numerics {
         Precision precision = Precision::double_precision;
         DeviceChoice device;
     } numerics;
 
-    struct Output {
-        std::optional<long long> trajectory; ///< steps between frames; empty: none
-        bool velocities = false;             ///< velocities in the frames too
+    struct Output : OutputOptions {
         std::vector<std::string> fields = {"relaxed"};
-        long long series = 100;    ///< steps between rows
-        double checkpoint = 600.0; ///< s of wall time; 0 ("none"): none
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only

@@ -36,7 +36,7 @@ Case quasistatic(const Case& c) {
         refuse("Statics", fmt::format("on {} ranks", c.ranks),
                "it is one process, on all its threads",
                "start it without mpirun; runs take ranks (asperity.run)");
-    if (!c.in_time) return c;
+    if (!c.effects.dynamic) return c;
     Scene scene = c.scene;
     scene.drive.mode = DriveMode::quasistatic;
     return resolve(scene);
@@ -223,7 +223,7 @@ void LedPath::hold(Held held) {
 /// Begins the path unless it has begun.
 void LedPath::begin() {
     if (path_.points()) return;
-    hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));
+    hold(held_.value_or(case_.simulation.drive.control == Control::top ? Held::top : Held::mean_height));
     path_.begin_by_hand(*held_, remembers_);
 }
 
