@@ -14,7 +14,7 @@
 // the file. A number stands for `scale` units, whoever says the unit; numbers of 1e30 and more are
 // missing points. Text: one row of the map a line, numbers separated by blanks; # starts a comment.
 // Row r is y = r, column c is x = c. A map of n points is n pixels wide. Files of other formats are
-// converted first (python/asperity/convert.py).
+// converted first (python/asperity/maps/convert.py).
 #pragma once
 
 #include <cstddef>

@@ -11,7 +11,7 @@
 // The system takes the flock back when its owner ends, however it does. The lock of another host is
 // refused without a flock too: not every file system carries flocks from host to host. Where it
 // knows none, whoever makes the file has it, and a file that is there is refused.
-// python/asperity/files.py takes the same lock.
+// python/asperity/files/store.py takes the same lock.
 //
 // What may be replaced in it: nothing but files of a command that did not come to its end
 // (file_record.hpp).

@@ -10,7 +10,9 @@
 //   arithmetic     what a force's operations take where none waits for another, and slow: its
 //                  divisions alone; both measured in the same run (limits.hpp)
 //   GFLOP/s        of a pair's force (the energies of an observed sweep are not counted)
+#include "engine/case/potential_table.hpp"
 #include "engine/interface/interface.hpp"
+#include "engine/scene/surface.hpp"
 #include "kernels/variant.hpp"
 #include "limits.hpp"
 

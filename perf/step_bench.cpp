@@ -15,6 +15,7 @@
 // what the most loaded rank holds and sends, and the record of the sixth step, bitwise identical on
 // any ranks.
 #include "engine/case/case.hpp"
+#include "engine/dynamics/simulation.hpp"
 #include "engine/scene/scene.hpp"
 
 #include <nlohmann/json.hpp>

@@ -13,8 +13,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 
 import asperity
-from asperity import theories
 from asperity.plots.style import BLUE, GREY, PINK, RED, style
+from asperity.theory import theories
 from asperity.units import NANONEWTON
 
 directory, picture, table = sys.argv[1:4]

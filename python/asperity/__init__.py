@@ -23,15 +23,14 @@ from typing import TYPE_CHECKING
 from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped
 
 if TYPE_CHECKING:
-    from .engine import Simulation as Simulation
-    from .engine import Statics as Statics
-    from .forms import (Adhesion, Estimate, Result, Sweep, adhesion, estimate, load, load_estimate, load_sweep, run,
-                        sweep)
-    from .state_search import states as states
+    from .forms import Adhesion, Estimate, Result, Sweep, adhesion, estimate, load, load_estimate, load_sweep, run, sweep
+    from .running.engine import Simulation as Simulation
+    from .running.engine import Statics as Statics
+    from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
                           "load_sweep", "run", "sweep"), ".forms"),
-         "Simulation": ".engine", "Statics": ".engine", "states": ".state_search"}
+         "Simulation": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
@@ -47,7 +46,7 @@ def __getattr__(name: str):
     if name in _MODULES:
         return [importlib.import_module(module, __name__) for module in _MODULES[name]][-1]
     if name == "__version__":
-        return importlib.import_module(".program", __name__).version()
+        return importlib.import_module(".running.program", __name__).version()
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -57,7 +56,7 @@ def __dir__() -> list[str]:
 
     names = {*__all__, *_MODULES, "__version__"}
     try:
-        importlib.import_module(".engine", __name__)
+        importlib.import_module(".running.engine", __name__)
         names |= _LAZY.keys()
     except ImportError:
         pass

@@ -16,8 +16,8 @@ import sys
 import time
 from pathlib import Path
 
-from . import program
 from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
+from .running import program
 from .terminal import launched
 
 EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
@@ -173,7 +173,7 @@ def _names(text: str) -> list[str]:
 
 
 def _pool_options(given: argparse.Namespace):
-    from .pool import PoolOptions
+    from .running.pool import PoolOptions
     from .terminal import Progress
 
     Progress(given.progress)  # refuses what is no mode before anything is done
@@ -182,7 +182,7 @@ def _pool_options(given: argparse.Namespace):
 
 def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "report":
-        from .report_sweep import write_page
+        from .reports.sweep import write_page
 
         page = write_page(Path(given.directory))
         print(page.said)
@@ -191,39 +191,39 @@ def _carry_out(given: argparse.Namespace) -> int:
                                    "run the scene again, or take a copy of the file that is whole")
         return 0
     if given.command == "export":
-        from .export import export
+        from .reports.export import export
 
         print(*export(Path(given.directory), given.format), sep="\n")
         return 0
     if given.command == "convert":
-        from .convert import convert
+        from .maps.convert import convert
 
         print(convert(given.source, given.target, given.channel))
         return 0
     if given.command == "theory":
-        from .theory_command import theory_command
+        from .commands.theory import theory_command
 
         if given.points is not None:
             raise SceneError("--points", "is no option of theory any more", "it is for programs",
                              "asperity theory-points SCENE --points FILE")
         return theory_command(_one_scene(given), given.sets, given.out, given.json)
     if given.command == "adhesion":
-        from .measured import adhesion_command
+        from .commands.adhesion import adhesion_command
 
         return adhesion_command(given.map, given.E, given.nu, given.work, given.out, _pool_options(given),
                                 reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites,
                                 line_noise=given.line_noise)
     if given.command == "states":
-        from .state_search import states_command
+        from .studies.states import states_command
 
         return states_command(_one_scene(given), given.sets, given.out, given.starts, given.progress)
-    from .pool import PoolOptions, executor_of
+    from .running.pool import PoolOptions, executor_of
     if given.command == "estimate":
-        from .commands import estimate_command
+        from .commands.studies import estimate_command
 
         return estimate_command(_one_scene(given), given.sets, given.out, _pool_options(given), given.seeds,
                                 _names(given.parts), given.plan)
-    from .commands import cost_command, sweep_command
+    from .commands.studies import cost_command, sweep_command
     from .terminal import Progress, parse_duration
 
     Progress(given.progress)  # refuses what is no mode before anything is done

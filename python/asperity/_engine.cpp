@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// asperity._engine: the paths of the engine that a script steps and leads, for Python. engine.py
+// asperity._engine: the paths of the engine that a script steps and leads, for Python. running/engine.py
 // makes the classes of them that users see.
 #include "decomposition/communicator.hpp"
 #include "engine/script/led_path.hpp"

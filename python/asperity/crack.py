@@ -17,7 +17,7 @@ from typing import Any
 
 import numpy as np
 
-from .engine import quantity
+from .running.engine import quantity
 
 Prony = Sequence[tuple[float, "float | str"]]
 ANGSTROM_PER_PS = 0.01

@@ -10,11 +10,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from .estimates import Estimate, estimate, load_estimate
-from .measured import Adhesion, adhesion
-from .result import Result, load
-from .runs import run
-from .sweeps import Sweep, load_sweep, sweep
+from .commands.adhesion import Adhesion, adhesion
+from .results.result import Result, load
+from .running.runs import run
+from .studies.estimates import Estimate, estimate, load_estimate
+from .studies.sweeps import Sweep, load_sweep, sweep
 
 __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
@@ -54,7 +54,7 @@ def _report_of_run(self: Result) -> Path:
     Path
         The file.
     """
-    from .report import write_run_page
+    from .reports.run import write_run_page
 
     return write_run_page(self).path
 
@@ -67,7 +67,7 @@ def _report_of_sweep(self: Sweep) -> Path:
     Path
         The file.
     """
-    from .report_sweep import write_sweep_page
+    from .reports.sweep import write_sweep_page
 
     return write_sweep_page(self.directory).path
 
@@ -86,7 +86,7 @@ def _plot_of_estimate(self: Estimate, ax=None):
         The axes with the plot.
     """
     from .plots.style import drawn_into
-    from .report_estimate import chart
+    from .reports.estimate import chart
 
     return drawn_into(ax, lambda a: chart(self, a), self.name, "estimate", "it has no number")
 
@@ -104,13 +104,13 @@ def _quote(self: Estimate, path: str = "") -> str:
     str
         Sentence with the number, mJ/m² and meV/Å² for energies per area.
     """
-    from .report_estimate import quote
+    from .reports.estimate import quote
 
     return quote(self.number(path))
 
 
 def _text_of_estimate(self: Estimate) -> str:
-    from .report_estimate import text_of
+    from .reports.estimate import text_of
 
     return text_of(self)
 
@@ -123,7 +123,7 @@ def _report_of_estimate(self: Estimate) -> Path:
     Path
         The file.
     """
-    from .report_estimate import page_of
+    from .reports.estimate import page_of
 
     page = page_of(self)
     page.write()

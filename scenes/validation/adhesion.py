@@ -20,9 +20,10 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scenes/validation")]
-import asperity  # noqa: E402
-from asperity import theories  # noqa: E402
 import rings  # noqa: E402
+
+import asperity  # noqa: E402
+from asperity.theory import theories  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
@@ -115,8 +116,9 @@ def sphere(runs: Runs) -> list[dict]:
 
 def picture(rows: list[dict], file: pathlib.Path) -> None:
     """Force against height of the spheres' pull-off, the program's points on the lines of the rings."""
-    from asperity.plots.style import COLOURS, style
     from matplotlib.figure import Figure
+
+    from asperity.plots.style import COLOURS, style
     with style():
         axes = (figure := Figure(figsize=(6, 4), layout="constrained")).subplots()
         for colour, row in zip(COLOURS, rows):

@@ -26,7 +26,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity import theories  # noqa: E402
+from asperity.theory import theories  # noqa: E402
 
 
 def drawn(hurst, epsilon, young, poisson, rolloff, r0, rms):

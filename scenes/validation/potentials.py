@@ -17,7 +17,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity import theories  # noqa: E402
+from asperity.theory import theories  # noqa: E402
 
 EPSILON, R0 = 0.1, 3.28
 R_M = 2 ** (1 / 6) * R0

@@ -178,7 +178,7 @@ def crack_keys(sites: int, thickness: int) -> dict:
 def asperity_strip(sites: int, thickness: int, release: float, stride: float) -> float:
     """v by Asperity."""
     import asperity
-    from asperity.engine import State
+    from asperity.running.engine import State
 
     keys = crack_keys(sites, thickness)
     statics = asperity.Statics(keys)

@@ -21,7 +21,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity import theories  # noqa: E402
+from asperity.theory import theories  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
@@ -128,7 +128,7 @@ def load(runs: Runs) -> None:
         print(f"{pressure:7}" + "".join(f"{x:13.4f}" for x in found) + f"{exact:10.4f}{found[-1] - exact:10.4f}")
 
 
-# Sums over a square lattice (python/asperity/sphere.py): the images' displacement near the contact.
+# Sums over a square lattice (python/asperity/theory/sphere.py): the images' displacement near the contact.
 PHI0, PHI2 = -3.9002649, 9.0336217
 
 

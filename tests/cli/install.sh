@@ -43,8 +43,8 @@ complete_words() { # complete_words WORD...: of the last word
 
 # The Python package finds the program beside it.
 PYTHONPATH=$prefix/share/asperity/python python3 - <<END || fail "import asperity"
-import os, asperity.program
-assert os.path.samefile(asperity.program.path(), "$installed"), asperity.program.path()
+import os, asperity.running.program
+assert os.path.samefile(asperity.running.program.path(), "$installed"), asperity.running.program.path()
 END
 [ "$(readlink -f "$prefix/lib/python3/dist-packages/asperity")" = "$(readlink -f "$prefix/share/asperity/python/asperity")" ] ||
     fail "the package is not where python3 looks"

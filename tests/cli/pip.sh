@@ -42,11 +42,11 @@ built/bin/python3 - <<'END' || fail "asperity in Python"
 import os
 import sys
 import asperity
-import asperity.program
+import asperity.running.program
 from importlib.metadata import version
 assert asperity.__file__.startswith(sys.prefix), asperity.__file__
-assert os.path.samefile(asperity.program.path(), sys.prefix + "/bin/asperity"), asperity.program.path()
-assert asperity.program.call(["--version"]).split()[1] == version("asperity")
+assert os.path.samefile(asperity.running.program.path(), sys.prefix + "/bin/asperity"), asperity.running.program.path()
+assert asperity.running.program.call(["--version"]).split()[1] == version("asperity")
 one = asperity.load("one")
 again = asperity.run("scene.toml", out="again")
 assert one.binding_energy == again.binding_energy > 0

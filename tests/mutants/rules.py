@@ -20,7 +20,7 @@ LAYERS = {"kernels": ["kernels", "engine"], "decomposition": ["decomposition", "
           "engine": ["engine", "physics"], "python": ["python"]}
 # Text for people, and code of machines that are not here.
 TEXT = ("engine/run/summary.cpp", "engine/commands/", "kernels/device/cuda", "kernels/device/no_cuda",
-        "python/asperity/page.py", "python/asperity/sentences.py", "python/asperity/terminal.py",
+        "python/asperity/reports/page.py", "python/asperity/reports/sentences.py", "python/asperity/terminal.py",
         "python/asperity/plots/style.py")
 LEFT_ALONE = re.compile(r"kill|unlink|rmtree|remove|rename|fork|rlimit|signal|operator|virtual")
 COMPARED = {"<": ("<=", ">="), ">": (">=", "<="), "<=": ("<", ">"), ">=": (">", "<"), "==": ("!=",), "!=": ("==",)}

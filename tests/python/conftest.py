@@ -23,7 +23,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import asperity  # noqa: E402
-import asperity.runs  # noqa: E402
+import asperity.running.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 # Starts the rest of the command line on the processors that the environment names for this rank.
@@ -39,7 +39,7 @@ STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["relax"]}
 def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
     """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it
     prints. The exit code must be `expect`, and the text hold `says`."""
-    launcher = [*asperity.runs.launcher(2)[:-1], str(ranks)] if ranks else []
+    launcher = [*asperity.running.runs.launcher(2)[:-1], str(ranks)] if ranks else []
     done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given,
                           text=True, capture_output=True, timeout=120 if ranks else None,
                           env={**os.environ, **(env or {})})
@@ -146,10 +146,10 @@ def mpi4py_launcher():
     pytest.importorskip("mpi4py", reason="no mpi4py: apt-get install python3-mpi4py")
     asked = "import mpi4py; mpi4py.rc.initialize = False; from mpi4py import MPI; print(MPI.Get_library_version())"
     theirs = subprocess.run([sys.executable, "-c", asked], capture_output=True, text=True, check=True).stdout
-    ours = asperity.program.mpi()
+    ours = asperity.running.program.mpi()
     if theirs.split()[0] != ours.split()[0]:
         pytest.skip(f"mpi4py is of {theirs.split(',')[0]}, the program of {ours}")
-    return asperity.runs.launcher
+    return asperity.running.runs.launcher
 
 
 @pytest.fixture()

@@ -7,10 +7,10 @@ import re
 import h5py
 import numpy as np
 import pytest
+from conftest import command
 
 import asperity
-from asperity import convert, maps
-from conftest import command
+from asperity.maps import convert, height_map
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
@@ -74,7 +74,7 @@ def test_every_form_of_a_map_is_the_same_scene(place, known):
         file["scan"] = 1e-4 * heights
         file["scan"].attrs.update(unit="µm", size_x=0.1 * edge, size_y=0.1 * edge, size_unit="nm")
     for name, more in (("text.txt", {}), ("plain.npy", dict(unit="nm", size="16 nm")), ("map.h5", {}), ("map.h5:/scan", {})):
-        from asperity.measured import scene_of
+        from asperity.studies.map_scene import scene_of
 
         made = scene_of(str(place / name), "5 GPa", 0.3, "0.2 J/m^2", place / re.sub(r"\W", "", name), **more)
         numbers[name] = asperity.run(made.file, {"drive.path": ["relax"]}).binding_energy
@@ -89,7 +89,7 @@ def test_a_coarse_map_says_what_is_lost(place):
     said = command("adhesion", "rough.npy", "--E", "1MPa", "--nu", "0.49", "--work", "50mJ/m2", "--unit", "nm", "--size",
                    "1um", "--sites", "20", "--progress", "off", "--out", "lost", expect=2, env={"OMPI_COMM_WORLD_SIZE": "2"})
     assert "not one of several ranks" in said
-    from asperity.measured import scene_of
+    from asperity.studies.map_scene import scene_of
 
     made = scene_of("rough.npy", "10MPa", 0.49, "50mJ/m2", place / "lost", size="1um", unit="nm", sites=20)
     assert any("waves below 100 nm are lost: 20 of 64 points" in note for note in made.notes), made.notes
@@ -144,16 +144,16 @@ def test_pieces_of_maps():
     y, x = np.indices(heights.shape)
     tilted = heights + 3.0 + 2.0 * x - y
     tilted[2, 3] = heights[2, 3] = np.nan
-    np.testing.assert_allclose(maps.without_plane(tilted), maps.without_plane(heights), atol=1e-12)
-    pieces = maps.quarters(heights)
+    np.testing.assert_allclose(height_map.without_plane(tilted), height_map.without_plane(heights), atol=1e-12)
+    pieces = height_map.quarters(heights)
     assert [p.shape for p in pieces] == [(5, 5)] * 4 and pieces[3][0, 0] == heights[4, 4]
-    whole = maps.mirrored(heights)
-    assert whole.shape == (18, 18) and maps.jump(whole) == 0.0
-    assert np.nanmean(whole) == pytest.approx(np.nanmean(heights)) and maps.square(np.zeros((5, 8))).shape == (5, 5)
+    whole = height_map.mirrored(heights)
+    assert whole.shape == (18, 18) and height_map.jump(whole) == 0.0
+    assert np.nanmean(whole) == pytest.approx(np.nanmean(heights)) and height_map.square(np.zeros((5, 8))).shape == (5, 5)
     wave = np.sin(2 * np.pi * np.arange(32) / 32) + np.zeros((32, 1))
     slope = 0.3 * np.arange(32)
-    assert np.abs(maps.without_tilt(wave + slope[:, None] - slope) - wave).max() < 0.02
-    assert maps.jump(wave) == pytest.approx(1.0, abs=0.5) and maps.jump(wave[:, :12]) > maps.PERIODIC
+    assert np.abs(height_map.without_tilt(wave + slope[:, None] - slope) - wave).max() < 0.02
+    assert height_map.jump(wave) == pytest.approx(1.0, abs=0.5) and height_map.jump(wave[:, :12]) > height_map.PERIODIC
 
 
 def test_pieces_of_a_scaled_map_are_scaled_alike(place):

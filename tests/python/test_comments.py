@@ -123,10 +123,11 @@ def test_a_sentence_is_accepted(text):
 # Docstrings of the Python package: what asperity.NAME reaches, and the functions of asperity.crack.
 
 PUBLIC = {
-    "runs": ("run",), "result": ("Values", "Result", "load"), "sweeps": ("Sweep", "sweep", "load_sweep"),
-    "engine": ("Top", "Substrate", "Simulation", "Statics"), "crack": ("modulus", "opening_factor"),
+    "running/runs": ("run",), "results/result": ("Values", "Result", "load"), "studies/sweeps": ("Sweep", "sweep", "load_sweep"),
+    "running/engine": ("Top", "Substrate", "Simulation", "Statics"), "crack": ("modulus", "opening_factor"),
     "forms": ("_plot_of_sweep", "_report_of_run", "_report_of_sweep", "_plot_of_estimate", "_quote", "_report_of_estimate"),
-    "estimates": ("Estimate", "estimate", "load_estimate"), "measured": ("Adhesion", "adhesion"), "state_search": ("states",),
+    "studies/estimates": ("Estimate", "estimate", "load_estimate"), "commands/adhesion": ("Adhesion", "adhesion"),
+    "studies/states": ("states",),
     "errors": ("Error", "SceneError", "SceneWarning", "PhysicsError", "InputOutputError", "Stopped", "InternalError"),
 }
 
@@ -183,7 +184,7 @@ def test_a_docstring_without_verb_or_sections_is_refused(text):
 
 
 def test_docstrings_of_the_compiled_module_have_sections():
-    engine = pytest.importorskip("asperity.engine")
+    engine = pytest.importorskip("asperity.running.engine")
     found = []
     for kind in (engine._engine.Simulation, engine._engine.Statics):
         for name, thing in vars(kind).items():

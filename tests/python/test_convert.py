@@ -13,11 +13,13 @@ import types
 import h5py
 import numpy
 import pytest
-from asperity import convert as module
-from asperity import errors, program
-from asperity.convert import convert
-from asperity.errors import InputOutputError, SceneError
 from conftest import command
+
+from asperity import errors
+from asperity.errors import InputOutputError, SceneError
+from asperity.maps import convert as module
+from asperity.maps.convert import convert
+from asperity.running import program
 
 N, PIXEL = 24, 0.25  # nm
 X, Y = numpy.meshgrid(numpy.arange(N), numpy.arange(N), indexing="ij")

@@ -7,14 +7,16 @@ import math
 
 import numpy as np
 import pytest
+from conftest import command, rows, started, wait_for
 
 import asperity
-from asperity import cost, program, report_cost
-from asperity.cost_parameters import Base, CostCase, Parameter, Row, cost_case, numbers_of
-from asperity.result import Values
-from asperity.scene import scene_file
-from asperity.variations import NAN, joined
-from conftest import command, rows, started, wait_for
+from asperity.reports import cost as report_cost
+from asperity.results.result import Values
+from asperity.running import program
+from asperity.running.scene import scene_file
+from asperity.studies import cost
+from asperity.studies.cost_parameters import Base, CostCase, Parameter, Row, cost_case, numbers_of
+from asperity.studies.variations import NAN, joined
 
 
 def test_energies_are_compared_over_their_own_flat():

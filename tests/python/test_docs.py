@@ -55,7 +55,7 @@ def test_commands(work, line):
             words += FEW
     words = words.replace("./asperity", '"$ASPERITY_PROGRAM"')
     if words.startswith("mpirun "):
-        words = " ".join(asperity.runs.launcher(2)[:-2]) + words.removeprefix("mpirun")
+        words = " ".join(asperity.running.runs.launcher(2)[:-2]) + words.removeprefix("mpirun")
     done = subprocess.run(["bash", "-c", f"timeout 400 {words}"], cwd=work, stdin=subprocess.DEVNULL, text=True,
                           capture_output=True)
     assert done.returncode == wanted, f"exit {done.returncode}, not {wanted}: {words}\n{done.stdout}{done.stderr}"

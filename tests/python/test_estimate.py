@@ -6,16 +6,18 @@ import json
 
 import numpy as np
 import pytest
+from conftest import command
 
 import asperity
-from asperity import estimate_parts, program, report_estimate
-from asperity.estimate_parts import FLAT, coarser, finer, limit, mean, plan_of, solved, standard_error, widened
-from asperity.estimates import Found, Number, load_estimate
-from asperity.pool import DONE, FAILED, Outcome
-from asperity.result import Values
-from asperity.scene import scene_file
-from asperity.variations import Variation, Variations
-from conftest import command
+from asperity.reports import estimate as report_estimate
+from asperity.results.result import Values
+from asperity.running import program
+from asperity.running.pool import DONE, FAILED, Outcome
+from asperity.running.scene import scene_file
+from asperity.studies import estimate_parts
+from asperity.studies.estimate_parts import FLAT, coarser, finer, limit, mean, plan_of, solved, standard_error, widened
+from asperity.studies.estimates import Found, Number, load_estimate
+from asperity.studies.variations import Variation, Variations
 
 GAMMA, CONTACT = FLAT[0], FLAT[2]
 TINY = {"name": "tiny", "surface": {"sites": 32, "rms": 0.6}, "block": {"thickness": 32}, "drive": {"path": ["relax"]}}

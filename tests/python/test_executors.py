@@ -18,8 +18,9 @@ import pytest
 from conftest import ROOT, command, held, is_told, rows, running, wait_for
 
 import asperity
-from asperity import files, pool
-from asperity.sweeps import load_sweep
+from asperity.files import store
+from asperity.running import pool
+from asperity.studies.sweeps import load_sweep
 
 distributed = pytest.importorskip("distributed", reason="no Dask: apt-get install python3-distributed")
 
@@ -179,7 +180,7 @@ def test_a_point_waits_for_the_run_that_another_worker_left(place):
     task = [words, str(place), str(place / "point"), "1", True, str(place / "going")]
 
     def hold():
-        with files.in_use(place / "point"):
+        with store.in_use(place / "point"):
             held.set()
             time.sleep(1.0)
 

@@ -17,7 +17,7 @@ import pytest
 from conftest import command
 
 import asperity
-from asperity import files
+from asperity.files import store
 
 SCENE = """
 [surface]
@@ -107,7 +107,7 @@ def results(inputs, tmp_path_factory):
             command(*words_of(name), cwd=place)
             made[name] = place
             after = there(place)
-            assert all(after[file] == before[file] for file in before if Path(file).name != files.RECORD), "a file was changed"
+            assert all(after[file] == before[file] for file in before if Path(file).name != store.RECORD), "a file was changed"
         return made[name]
 
     return of
@@ -122,7 +122,7 @@ def written_by(name: str, results) -> list[str]:
     before = there(results(*AFTER[name][0]) / "out") if name in AFTER else {}
     before = {file: content for file, content in before.items() if "report" not in file}
     after = there(results(name) / "out")
-    return [file for file in after if after[file] != before.get(file) and Path(file).name != files.RECORD]
+    return [file for file in after if after[file] != before.get(file) and Path(file).name != store.RECORD]
 
 
 @pytest.mark.parametrize("name", [*COMMANDS, *AFTER])
@@ -144,7 +144,7 @@ def test_foreign_files_are_kept(name, results, inputs, tmp_path):
         after = there(place)
         if name == "adhesion" and not {"out/map.npy"} & before.keys():  # they are there when its runs are known
             after = {path: content for path, content in after.items()
-                     if path in before or not path.endswith((".npy", ".toml", files.RECORD))}
+                     if path in before or not path.endswith((".npy", ".toml", store.RECORD))}
         assert after == before
         named = [file for file in waiting if f"out/{file}: is there already and is not replaced" in said
                  or re.search(rf"out: (already holds a (result|sweep)|holds an unfinished run), {file}", said)]
@@ -179,10 +179,10 @@ def test_an_earlier_result_is_kept_without_its_last_file(name, results, tmp_path
         if name == "run":
             command(*words_of(name), "--resume", "auto", cwd=place, expect=2, says=["belongs to an earlier result"])
         assert there(place) == before
-    (place / "out" / files.RECORD).unlink()
+    (place / "out" / store.RECORD).unlink()
     if left:
         command(*words_of(name), cwd=place, expect=2, says=["has no record", "a version without records"])
-        assert there(place) == {path: content for path, content in before.items() if not path.endswith(files.RECORD)}
+        assert there(place) == {path: content for path, content in before.items() if not path.endswith(store.RECORD)}
 
 
 def test_a_record_that_is_none_is_kept(results, tmp_path):
@@ -191,21 +191,21 @@ def test_a_record_that_is_none_is_kept(results, tmp_path):
         shutil.copytree(results(name), place)
         shutil.rmtree(place / "out")
         (place / "out").mkdir()
-        (place / "out" / files.RECORD).write_bytes(MINE)
+        (place / "out" / store.RECORD).write_bytes(MINE)
         command(*words_of(name), cwd=place, expect=2, says="is no record of the files that Asperity wrote")
-        assert there(place / "out") == {files.RECORD: MINE}
+        assert there(place / "out") == {store.RECORD: MINE}
 
 
 def test_an_unfinished_run_goes_on_and_its_files_are_its_own(inputs, tmp_path):
     shutil.copytree(inputs, tmp_path / "a")
     words = ["run", "q.toml", "--out", "out", "--set", "drive.path=approach,pull-off"]
     command(*words, "--wall-limit", "0.001s", cwd=tmp_path / "a", expect=75)
-    record = json.loads((tmp_path / "a/out" / files.RECORD).read_text())["files"]
-    assert record["run.h5"] == record["checkpoint.h5"] == files.UNFINISHED and "checkpoint-damaged.h5" not in record
+    record = json.loads((tmp_path / "a/out" / store.RECORD).read_text())["files"]
+    assert record["run.h5"] == record["checkpoint.h5"] == store.UNFINISHED and "checkpoint-damaged.h5" not in record
     shutil.copytree(tmp_path / "a", tmp_path / "b")
     command(*words, "--resume", "auto", cwd=tmp_path / "a")
-    record = json.loads((tmp_path / "a/out" / files.RECORD).read_text())["files"]
-    assert record.keys() == {"run.h5", "result.json"} and files.UNFINISHED not in record.values()
+    record = json.loads((tmp_path / "a/out" / store.RECORD).read_text())["files"]
+    assert record.keys() == {"run.h5", "result.json"} and store.UNFINISHED not in record.values()
     command(*words, "--restart", cwd=tmp_path / "b")
     for foreign in ("last-good.h5", "movie.mp4.part"):
         (tmp_path / "a/out" / foreign).write_bytes(MINE)
@@ -247,9 +247,9 @@ def test_an_input_is_kept(how, inputs, results, tmp_path):
         else:
             shutil.copy(place / "map.npy", kept)
         if named:  # as if it were Asperity's own
-            record = json.loads((place / "out" / files.RECORD).read_text())["files"]
-            record["map.npy"] = files._digest_of(kept)
-            (place / "out" / files.RECORD).write_text(files.sealed_json({"files": record}))
+            record = json.loads((place / "out" / store.RECORD).read_text())["files"]
+            record["map.npy"] = store._digest_of(kept)
+            (place / "out" / store.RECORD).write_text(store.sealed_json({"files": record}))
         before = there(place)
         command("adhesion", source, *MAP[1:], "--out", "out", cwd=place, expect=2,
                 says=["out/map.npy: is there already and is not replaced", "which the command reads"])
@@ -261,8 +261,8 @@ def test_the_heights_of_a_scene_are_kept(results, tmp_path):
     shutil.copytree(results("surface"), place)
     (place / "s.toml").write_text(SCENE.replace("rms = 0.6", 'kind = "file"\nfile = "out/heights.h5"'))
     (place / "out/result.json").unlink()
-    record = {"heights.h5": files.UNFINISHED}  # of a command that was killed
-    (place / "out" / files.RECORD).write_text(files.sealed_json({"files": record}))
+    record = {"heights.h5": store.UNFINISHED}  # of a command that was killed
+    (place / "out" / store.RECORD).write_text(store.sealed_json({"files": record}))
     before = there(place)
     command("surface", "s.toml", "--out", "out", cwd=place, expect=2, says="out/heights.h5, which the command reads")
     assert there(place) == before
@@ -298,7 +298,7 @@ def test_what_python_writes(results, inputs, tmp_path):
     with pytest.raises(asperity.SceneError, match="changed after Asperity wrote it"):
         sweep.write()
     assert there(run.directory) == before and (sweep.directory / "sweep.h5").read_bytes() == MINE
-    pytest.importorskip("asperity.engine")
+    pytest.importorskip("asperity.running.engine")
     sim = asperity.Simulation(inputs / "d.toml")
     for file in ("run.h5", "result.json"):
         out = tmp_path / file

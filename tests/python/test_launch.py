@@ -12,8 +12,8 @@ import pytest
 from conftest import BOUND, SMALL
 
 import asperity
-import asperity.runs
-from asperity import program
+import asperity.running.runs
+from asperity.running import program
 
 
 @pytest.mark.parametrize("named", ["", "no-such-launcher --option"])
@@ -25,13 +25,13 @@ def test_no_launcher(tmp_path, monkeypatch, named):
         asperity.run(SMALL, out=tmp_path / "none", ranks=2)
     looked = "ASPERITY_MPIRUN names no-such-launcher" if named else r"looked in PATH for mpirun\.(openmpi|mpich), "
     assert re.search(rf"(?s)no launcher of {re.escape(mpi)}, .*{looked}.*fix: .*ASPERITY_MPIRUN=", str(told.value))
-    assert asperity.runs.launcher(1) == [] and not any(tmp_path.iterdir())
+    assert asperity.running.runs.launcher(1) == [] and not any(tmp_path.iterdir())
 
 
 def test_a_build_that_has_to_be_made_is_told(tmp_path, monkeypatch, capsys):
     """In a source tree the script `asperity` builds first, for minutes, and what it prints is not seen."""
     monkeypatch.delenv("ASPERITY_PROGRAM")
-    monkeypatch.setattr(program, "__file__", str(tmp_path / "python/asperity/program.py"))
+    monkeypatch.setattr(program, "__file__", str(tmp_path / "python/asperity/running/program.py"))
     for name, told in (("asperity", "there is no build"), ("build/release/engine/asperity", "")):
         file = tmp_path / name
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -46,7 +46,7 @@ def test_ranks_share_the_processors_that_they_may_all_use(ranks):
     """Ranks bound to one socket have its processors together; one with others, or more, does not share with them."""
     processors = sorted(os.sched_getaffinity(0))
     free = {name: value for name, value in os.environ.items() if name != "OMP_NUM_THREADS"}
-    words = [*asperity.runs.launcher(ranks), sys.executable, "-c", BOUND, os.environ["ASPERITY_PROGRAM"], "info"]
+    words = [*asperity.running.runs.launcher(ranks), sys.executable, "-c", BOUND, os.environ["ASPERITY_PROGRAM"], "info"]
     for first, others, sharing in ((processors, processors, ranks), (processors, processors[:1], 1),
                                    (processors[:1], processors, 1), (processors[:1], processors[:1], ranks)):
         places = json.dumps([first] + [others] * (ranks - 1))

@@ -1,32 +1,48 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A module of the package imports only what stands before it here, inside functions too: no circles."""
+"""A module of the package imports only what stands before it here, inside functions too: no circles, between subpackages or
+within one."""
 
 import ast
 from pathlib import Path
 
 import asperity
 
-# From the bottom to the top: text, files and program, data, execution, drawing, pages, the user's forms.
-ORDER = """errors units terminal
-    files program scene channels map_arrays map_text atoms_files convert maps
-    result grid theory sphere theories
-    pool runs tables sweeps variations cost_parameters cost stated_number missing_waves estimate_parts estimates
-    plots.__init__ plots.style plots.run plots.sweep
-    page sentences report report_cost report_estimate measured report_sweep export commands theory_command
-    forms engine crack state_search __init__ __main__""".split()
+# From the bottom to the top: a subpackage and its modules from the bottom to the top, or modules of the package itself.
+SUBPACKAGES = {
+    "errors": (), "units": (), "terminal": (),
+    "files": ("store",),
+    "results": ("result",),
+    "running": ("scene", "program", "pool", "runs", "engine"),
+    "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
+    "theory": ("renormalised", "sphere", "theories"),
+    "studies": ("grid", "tables", "sweeps", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts", "estimates",
+                "map_scene", "states"),
+    "plots": ("style", "run", "sweep"),
+    "reports": ("page", "sentences", "run", "cost", "estimate", "sweep", "export"),
+    "commands": ("studies", "theory", "adhesion"),
+    "forms": (), "crack": (), "__init__": (), "__main__": (),
+}
+ORDER = [name for package, modules in SUBPACKAGES.items()
+         for name in ([f"{package}.{module}" for module in ("__init__", *modules)] if modules else [package])]
 PLACE = {name: place for place, name in enumerate(ORDER)}
 
 
-def imported(file: Path, name: str):
-    """Modules of the package that a file imports."""
-    for node in ast.walk(ast.parse(file.read_text())):
+def imported(text: str, name: str):
+    """Modules of the package that the text of a module imports."""
+    for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.ImportFrom) and node.level:
-            above = name.split(".")[:-1] if node.level == 1 else []
+            above = name.split(".")[:-1][:2 - node.level] if node.level <= 2 else None
+            assert above is not None, f"{name} imports from outside of the package"
             module = ".".join(above + (node.module.split(".") if node.module else []))
             inside = [f"{module}.{a.name}".lstrip(".") for a in node.names]
             if inside != ["_engine"]:  # which is compiled
                 yield from [i for i in inside if i in PLACE] or [module]
+
+
+def wrong(text: str, name: str):
+    """Imports of a module that do not stand before it."""
+    return [other for other in imported(text, name) if PLACE.get(other, len(ORDER)) >= PLACE[name]]
 
 
 def test_modules_import_only_what_is_below():
@@ -34,5 +50,11 @@ def test_modules_import_only_what_is_below():
     files = {str(f.relative_to(root).with_suffix("")).replace("/", "."): f for f in root.rglob("*.py")}
     assert files.keys() == PLACE.keys()
     for name, file in files.items():
-        for other in imported(file, name):
-            assert PLACE[other] < PLACE[name], f"{name} imports {other}"
+        assert not wrong(file.read_text(), name), f"{name} imports what does not stand before it: {wrong(file.read_text(), name)}"
+
+
+def test_imports_from_above_are_seen():
+    for name, text in (("studies.grid", "from .sweeps import sweep"), ("studies.grid", "from . import sweeps"),
+                       ("running.scene", "def f():\n    from ..studies import grid"), ("units", "from .running.program import call"),
+                       ("results.result", "from ..nowhere import x"), ("errors", "from . import units")):
+        assert wrong(text, name), text

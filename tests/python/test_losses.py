@@ -9,8 +9,11 @@ import pytest
 from conftest import command
 
 import asperity
-from asperity import estimate_parts, program, report, sentences, tables
 from asperity.plots import sweep as sweep_plots
+from asperity.reports import run as report
+from asperity.reports import sentences
+from asperity.running import program
+from asperity.studies import estimate_parts, tables
 
 ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
          "drive": {"mode": "quasistatic", "velocity": 1.0}}

@@ -8,10 +8,12 @@ import re
 import h5py
 import numpy as np
 import pytest
-from asperity import maps, program
-from asperity.convert import convert, read_heights
-from asperity.errors import Error, InputOutputError
 from conftest import command
+
+from asperity.errors import Error, InputOutputError
+from asperity.maps import height_map
+from asperity.maps.convert import convert, read_heights
+from asperity.running import program
 
 N, EDGE = 16, 32.0  # points, nm
 Y, X = np.indices((N, N))
@@ -111,15 +113,15 @@ def test_of_several_maps_one_is_taken_by_name(several, tmp_path):
                 with pytest.raises(InputOutputError, match=r"holds 2 maps\n.*its channels: 1 .*, 2 .*\n.*--channel 1"):
                     convert(path, out)
                 with pytest.raises(InputOutputError, match="holds 2 maps"):
-                    maps.read_map(str(path), "nm", 10 * EDGE)
+                    height_map.read_map(str(path), "nm", 10 * EDGE)
                 continue
             assert wanted is not None or first == k
             said = convert(path, out, wanted)
             assert f"note: channel {k} ({name}) was taken; --channel takes another: {3 - k} {channels[2 - k]}" in said
-            found = maps.read_map(str(path), "nm" if found_unit(path) is None else None, 10 * EDGE, wanted)
+            found = height_map.read_map(str(path), "nm" if found_unit(path) is None else None, 10 * EDGE, wanted)
             np.testing.assert_allclose(found.heights, 10 * HEIGHT, rtol=1e-9, atol=1e-9)
             assert found.size == pytest.approx((10 * EDGE, 10 * EDGE))
-            again = maps.read_map(str(out), None if found_unit(path) else "nm", 10 * EDGE)
+            again = height_map.read_map(str(out), None if found_unit(path) else "nm", 10 * EDGE)
             np.testing.assert_array_equal(again.heights, found.heights)
     for wrong in ("Adhesion", "0", "3", "-1", ""):
         with pytest.raises(InputOutputError, match=f"has no channel '{wrong}'\n.*1 .*, 2 .*\n.*--channel 2"):
@@ -137,7 +139,7 @@ def test_what_is_no_length_is_no_height(tmp_path):
         with pytest.raises(InputOutputError, match="no heights in channel"):
             convert(tmp_path / name, tmp_path / "no.h5", str(3 - first))
         # Whoever says the unit may have it.
-        assert maps.read_map(str(tmp_path / name), "nm", 100.0, str(3 - first)).heights.shape == (N, N)
+        assert height_map.read_map(str(tmp_path / name), "nm", 100.0, str(3 - first)).heights.shape == (N, N)
 
 
 ONE = {"plain.txt": text(rows(HEIGHT)), "double.txt": text(rows(HEIGHT).replace("\n", "\n\n")),
@@ -154,7 +156,7 @@ def test_one_map_stays_one(tmp_path, name):
     ONE[name](tmp_path / name)
     file = str(tmp_path / name)
     for channel in (None, "1"):
-        np.testing.assert_allclose(maps.read_map(file, "nm", None, channel).heights, 10 * HEIGHT, rtol=1e-12)
+        np.testing.assert_allclose(height_map.read_map(file, "nm", None, channel).heights, 10 * HEIGHT, rtol=1e-12)
     with pytest.raises(InputOutputError, match="has no channel 'Phase'\n.*it holds one map\n.*leave --channel out"):
         read_heights(file, "Phase")
 
@@ -179,7 +181,7 @@ def test_what_the_user_says_holds_over_the_file_and_is_said(tmp_path):
                 except Error as error:
                     in_scene = error
                 try:
-                    here = maps.read_map(str(file), unit, size, assumed="Å")
+                    here = height_map.read_map(str(file), unit, size, assumed="Å")
                 except Error as error:
                     here = error
                 if isinstance(in_scene, Error) or isinstance(here, Error):
@@ -201,7 +203,7 @@ def test_scale_is_a_factor_everywhere(tmp_path):
             file["heights"] = HEIGHT
             file["heights"].attrs.update(unit="nm", size_x=EDGE, scale=scale)
         with pytest.raises(Error, match="scale = .* is no factor"):
-            maps.read_map(str(tmp_path / "map.h5"))
+            height_map.read_map(str(tmp_path / "map.h5"))
         with pytest.raises(Error, match="scale = .* is no factor"):
             program.surface(str(tmp_path / "empty.toml"), ["surface.kind=file", f"surface.file={tmp_path}/map.h5"])
 
@@ -219,7 +221,7 @@ def test_points_without_a_height_in_every_format(tmp_path, hole):
              "m.topostats": hdf5(lambda f: (f.create_dataset("image", data=holed), f.create_dataset("pixel_to_nm_scaling", data=2.0)))}
     for name, make in write.items():
         make(tmp_path / name)
-        found = maps.read_map(str(tmp_path / name), "nm", 320.0).heights
+        found = height_map.read_map(str(tmp_path / name), "nm", 320.0).heights
         assert np.isnan(found).sum() == 2 and np.nanmax(abs(found)) < 20, name
         if name not in ("m.npy", "m.h5"):
             assert "points without a height: 2" in convert(tmp_path / name, tmp_path / f"{name}.h5"), name
@@ -239,7 +241,7 @@ def lined(n=64, amplitude=0.6):
 
 
 def test_what_may_be_wrong_is_said_by_convert_surface_and_adhesion(tmp_path):
-    from asperity.measured import scene_of
+    from asperity.studies.map_scene import scene_of
 
     header = "# Width: 100 nm\n# Height: 100 nm\n# Value units: nm\n"
     (tmp_path / "lines.txt").write_text(header + rows(lined()))
@@ -267,7 +269,7 @@ def test_what_may_be_wrong_is_said_by_convert_surface_and_adhesion(tmp_path):
 
 
 def test_numbers_that_are_none_are_refused_by_name(place):
-    from asperity.measured import scene_of
+    from asperity.studies.map_scene import scene_of
 
     np.save("map.npy", lined())
     for name, value in (("size", "0nm"), ("size", "-5nm"), ("size", "nan nm"), ("nu", float("nan")), ("nu", float("inf")), ("E", "nan GPa"),
@@ -293,7 +295,7 @@ def test_nonsense_ends_in_a_map_or_a_sentence(tmp_path):
                 damaged[at:at + 1] = bytes([draw.integers(256)])
             path.write_bytes(damaged)
             try:
-                found = maps.read_map(str(path), "nm", 100.0, "1")
+                found = height_map.read_map(str(path), "nm", 100.0, "1")
                 kinds.add(found.heights.ndim)
             except Error as error:
                 assert str(error).count("\n") >= 1, error

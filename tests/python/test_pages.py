@@ -118,7 +118,7 @@ def test_pages_are_short():
 
 def test_references_are_current():
     try:
-        import asperity.engine  # noqa: F401
+        import asperity.running.engine  # noqa: F401
     except ImportError as problem:
         pytest.skip(str(problem))
     done = subprocess.run([sys.executable, ROOT / "docs/reference.py", "--check"], capture_output=True, text=True)

@@ -7,14 +7,16 @@ import io
 import matplotlib.image
 import numpy as np
 import pytest
+from conftest import SMALL
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import asperity
-from asperity import files, theories, units
-from asperity.plots import style
+from asperity import units
+from asperity.files import store
 from asperity.plots import run as run_plots
-from conftest import SMALL
+from asperity.plots import style
+from asperity.theory import theories
 
 
 def axes():
@@ -116,7 +118,7 @@ def test_files_hold_the_curves(path_run, tmp_path):
     fig = style.make(lambda ax: run_plots.separation(path_run, ax))
     names = style.files_of("separation")
     assert names == ["separation.png", "separation.pdf", "separation.svg"]
-    with files.outputs(tmp_path, names) as out:
+    with store.outputs(tmp_path, names) as out:
         style.save(fig, out, "separation")
     written = [tmp_path / name for name in names]
     picture = matplotlib.image.imread(written[0])
@@ -140,7 +142,7 @@ def test_files_hold_the_curves(path_run, tmp_path):
 
 def test_points_carry_their_uncertainty():
     from asperity.plots.sweep import SIMULATED
-    from asperity.tables import Table
+    from asperity.studies.tables import Table
 
     approach = SIMULATED["gamma"][2][0]
 

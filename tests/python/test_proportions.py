@@ -7,8 +7,9 @@ import os
 import re
 import subprocess
 
-import asperity.program
 import pytest
+
+import asperity.running.program
 
 SCENES = {
     "dynamic": '[surface]\nsites = 32\nrms = 1.0\n[drive]\ntemperature = 10.0\n'
@@ -42,7 +43,7 @@ def checked(kind, key, value):
 
 @pytest.mark.parametrize("kind", SCENES)
 def test_values_out_of_proportion(kind):
-    schema = asperity.program.schema()
+    schema = asperity.running.program.schema()
     keys = {key: told["default"] for key, told in schema.items() if told["kind"] == "number" and isinstance(told["default"], float)
             and told["default"]} | VALUES | {"surface.sites": "83.2 Å", "block.thickness": "83.2 Å"}
     assert len(keys) > 30

@@ -31,7 +31,7 @@ def test_a_state_of_displacements_has_relaxed(pressed):
     kept = pressed.copy()
     pressed.hold("1 us")
     relaxed = pressed.now.force
-    pressed.restore(asperity.engine.State(np.array(kept.u), kept.top))
+    pressed.restore(asperity.running.engine.State(np.array(kept.u), kept.top))
     assert pressed.relax().force == pytest.approx(relaxed, rel=1e-6)
 
 

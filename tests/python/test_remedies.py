@@ -4,16 +4,17 @@
 
 import re
 
-import asperity
-import asperity.maps
-import asperity.measured
-import asperity.program
 import h5py
 import numpy as np
 import pytest
-from asperity.convert import convert, read_heights
-from asperity.grid import axes_of
 from conftest import ROOT, command
+
+import asperity
+import asperity.maps.height_map
+import asperity.running.program
+import asperity.studies.map_scene
+from asperity.maps.convert import read_heights
+from asperity.studies.grid import axes_of
 
 SMALL = "[surface]\nsites = 16\n[block]\nthickness = 16\n[drive]\npath = [\"relax\"]\n"
 SECTIONS = "surface|block|interface|drive|theory|numerics|output"
@@ -22,7 +23,7 @@ SECTIONS = "surface|block|interface|drive|theory|numerics|output"
 def test_messages_name_keys_that_exist():
     """Every section.key in the texts of the program and the package is a key of a scene, one that a message says is gone, or
     a number of a result."""
-    known = set(asperity.program.schema()) | {re.sub(r"\[\]", "", name) for name in asperity.program.quantities()}
+    known = set(asperity.running.program.schema()) | {re.sub(r"\[\]", "", name) for name in asperity.running.program.quantities()}
     parents = {name.rsplit(".", k)[0] for name in known for k in (1, 2)} | known
     scene = (ROOT / "engine/scene/scene.cpp").read_text()
     removed = {*re.findall(r'(?:removed\(|was = )\s*\{"([\w.]+)"', scene), "drive.distance"}
@@ -75,14 +76,14 @@ def test_a_unit_that_a_map_does_not_say_right(place):
     command("check", "-", "--set", *settings, given=MAP, says="640 Å wide, heights in µm")
     hdf5("map.h5", unit="V", size_x=64.0, size_y=64.0, size_unit="V")
     with pytest.raises(asperity.Error, match="another channel"):
-        asperity.maps.read_map("map.h5")
+        asperity.maps.height_map.read_map("map.h5")
     hdf5("map.h5", unit="nm", size_x=64.0, size_y=64.0, size_unit="V")
     with pytest.raises(asperity.Error, match="unit of its size, V, is none of length") as error:
-        asperity.maps.read_map("map.h5", "nm")
+        asperity.maps.height_map.read_map("map.h5", "nm")
     assert "--unit" not in str(error.value) and "--size" in str(error.value)
-    assert asperity.maps.read_map("map.h5", "nm", 640.0).size == (640.0, 640.0)
+    assert asperity.maps.height_map.read_map("map.h5", "nm", 640.0).size == (640.0, 640.0)
     hdf5("map.h5", unit="nm")
-    assert asperity.maps.read_map("map.h5", None, 640.0).size == (640.0, 640.0)
+    assert asperity.maps.height_map.read_map("map.h5", None, 640.0).size == (640.0, 640.0)
 
 
 def test_a_line_of_names_above_columns(place):
@@ -107,12 +108,12 @@ def test_a_line_of_names_above_columns(place):
                                        ("size", "surface.file_size")])
 def test_a_number_without_a_unit_is_asked_for_with_each(place, name, key):
     with pytest.raises(asperity.SceneError, match="has no unit") as error:
-        asperity.measured._with_unit(name, 0.05)
+        asperity.studies.map_scene._with_unit(name, 0.05)
     offered = re.findall(r'"(0\.05 [^"]+)"', str(error.value))
     assert len(offered) == 2
     found = set()
     for text in offered:
-        assert asperity.measured._with_unit(name, text) == text
+        assert asperity.studies.map_scene._with_unit(name, text) == text
         found.add(text)
         command("check", "-", "--set", f"{key}={text}", "interface.kind=wall", given=SMALL, expect=0)
     assert len(found) == 2

@@ -8,10 +8,13 @@ import time
 
 import numpy as np
 import pytest
-from asperity import program, theories, theory
-from asperity.sphere import RATIOS, Sphere, jkr, maugis
 from conftest import ROOT
 from scipy.special import ndtr
+
+from asperity.running import program
+from asperity.theory import renormalised as theory
+from asperity.theory import theories
+from asperity.theory.sphere import RATIOS, Sphere, jkr, maugis
 
 SCENE = str(ROOT / "scenes/validation/parameters.toml")
 SMALL = ["surface.sites=64", "block.thickness=64"]

@@ -11,11 +11,12 @@ from html.parser import HTMLParser
 import matplotlib.image
 import numpy as np
 import pytest
+from conftest import ROOT, SMALL, STATE, command, unsealed
 
 import asperity
-from asperity import sentences, theories
-from asperity.report_sweep import key_numbers, write_page
-from conftest import ROOT, SMALL, STATE, command, unsealed
+from asperity.reports import sentences
+from asperity.reports.sweep import key_numbers, write_page
+from asperity.theory import theories
 
 
 class PageText(HTMLParser):
@@ -81,7 +82,7 @@ def test_the_page_of_a_path(path_run):
     text = re.search(r"<pre>(.*?)</pre>", (path_run.directory / "report.html").read_text(), re.S)[1]
     scene = path_run.directory / "again.toml"
     scene.write_text(text.replace("&#34;", '"').replace("&quot;", '"'))
-    assert asperity.program.check(str(scene))["scene"] == path_run.find("scene")
+    assert asperity.running.program.check(str(scene))["scene"] == path_run.find("scene")
 
 
 def test_values_can_be_read_by_pointing(path_run):

@@ -52,7 +52,7 @@ def test_numbers_are_those_of_a_run(path_run, device):
     assert (path_run.series["balance_error"][of_run] == series.pop("error")).all()
     for name, values in series.items():
         assert (path_run.series[name][of_run] == values).all(), name
-        assert path_run.series.unit(name) == asperity.engine.SERIES[name][0], name
+        assert path_run.series.unit(name) == asperity.running.engine.SERIES[name][0], name
     for way in ("approach", "pull_off"):
         assert getattr(sim.work_of_interface, way) == getattr(path_run.work_of_interface, way)
         assert getattr(sim.work_of_drive, way) == getattr(path_run.work_of_drive, way)
@@ -461,14 +461,14 @@ def test_statics_copied_and_set_free(hold):
     # In another engine, and written to: the sites come back from 0.1 Å.
     other, moved = asperity.Statics(STATIC, {"drive.control": hold, "drive.tolerance": 1e-6}), there
     moved.u[...] += 0.1 * numpy.sin(numpy.arange(16.0))
-    other.restore(asperity.engine.State(moved.u, moved.top))
+    other.restore(asperity.running.engine.State(moved.u, moved.top))
     assert other.free().binding_energy == pytest.approx(rest.binding_energy, abs=1e-4)
-    for wrong in (asperity.engine.State(numpy.zeros((3, 8, 8))),
-                  asperity.engine.State(numpy.full((3, 16, 16), numpy.nan))):
+    for wrong in (asperity.running.engine.State(numpy.zeros((3, 8, 8))),
+                  asperity.running.engine.State(numpy.full((3, 16, 16), numpy.nan))):
         with pytest.raises(asperity.SceneError, match="fix:"):
             statics.restore(wrong)
     with pytest.raises(asperity.SceneError, match="3, y, x"):
-        asperity.engine.State(numpy.zeros((2, 4, 4)))
+        asperity.running.engine.State(numpy.zeros((2, 4, 4)))
 
 
 def test_statics_refuses():
@@ -496,7 +496,7 @@ def test_statics_refuses():
 def test_without_the_module(tmp_path):
     """The package works without it, and says what to build."""
     (tmp_path / "asperity").symlink_to(ROOT / "python/asperity")
-    code = ("import asperity, asperity.result\n"
+    code = ("import asperity, asperity.results.result\n"
             "try: asperity.Simulation\n"
             "except ImportError as error: print(error)")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path,

@@ -11,13 +11,14 @@ import pytest
 from scipy.integrate import quad
 
 import asperity
-from asperity import missing_waves, report_estimate
-from asperity.estimate_parts import CURVED, FLAT, coarser, finer, stated
-from asperity.estimates import Estimate, Estimating, surface_made
-from asperity.measured import scene_of
-from asperity.pool import PoolOptions
-from asperity.result import Values
-from asperity.stated_number import Found, Number, with_error
+from asperity.maps import missing_waves
+from asperity.reports import estimate as report_estimate
+from asperity.results.result import Values
+from asperity.running.pool import PoolOptions
+from asperity.studies.estimate_parts import CURVED, FLAT, coarser, finer, stated
+from asperity.studies.estimates import Estimate, Estimating, surface_made
+from asperity.studies.map_scene import scene_of
+from asperity.studies.stated_number import Found, Number, with_error
 
 SCENE = {"surface": {"sites": 128, "spacing": 10.0, "radius": None}, "interface": {"kind": "wall", "law": "exponential", "range": 3.0},
          "drive": {"load": 0.0, "path": ["approach", "pull-off"]}}

@@ -11,8 +11,8 @@ import pytest
 from conftest import command, started, wait_for
 
 import asperity
-import asperity.state_search
-from asperity import files
+import asperity.studies.states
+from asperity.files import store
 
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
@@ -78,7 +78,7 @@ def test_a_load_tells_states_apart(whole, place):
 
 
 def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
-    monkeypatch.setattr(asperity.state_search, "SAVE_EVERY", 0.0)
+    monkeypatch.setattr(asperity.studies.states, "SAVE_EVERY", 0.0)
 
     def until(number):
         def stop(text):
@@ -92,7 +92,7 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
     for number in (1, 30, 25):
         with pytest.raises(KeyboardInterrupt):
             asperity.states("hill.toml", out="parts", report=until(number))
-    assert {path.name for path in Path("parts").iterdir()} == {"states-unfinished.npz", files.RECORD}
+    assert {path.name for path in Path("parts").iterdir()} == {"states-unfinished.npz", store.RECORD}
     with pytest.raises(asperity.SceneError, match="another scene"):
         asperity.states("hill.toml", {"surface.seed": 3}, out="parts")
     parts = asperity.states("hill.toml", out="parts")
@@ -100,10 +100,10 @@ def test_a_search_that_is_stopped_again_and_again(whole, place, monkeypatch):
     for one, other in zip(parts["states"], whole["states"], strict=True):
         for key in ("binding_energy", "mean_height", "contact_fraction"):
             assert one[key] == pytest.approx(other[key], abs=1e-3)
-    assert {path.name for path in Path("parts").iterdir()} == {"states.json", files.RECORD}
+    assert {path.name for path in Path("parts").iterdir()} == {"states.json", store.RECORD}
     Path("broken").mkdir()
     Path("broken/states-unfinished.npz").write_bytes(b"PK no such file")
-    files._update(Path("broken"), lambda _: {"states-unfinished.npz": files.UNFINISHED})
+    store._update(Path("broken"), lambda _: {"states-unfinished.npz": store.UNFINISHED})
     with pytest.raises(asperity.SceneError, match="cannot be read"):
         asperity.states("hill.toml", out="broken")
 
@@ -145,7 +145,7 @@ def test_random_starts_lie_on_the_substrate(place):
     for kind, sideways in (("atoms", 1.3), ("wall", 0.0)):
         statics = asperity.Statics({}, {"surface.sites": 16, "surface.rms": 4, "block.young": 8, "block.thickness": 16,
                                         "interface.kind": kind, "drive.path": "relax"})
-        search, heights = asperity.state_search.Search(statics, 1), np.asarray(statics.substrate.height)
+        search, heights = asperity.studies.states.Search(statics, 1), np.asarray(statics.substrate.height)
         search.log["datum"] = datum = statics.mean_height
         levels, touching = [], 0
         for seed in range(30):

@@ -15,16 +15,20 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-
-import asperity
-import asperity.runs
-from asperity import files, grid, pool, program, sentences, terminal
-from asperity.plots import sweep as plots
-from asperity.plots.style import csv, drawn
-from asperity.sweeps import load_sweep, load_sweeps
-from asperity.tables import text_of
 from conftest import STATE, command, held, is_told, rows, running, started, wait_for
 from matplotlib.figure import Figure
+
+import asperity
+import asperity.running.runs
+from asperity import terminal
+from asperity.files import store
+from asperity.plots import sweep as plots
+from asperity.plots.style import csv, drawn
+from asperity.reports import sentences
+from asperity.running import pool, program
+from asperity.studies import grid
+from asperity.studies.sweeps import load_sweep, load_sweeps
+from asperity.studies.tables import text_of
 
 SCENE = """
 [surface]
@@ -146,7 +150,7 @@ def test_csv_hdf5_and_json_hold_the_same(tmp_path):
     sweep = nine_points()
     sweep.directory = tmp_path / "out"
     sweep.write()
-    assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json", files.RECORD}
+    assert {p.name for p in sweep.directory.iterdir()} == {"sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json", store.RECORD}
     rows = numbers(sweep.directory)
     assert list(rows[0])[:5] == ["surface.rms", "surface.seed", "delta_gamma", "binding_energy", "binding_energy_ratio"]
     assert rows[7]["surface.rms"] == "3.5" and rows[8]["status"] == "waiting" and rows[8]["binding_energy"] == ""
@@ -373,7 +377,7 @@ def test_points_over_another_content_of_a_file_are_refused(place):
     path = place / "other/load=0/result.json"
     result = json.loads(path.read_text())
     del result["surface"]["file_digest"], result["digest"]
-    path.write_text(files.sealed_json(result))
+    path.write_text(store.sealed_json(result))
     with pytest.raises(asperity.SceneError, match="does not tell the file's digest"):
         asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="other")
 
@@ -429,12 +433,12 @@ def test_a_damaged_point_is_told_and_run_again(place):
 
 def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
     lock = tmp_path / "run.lock"
-    with files.in_use(tmp_path):
+    with store.in_use(tmp_path):
         lock.unlink()  # by somebody who is certain that no such process lives
         lock.write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
     assert "elsewhere" in lock.read_text()
     lock.unlink()
-    with files.in_use(tmp_path):
+    with store.in_use(tmp_path):
         assert lock.exists()
     assert not lock.exists()
 
@@ -557,7 +561,7 @@ def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place, mon
     result = json.loads(point.read_text())
     ours, result["run"]["git"] = result["run"]["git"], "another"
     result.pop("digest")
-    point.write_text(files.sealed_json(result))
+    point.write_text(store.sealed_json(result))
     words = ["sweep", "state.toml", "--set", "surface.rms=0.2,0.4,0.6", "--out", "one", "--progress", "off"]
     assert "another (1)" in command(*words) and f"{ours} (5)" in command(*words)
 
@@ -676,7 +680,7 @@ def test_a_point_that_fails_is_told_and_the_others_go_on(place):
 
 def test_a_launcher_gives_ranks(place):
     command("sweep", "path.toml", "--set", "drive.velocity=30,40", "drive.max_steps=20", "--progress", "off", "--out",
-            "ranks", "--launch", " ".join(asperity.runs.launcher(2)))
+            "ranks", "--launch", " ".join(asperity.running.runs.launcher(2)))
     assert asperity.load("ranks/velocity=30").run.ranks == 2
     said = command("sweep", "path.toml", "--set", "drive.velocity=30,40", "--progress", "off", "--out", "none",
                    "--launch", "no-such-launcher", expect=127)

@@ -39,7 +39,7 @@ def strings_of_python(text):
 
 def texts():
     for name in files("README.md", "ARCHITECTURE.md", "docs/*.md", "docs/data/tables/*.csv", "scenes/*.toml", "asperity",
-                      "python/asperity/templates/*"):
+                      "python/asperity/reports/templates/*"):
         yield name, (ROOT / name).read_text(encoding="utf-8")
     for name in files("engine/*.cpp", "engine/*.hpp", "io/*.cpp", "io/*.hpp", "kernels/*.hpp", "python/asperity/*.cpp"):
         if name not in REFUSED:

@@ -10,12 +10,28 @@ from typing import Any, Callable
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import theories
 from ..errors import InputOutputError
-from ..result import Result, State
+from ..results.result import Result, State
+from ..theory import theories
 from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
-from .style import (BLUE, CONTACT, DASHES, GAP, GREEN, GREY, PINK, PRESSURE, RED, SKY, YELLOW, curve, drawn_into,
-                    finish, image, millijoules)
+from .style import (
+    BLUE,
+    CONTACT,
+    DASHES,
+    GAP,
+    GREEN,
+    GREY,
+    PINK,
+    PRESSURE,
+    RED,
+    SKY,
+    YELLOW,
+    curve,
+    drawn_into,
+    finish,
+    image,
+    millijoules,
+)
 
 WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
 OTHERS = (GREEN, PINK, SKY, YELLOW)

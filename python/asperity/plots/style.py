@@ -27,8 +27,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LinearSegmentedColormap, ListedColormap
 from matplotlib.figure import Figure
 
-from .. import files
 from ..errors import InputOutputError
+from ..files import store
 
 BLUE, RED, GREEN, PINK, YELLOW, SKY, GREY = COLOURS = (
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#4d4d4d")
@@ -232,7 +232,7 @@ def files_of(stem: str, kinds: Iterable[str] = KINDS) -> list[str]:
     return [f"{stem}.{kind}" for kind in kinds]
 
 
-def save(fig: Figure, out: files.Outputs, stem: str, kinds: Iterable[str] = KINDS) -> None:
+def save(fig: Figure, out: store.Outputs, stem: str, kinds: Iterable[str] = KINDS) -> None:
     """Writes the files of a figure."""
     for kind in kinds:
         out.write(f"{stem}.{kind}", picture(fig, kind))
@@ -243,7 +243,7 @@ def csv(fig: Figure) -> str:
     ax = fig.axes[0]
     kept = drawn(ax)
     if kept.map is not None:
-        return files.csv_text(kept.map, 6)
+        return store.csv_text(kept.map, 6)
     heads: list[str] = []
     columns: list[np.ndarray] = []
     x, y = plain(ax.get_xlabel()), plain(ax.get_ylabel())
@@ -254,7 +254,7 @@ def csv(fig: Figure) -> str:
         if one.spread is not None:
             heads.append(name + ", deviation over seeds and convergence of a run, added in squares")
             columns.append(one.spread)
-    return files.csv_text([heads, *itertools.zip_longest(*columns, fillvalue=np.nan)], 9)
+    return store.csv_text([heads, *itertools.zip_longest(*columns, fillvalue=np.nan)], 9)
 
 
 def inline_svg(fig: Figure) -> str:

@@ -17,15 +17,33 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import files, program
-from ..grid import shown
-from ..result import Values, load_words
-from ..sweeps import Sweep
-from ..tables import Table
+from ..files import store
+from ..results.result import Values, load_words
+from ..running import program
+from ..studies.grid import shown
+from ..studies.sweeps import Sweep
+from ..studies.tables import Table
 from ..units import MILLIJOULE, NANONEWTON
 from ..units import shown as shown_unit
-from .style import (BLUE, COLOURS, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, drawn, drawn_into, files_of, finish, make,
-                    millijoules, save)
+from .style import (
+    BLUE,
+    COLOURS,
+    DASHES,
+    GREEN,
+    GREY,
+    PINK,
+    RED,
+    SKY,
+    YELLOW,
+    curve,
+    drawn,
+    drawn_into,
+    files_of,
+    finish,
+    make,
+    millijoules,
+    save,
+)
 
 MOST_CURVES = len(COLOURS)
 
@@ -299,7 +317,7 @@ def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], s
     note = parts_of(sweeps)[2]
     figures = {name: fig for name in names(sweeps) if (fig := make(lambda ax, name=name: plot(sweeps, name, ax))) is not None}
     if figures:
-        with files.outputs(directory, [file for name in figures for file in files_of(name)]) as out:
+        with store.outputs(directory, [file for name in figures for file in files_of(name)]) as out:
             for name, fig in figures.items():
                 save(fig, out, name)
     return [directory / f"{name}.svg" for name in figures], note

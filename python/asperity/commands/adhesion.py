@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity adhesion`: from a measured map to its adhesion with an error, in one call.
+
+What the estimate of the map's scene (map_scene.py) runs and says is `estimate`'s.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from ..errors import BY_CODE, InternalError, Stopped
+from ..files import store
+from ..reports import estimate as report_estimate
+from ..reports.run import run_page_files, write_run_page
+from ..results.result import Result
+from ..running import program
+from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
+from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating
+from ..studies.map_scene import MapScene, scene_of, stem_of
+
+
+@dataclass
+class Adhesion:
+    """Adhesion on a map: estimate (.numbers), result (the run of the map's scene: series, fields), notes on changes of the
+    map, scene (its file), directory."""
+
+    estimate: Estimate
+    result: Result
+    notes: list[str]
+    scene: Path
+    directory: Path
+
+    def quote(self, path: str = "") -> str:
+        """Spells a number as it is published.
+
+        Parameters
+        ----------
+        path : str
+            Name of the number: "binding_energy", "lost.cycle", ...; "" for the first one.
+
+        Returns
+        -------
+        str
+            The number with its unit, its standard error and the parts of the error.
+
+        Raises
+        ------
+        SceneError
+            The estimate has no number of this name.
+        """
+        return report_estimate.quote(self.estimate.number(path))
+
+    def __repr__(self) -> str:
+        return f"<Adhesion {self.directory}: {self.quote()}>"
+
+
+def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
+             range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
+             sites: int | None = None, jobs: int = 1, line_noise: str | None = None) -> Adhesion:
+    """Computes the adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
+
+        found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
+        found.quote(), found.quote("lost.cycle"), found.notes
+
+    Parameters
+    ----------
+    map : str or os.PathLike
+        File of heights: HDF5, .npy, or any that `convert` reads.
+    E, work : str
+        Young's modulus of the half-space and work of adhesion of flat surfaces, with units.
+    nu : float
+        Poisson's ratio of the half-space.
+    out : str or os.PathLike, optional
+        Directory; None: results/<map>-adhesion. Runs that are there are not run again.
+    range : str, optional
+        Range of the exponential attraction, with its unit; None: 3 Å, or the range that the spacing resolves.
+    size, unit : str, optional
+        Shorter edge, with its unit, and unit of the heights; they hold over the file, and a note names both.
+    channel : str, optional
+        Name or number of the map in a file with several.
+    sites : int, optional
+        Sites along an edge; None: as many as the map has, 256 at most.
+    jobs : int
+        Runs side by side; they share the processors.
+    line_noise : str, optional
+        Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
+
+    Returns
+    -------
+    Adhesion
+        The numbers with their errors, the run, and notes on changes of the map.
+
+    Raises
+    ------
+    SceneError
+        The map or an argument is refused, or files are in the way.
+    Stopped
+        The estimate stopped early; the same call continues.
+    Error
+        The run of the map failed.
+    """
+    program.refuse_ranks()
+    refuse_jobs(jobs)
+    place = store.chosen(None if out is None else str(out), _place(str(map)))
+    _require_free(place, str(map))
+    made = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
+                    line_noise=line_noise)
+    making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
+    found, complete = _carried_out(making)
+    if not complete:
+        raise Stopped(str(place), "the estimate stopped early", "", "the same call goes on from here")
+    if found is None:
+        outcome = making.plan.scene.outcome
+        raise BY_CODE.get(outcome.exit_code, InternalError)(str(place), "the run of the map failed", outcome.reason)
+    return Adhesion(found, Result(place / "scene"), made.notes, made.file, place)
+
+
+def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Estimating:
+    return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition)
+
+
+def _require_free(place: Path, file: str) -> None:
+    """Checks that no file is in the way of those that are known beforehand: all but the runs'. Raises SceneError."""
+    page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
+    store.require_free({place: ["map.npy", f"{stem_of(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
+                        place / "scene": page}, inputs=[file])
+
+
+def _place(file: str) -> str:
+    return f"results/{Path(file.partition(':/')[0]).stem}-adhesion"
+
+
+def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
+    """Carries out the estimate and writes its page and that of its run."""
+    with store.in_use(making.place):
+        found, complete = making.carry_out()
+        if complete and found is not None:
+            report_estimate.write(found)
+            if not (making.place / "scene/report.html").exists():
+                write_run_page(Result(making.place / "scene"), ("png",))
+    return found, complete
+
+
+def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
+    """Carries out `asperity adhesion`. Returns the exit code."""
+    place = store.chosen(out, _place(file))
+    _require_free(place, file)
+    made = scene_of(file, young, poisson, work, place, **more)
+    print(f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes), sep="\n", flush=True)
+    making = _estimating(made, place, options, lambda text: print(text, flush=True))
+    print(making.told(), flush=True)
+    found, complete = _carried_out(making)
+    if not complete:
+        print("Stopped early: the same command goes on from here.")
+        return STOPPED
+    outcome = making.plan.scene.outcome
+    if found is None or outcome.status != DONE:
+        print(f"The run of the map failed: {outcome.reason}")
+        return outcome.exit_code or PHYSICS
+    print(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in made.notes])))
+    print(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
+    return 0

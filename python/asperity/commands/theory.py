@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity theory SCENE`: the theories of a scene, their profile over magnification, and where adhesion ends."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import h5py
+
+from .. import terminal
+from ..errors import SceneError
+from ..files import store
+from ..results.result import Values
+from ..running import program
+from ..running.scene import inputs_of
+from ..studies.stated_number import cut, with_error
+from ..theory import theories
+
+STATUS = {
+    "adhesive": "the surfaces adhere without load",
+    "pressed": "only the load keeps the surfaces in contact: bending them into contact costs more energy than the bonds "
+               "across the interface give",
+    "no contact": "the theory has no adhesive solution: the surfaces separate, and all numbers are zero"}
+
+
+def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
+    """Returns the directory of the result, by the rules of the program (io/result_directory.hpp), and the message about it."""
+    place = store.chosen(asked, f"results/{name}-theory")
+    if not (place / "result.json").exists() and not (place / "run.journal").exists():
+        return place, []
+    if asked is not None:
+        raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
+                         "name another directory (--out), or remove this one")
+    free = store.numbered(place, lambda one: (one / "result.json").exists())
+    return free, [f"{place} already holds a result; this one goes to {free}"]
+
+
+def _write_profile(out: store.Outputs, columns: list[dict[str, Any]]) -> None:
+    with out.replacing("theory.h5") as beside, h5py.File(beside, "w") as file:
+        for column in columns:
+            made = file.create_dataset(f"profile/{column['name']}", data=column["values"])
+            made.attrs["unit"], made.attrs["meaning"] = column["unit"], column["meaning"]
+
+
+def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
+    return {name: _units(value, f"{path}.{name}") if isinstance(value, dict) else
+            program.quantities().get(f"{path}.{name}", {}).get("unit", "") for name, value in values.items()}
+
+
+def _text(point: Values) -> str:
+    """Returns the printed text."""
+    flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
+    rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
+
+    def row(words: str, energy: float | None, ratio: float, error: float | None = None) -> list[str]:
+        return [words, *(("", "") if energy is None else (f"{energy:#.4g}".rstrip("."), terminal.millijoules(energy))), f"{ratio:.5f}",
+                "" if error is None else f"{error:.1e}"]
+
+    def over(energy: float) -> float:
+        return energy / given if given else 0.0
+
+    named = point.text("theory.persson.status")
+    rows = [row("Δγ, flat on flat" if point.find("scene.theory.delta_gamma") in ("flat", None) else
+                "Δγ, as the scene says", given, over(given))]
+    for words, key in (("γ_eff", "gamma_eff"), ("γ assuming full contact", "gamma_full_contact"),
+                       ("elastic energy U_el", "elastic_energy")):
+        value, error = (point.number(f"theory.persson.{key}{end}") for end in ("", "_error"))
+        rows.append(row(words, value, over(value or 0.0), None if error is None else over(error)))
+    rows.append(row("contact area A/A0", None, point.number("theory.persson.contact_fraction", 0.0),
+                    point.number("theory.persson.contact_fraction_error")))
+    law = point.part("theory.renormalised")
+    if (gamma := law.number("gamma_eff")) is not None:
+        rows += [row("renormalised theory: γ_eff", gamma, law.number("gamma_eff_ratio", 0.0),
+                     law.number("gamma_eff_error", 0.0) / flat),
+                 row("  contact area", None, law.number("contact_fraction", 0.0), law.number("contact_fraction_error"))]
+    lines = [f"{point.text('name')}: Persson's theory, Eqs. (1) to (5), rms {rms:.4g} Å, rms slope {slope:.4g}, load "
+             f"{point.number('scene.drive.load', 0.0):.6g} MPa", "",
+             terminal.table(["", "meV/Å²", "mJ/m²", "over Δγ", "± (numerical)"], rows), ""]
+    critical, theta = point.number("theory.persson.critical_rms"), point.number("theory.persson.theta")
+    if critical is not None:
+        full = point.number("theory.persson.critical_rms_full_contact")
+        lines.append(f"  critical rms   {critical:.4g} Å: a rougher surface does not adhere without a load"
+                     + (f" (assuming full contact: {full:.4g} Å)" if full is not None else ""))
+    if theta is not None:
+        lines.append(f"  theta          {theta:.4f} = E* h² q0 / Δγ" + (
+            f", {theta * (critical / rms) ** 2:.4f} at the critical rms" if critical is not None and rms else ""))
+    if (force := point.number("theory.persson.jkr_pull_off_force")) is not None:
+        lines.append(f"  JKR pull-off   {force:.6g} eV/Å with γ_eff, R = {point.number('scene.surface.radius'):.6g} Å")
+    lines.append(f"  status         {STATUS[named]}")
+    if point.find("theory.persson.converged") is False:
+        lines.append("                 NOT converged to 1e-3: see the errors in the table")
+    if (error := law.number("gamma_eff_expected_error")) is not None:
+        ratio, contact = law.number("gamma_eff_ratio", 0.0), law.number("contact_fraction", 0.0)
+        touching = with_error(contact, *cut(contact, law.number("contact_fraction_expected_error", 0.0), 0.0, 1.0))
+        lines.append(f"  renormalised   γ_eff/Δγ {with_error(ratio, *cut(ratio, error / flat, 0.0, max(ratio, 1.0)))}, contact "
+                     f"area {touching}: 19 of 20 simulated surfaces at zero load")
+    if gamma is not None:
+        place = law.number("separation")
+        lines.append("  renormalised   mean separation " + (
+            "undefined, for the surfaces do not adhere" if place is None else f"{place:.3f} Å") +
+            f", largest tension {law.number('tension', 0.0):.4g} GPa")
+    if (spheres := point.part("theory.sphere")) and "maugis_images" in spheres:
+        lines.append(f"  smooth sphere  Maugis' λ {spheres['maugis_parameter']:.3g}; pull-off by Maugis and Dugdale "
+                     f"{spheres['maugis_images'] / flat:.4f} of JKR's"
+                     + (f", {spheres['renormalised'] / flat:.4f} with the renormalised law" if "renormalised" in spheres
+                        else ""))
+    return "\n".join(lines)
+
+
+def theory_command(file: str, overrides: list[str], out: str | None, as_json: bool) -> int:
+    """Returns the exit code. as_json: prints what result.json would hold as one line and writes nothing."""
+    start = time.monotonic()
+    point = theories.points(file, [overrides], profile=True)[0]
+    program.complaints([point])
+    profile, notes = point.pop("profile"), point.pop("notes")
+    values = Values(point)
+    text = _text(values)
+    notes += [values.part("theory." + part).text("note") for part in ("renormalised", "sphere")]
+    point.pop("flat")
+    for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):
+        point["theory"]["persson"].pop(key)
+    for part in ("renormalised", "sphere"):
+        if part in point["theory"]:
+            point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)
+    point.setdefault("run", {})["wall_seconds"] = time.monotonic() - start
+    if as_json:
+        print(json.dumps(point, ensure_ascii=False))
+        return 0
+    place, said = _directory(out, values.text("name"))
+    names = ("theory.h5", "result.json")
+    with store.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
+        _write_profile(written, profile)
+        written.write("result.json", store.sealed_json(point))
+    print(text)
+    for note in filter(None, [*notes, *said]):
+        print(f"  note: {note}")
+    print(f"  written: {place}/result.json, {place}/theory.h5 (the profile over magnification)")
+    return 0

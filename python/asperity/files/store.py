@@ -1,0 +1,465 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Files that matter: written whole or not at all, never in place of a file that Asperity did not write, and checked by
+the digests that they hold.
+
+A digest is the CRC-32 of all bytes before it: the last member of a JSON object (`digest`), the last 32 bytes
+of an HDF5 file of the program (io/files.cpp).
+
+Every file of a command is written through `outputs()`, which keeps the record .asperity-files.json of the directory
+(io/file_record.hpp): the names of the files that commands wrote there, each with its digest, or "unfinished" while
+the command has not come to its end. A file that is there is replaced only if the record names it and it has not been
+changed; a file that is a result or an input of the command is not replaced at all.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import csv
+import fcntl
+import io
+import itertools
+import json
+import math
+import os
+import re
+import socket
+import stat
+import time
+import zlib
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import IO, Any
+
+from ..errors import InputOutputError, SceneError
+
+
+def _refuse(path: Path, error: OSError, what: str = "cannot be written") -> InputOutputError:
+    return InputOutputError(str(path), what, error.strerror or str(error),
+                            "check its permissions and the space on its disk")
+
+
+def directory(path: Path) -> Path:
+    """Makes it and its parents."""
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise _refuse(path, error, "cannot be made") from None
+    return path
+
+
+@contextlib.contextmanager
+def _replacing(path: Path) -> Iterator[Path]:
+    """Yields a path beside `path` to write to; the file replaces `path` when all went well and it is on the disk."""
+    beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+    try:
+        yield beside
+        with open(beside, "rb") as written:
+            os.fsync(written.fileno())
+        os.replace(beside, path)
+        entry = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY)
+        try:
+            with contextlib.suppress(OSError):  # not every file system brings a directory to the disk
+                os.fsync(entry)
+        finally:
+            os.close(entry)
+    except OSError as error:
+        raise _refuse(path, error) from None
+    finally:
+        with contextlib.suppress(OSError):  # no such place, or not a directory
+            beside.unlink(missing_ok=True)
+
+
+def require_new(path: Path) -> None:
+    """Checks that there is no file of this name and no link, wherever it leads. Raises SceneError."""
+    if os.path.lexists(path):
+        raise SceneError(str(path), "is there already and is not replaced", "it is a symbolic link" * path.is_symlink(),
+                         "name another file, or move it away")
+
+
+@contextlib.contextmanager
+def new(path: Path) -> Iterator[Path]:
+    """Yields a path beside `path` to write to, for a file that must not be there yet."""
+    require_new(path)
+    with _replacing(path) as beside:
+        yield beside
+
+
+RECORD = ".asperity-files.json"
+UNFINISHED = "unfinished"
+Inputs = Iterable["str | os.PathLike"]
+
+
+def _digest_of(path: Path) -> str:
+    with open(path, "rb") as file:
+        value = 0
+        while part := file.read(1 << 20):
+            value = zlib.crc32(part, value)
+    return f"crc32:{value:08x}"
+
+
+def _record(place: Path) -> dict[str, str] | None:
+    """Reads the record of a directory: digests by name, or None if there is none. Raises SceneError for a file of its
+    name that is no record."""
+    path = place / RECORD
+    try:
+        content = path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError):
+        return None
+    except OSError as error:
+        raise _refuse(path, error, "cannot be read") from None
+    found = json.loads(content) if json_is_whole(content) and not path.is_symlink() else {}
+    if not isinstance(found.get("files"), dict):
+        raise SceneError(str(path), "is no record of the files that Asperity wrote", "it does not end in its digest: it was "
+                         "changed or damaged", "move it away; the files that it named are not replaced then")
+    return {str(name): str(digest) for name, digest in found["files"].items()}
+
+
+def is_named(place: Path, name: str) -> bool:
+    """Returns True if the record of a directory names a file."""
+    return name in (_record(place) or {})
+
+
+def _update(place: Path, change: Callable[[dict[str, str]], dict[str, str]]) -> None:
+    """Writes the record that change(record) returns; a record that names nothing is removed."""
+    try:
+        lock = os.open(place, os.O_RDONLY | os.O_DIRECTORY)
+    except OSError as error:
+        raise _refuse(place, error, "cannot be opened") from None
+    try:
+        with contextlib.suppress(OSError):  # a file system without such locks
+            fcntl.flock(lock, fcntl.LOCK_EX)
+        before = _record(place) or {}
+        after = change(dict(before))
+        if not after:
+            (place / RECORD).unlink(missing_ok=True)
+        elif after != before:
+            with _replacing(place / RECORD) as beside:
+                beside.write_text(sealed_json({"files": dict(sorted(after.items()))}), encoding="utf-8")
+    finally:
+        os.close(lock)
+
+
+def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew: bool, inputs: Inputs) -> str:
+    """Explains, for an error message, why a file must not be replaced; "" if it may be."""
+    path = place / name
+    try:
+        there = path.lstat()
+    except (FileNotFoundError, NotADirectoryError):
+        return ""
+    for file in inputs:
+        with contextlib.suppress(OSError, ValueError):
+            if os.path.samefile(str(file).partition(":/")[0], path):
+                return f"it is {file}, which the command reads"
+    if stat.S_ISLNK(there.st_mode):
+        return "it is a symbolic link"
+    if not stat.S_ISREG(there.st_mode):
+        return "it is no regular file"
+    if name == LOCK:
+        return "" if _is_lock(path.read_bytes()) else NO_LOCK
+    if record is None:
+        return (f"the directory has no record ({RECORD}) of the files that Asperity wrote: the file is another program's, "
+                "or of a version without records")
+    if name not in record:
+        return f"it is not one of the files that Asperity wrote here ({RECORD} lists them)"
+    if record[name] == UNFINISHED:
+        return ""
+    if record[name] != _digest_of(path):
+        return "it was changed after Asperity wrote it"
+    return "" if renew else "it belongs to an earlier result, and results are not written over"
+
+
+def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> list[dict[str, str]]:
+    """Returns the files of these names that must not be replaced, each as a problem for SceneError.of().
+
+    renew: files that the record names and that are as they were written may be replaced. inputs: files that the command
+    reads, which are never replaced. Raises InputOutputError for a file that cannot be read.
+    """
+    names, inputs, record = list(names), list(inputs), _record(place)
+    problems = []
+    for folder in dict.fromkeys(str(Path(name).parent) for name in names):
+        if os.path.lexists(place / folder) and not (place / folder).is_dir():
+            problems.append({"where": str(place / folder), "what": "is there already and is not replaced",
+                             "why": "it is no directory, and files are to be written into one of its name"})
+    try:
+        problems += [{"where": str(place / name), "what": "is there already and is not replaced", "why": why}
+                     for name in names if (why := _reason_to_keep(place, name, record, renew, inputs))]
+    except OSError as error:
+        raise _refuse(Path(error.filename or place), error, "cannot be read") from None
+    return [{**problem, "fix": "move it away, or name another directory (--out)"} for problem in problems]
+
+
+def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
+    """Checks that no file is in the way of a command that will write these names, by directory. Raises SceneError with all
+    files that are."""
+    problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
+    if problems:
+        raise SceneError.of(problems)
+
+
+class Outputs:
+    """The files that a command writes in a directory, by the names that it claimed (`outputs()`)."""
+
+    def __init__(self, place: Path, names: Iterable[str]):
+        self.place, self.names = place, frozenset(names)
+        self.digests: dict[str, str] = {}
+        """of the files that were written"""
+
+    def _path(self, name: str) -> Path:
+        if name not in self.names:
+            raise KeyError(f"{name} was not claimed in {self.place}")
+        directory((self.place / name).parent)
+        return self.place / name
+
+    @contextlib.contextmanager
+    def replacing(self, name: str) -> Iterator[Path]:
+        """Yields a path to write to; the file takes this name when all went well and it is on the disk."""
+        self.digests.setdefault(name, UNFINISHED)
+        with _replacing(self._path(name)) as beside:
+            yield beside
+            self.digests[name] = _digest_of(beside)
+
+    def write(self, name: str, content: str | bytes) -> None:
+        """Writes a file whole, or leaves the old one."""
+        with self.replacing(name) as beside:
+            beside.write_bytes(content.encode() if isinstance(content, str) else content)
+
+    def append(self, name: str) -> IO[bytes]:
+        """Opens a file to append to it."""
+        self.digests[name] = UNFINISHED
+        return open(self._path(name), "ab")
+
+
+@contextlib.contextmanager
+def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> Iterator[Outputs]:
+    """Opens a directory, made if it is missing, for the files that a command is about to write. Their names are claimed in
+    the record before, and their digests noted there after the work; of work that ends in an exception they stay
+    unfinished. The arguments are those of in_the_way(). Raises SceneError with all files that are in the way."""
+    written, before = Outputs(place, names), {}
+    require_free({place: written.names}, renew, inputs)
+    made = [path for path in (place, *place.parents) if not path.exists()]
+    directory(place)
+
+    def claim(record: dict[str, str]) -> dict[str, str]:
+        before.update(record)
+        return record | dict.fromkeys(written.names, UNFINISHED)
+
+    def note(record: dict[str, str]) -> dict[str, str]:
+        for name in written.names:
+            digest, there = written.digests.get(name), (place / name).exists()
+            if digest is None and record.get(name) != UNFINISHED:
+                continue  # noted by somebody else meanwhile
+            if digest is None:
+                digest = before.get(name)
+            elif failed:
+                digest = UNFINISHED
+            elif digest == UNFINISHED and there:
+                digest = _digest_of(place / name)
+            record.pop(name, None)
+            if digest is not None and there:
+                record[name] = digest
+        return record
+
+    _update(place, claim)
+    failed = True
+    try:
+        yield written
+        failed = False
+    finally:
+        with contextlib.suppress(OSError):  # the directory was removed
+            _update(place, note)
+        with contextlib.suppress(OSError):  # something is in it
+            for path in made:
+                path.rmdir()
+
+
+def set_aside(place: Path, names: Iterable[str]) -> None:
+    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free."""
+    for path in (place / name for name in names if os.path.lexists(place / name)):
+        first = path.with_name(f"{path.stem}-damaged{path.suffix}")
+        try:
+            path.rename(numbered(first, os.path.lexists))
+        except OSError as error:
+            raise _refuse(path, error, "cannot be set aside") from None
+
+
+def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
+    """Returns lines of comma-separated values: numbers with so many digits, numbers that are not finite as empty fields."""
+    stream = io.StringIO()
+    csv.writer(stream, lineterminator="\n").writerows(
+        [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
+    return stream.getvalue()
+
+
+def chosen(out: str | None, otherwise: str) -> Path:
+    """Returns the directory that --out names, or else the default one. Raises SceneError for a name that can be no directory."""
+    place = Path(otherwise if out is None else out)
+    if out == "":
+        raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
+    if place.exists() and not place.is_dir():
+        raise SceneError(f"--out {place}", "is not a directory", "a file of that name is there",
+                         "name another directory")
+    if place.resolve() == Path("/"):
+        raise SceneError(f"--out {place}", "is the root of all directories", "results have a directory of their own",
+                         "name another directory")
+    return place
+
+
+def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
+    """Returns the first path that is not taken of first, first-2, first-3, ..."""
+    others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))
+    return next(place for place in itertools.chain([first], others) if not taken(place))
+
+
+LOCK = "run.lock"
+"""The same file, content and rules as of the directory of a run (io/result_directory.hpp), so that runs and sweeps
+keep each other out as well."""
+
+
+NO_LOCK = "it is not the lock of a run: it does not begin with a host"
+RUN_FILES = ("run.journal", "checkpoint.h5", "checkpoint-before.h5", "checkpoint-damaged.h5", "checkpoint-next.part",
+             "run.h5", "result.json", "last-good.h5")
+"""What a run may write into its directory (io/result_directory.hpp)."""
+
+
+def _is_lock(content: bytes) -> bool:
+    """Returns True if a file begins as the text of a lock does, as far as it was written."""
+    return content[:5] == b"host "[:len(content)]
+
+
+def _in_place(handle: int, path: Path) -> bool:
+    with contextlib.suppress(FileNotFoundError):
+        return os.path.samestat(os.fstat(handle), os.lstat(path))
+    return False
+
+
+def _take(place: Path) -> int:
+    """Opens the lock of a directory and keeps it; raises InputOutputError where another process has it."""
+    path, host = place / LOCK, socket.gethostname()
+    while True:
+        made = True
+        try:
+            handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
+        except FileExistsError:
+            made = False
+            try:
+                handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW)
+            except FileNotFoundError:  # given back just now
+                continue
+        kept = by_other = False
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            kept = True
+        except BlockingIOError:
+            by_other = True
+        except OSError:  # a file system without such locks: whoever makes the file has it
+            pass
+        if not kept or _in_place(handle, path):
+            break
+        os.close(handle)  # given back just now
+    content = os.read(handle, 4096)
+    if not made and not _is_lock(content):
+        os.close(handle)
+        raise SceneError(str(path), "is there already and is not replaced", NO_LOCK,
+                         "move it away, or name another directory (--out)")
+    lines = content.decode("utf-8", "replace").splitlines()
+    holder = {key: value for key, _, value in (line.partition(" ") for line in lines)}
+    if "since" not in holder:
+        holder = {}
+    here = holder.get("host") == host
+    if by_other if made else not kept or (holder and not here):
+        os.close(handle)
+        raise InputOutputError(
+            str(place), "is in use by another process",
+            f"process {holder['process']} on host {holder['host']} has had it since {holder['since']} ({path})"
+            if {"process", "host"} <= set(holder) else f"{path} does not say by whom",
+            "wait for its end, stop it, or name another directory: --out" if by_other and here else
+            f"wait for its end, or name another directory (--out); where it is certain that no such process lives, "
+            f"remove {path}")
+    os.ftruncate(handle, 0)
+    since = time.strftime("%Y-%m-%d %H:%M:%S")
+    os.pwrite(handle, f"host {host}\nprocess {os.getpid()}\nsince {since}\n".encode(), 0)
+    return handle
+
+
+@contextlib.contextmanager
+def in_use(place: Path) -> Iterator[None]:
+    """Makes a directory, and keeps other sweeps and runs out of it; it goes again if nothing was written into it."""
+    made = [path for path in (place, *place.parents) if not path.exists()]
+    directory(place)
+    try:
+        handle = _take(place)
+    except OSError as error:
+        raise _refuse(place / LOCK, error) from None
+    try:
+        yield
+    finally:
+        with contextlib.suppress(OSError):
+            if _in_place(handle, place / LOCK):
+                os.unlink(place / LOCK)
+        os.close(handle)
+        with contextlib.suppress(OSError):  # something is in it
+            for path in made:
+                path.rmdir()
+
+
+def kept(place: Path) -> bool:
+    """Returns True if another process has the directory in use."""
+    if not (place / LOCK).exists():
+        return False
+    try:
+        with in_use(place):
+            return False
+    except InputOutputError:
+        return True
+
+
+_JSON_END = re.compile(rb',\n  "digest": "crc32:([0-9a-f]{8})"\n}\n\Z')
+_HDF5_END = b"asperity digest\n"
+
+
+def sealed_json(members: dict[str, Any]) -> str:
+    """Returns an object as text, with its digest."""
+    text = json.dumps(members, indent=2, ensure_ascii=False).removesuffix("\n}")
+    return f'{text},\n  "digest": "crc32:{zlib.crc32(text.encode()):08x}"\n}}\n'
+
+
+def json_is_whole(content: bytes) -> bool | None:
+    """Returns True if a JSON file is as its digest says; None if it does not end in a digest."""
+    found = _JSON_END.search(content)
+    return int(found[1], 16) == zlib.crc32(content[:found.start()]) if found else None
+
+
+def hdf5_digest(path: Path) -> int | None:
+    """Returns the digest stated at the end of an HDF5 file; None if it does not end in a digest. Raises OSError."""
+    with open(path, "rb") as file:
+        file.seek(max(0, file.seek(0, os.SEEK_END) - 32))
+        end = file.read(32)
+        return int.from_bytes(end[24:], "little") if end.startswith(_HDF5_END) else None
+
+
+def _digest(file, length: int) -> bytes:
+    """Computes the digest of the first bytes of a file: their number and their CRC-32."""
+    file.seek(0)
+    value, left = 0, length
+    while left and (part := file.read(min(left, 1 << 20))):
+        value = zlib.crc32(part, value)
+        left -= len(part)
+    return length.to_bytes(8, "little") + value.to_bytes(8, "little")
+
+
+def seal_hdf5(path: Path) -> None:
+    """Appends the digest, which HDF5 ignores."""
+    with open(path, "r+b") as file:
+        end = _HDF5_END + _digest(file, file.seek(0, os.SEEK_END))
+        file.seek(0, os.SEEK_END)
+        file.write(end)
+
+
+def hdf5_is_whole(path: Path) -> bool | None:
+    """Returns True if an HDF5 file is as its digest says; None if it does not end in a digest. Raises OSError."""
+    with open(path, "rb") as file:
+        length = max(0, file.seek(0, os.SEEK_END) - 32)
+        file.seek(length)
+        end = file.read(32)
+        return end[16:] == _digest(file, length) if end.startswith(_HDF5_END) else None

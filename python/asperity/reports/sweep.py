@@ -1,0 +1,260 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The page of a sweep: its plots and table from sweep.json; of the points' own directories, one point for all
+seeds: contact maps, force curves, and pages to go to."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import io
+from functools import partial
+from pathlib import Path
+
+import matplotlib.image
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..errors import Error
+from ..files import store
+from ..plots import run as run_plots
+from ..plots import sweep as plots
+from ..plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
+from ..results.result import Result, Values, expect
+from ..running.pool import DONE, FAILED
+from ..running.scene import toml_of
+from ..studies.estimates import RESULT, load_estimate
+from ..studies.grid import is_seed, shown
+from ..studies.sweeps import Sweep, load_sweeps
+from ..studies.tables import Table, text_of
+from ..terminal import minus, number
+from .estimate import page_of
+from .page import Page, file_name, page_files
+from .run import end, run_page_files, write_run_page
+from .sentences import KeyNumber
+
+MOST_POINTS = 24
+MOST_CURVES = 6
+
+FIGURES = {
+    "gamma": ("Binding energy",
+              "Binding energy and works of theory and simulation, over the binding energy Δγ of two flat surfaces. "
+              "Of a sphere, γ by JKR from the largest attraction and from the energy at zero load. Bars: standard "
+              "deviation over seeds and convergence of a run, added in squares."),
+    "area": ("Contact area", "Projected contact area over the nominal area."),
+    "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
+    "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
+    "pull-off": ("Pull-off force", "Largest attraction of the substrate on the block during the pull-off."),
+    "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle; of a "
+                   "block that relaxes also what it dissipates."),
+    "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
+                 "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
+                 "energy."),
+    "full-contact": ("Binding energy, theory and full contact",
+                     "Persson’s theory, and the same if the whole area were in contact.")}
+"""Of each plot its heading and caption."""
+
+
+class _Points:
+    """Points of one sweep that are shown one by one."""
+
+    def __init__(self, sweep: Sweep, directory: Path):
+        self.links: list[str] = []
+        self.thumbs: list[dict[str, str]] = []
+        self.runs: list[tuple[str, Result]] = []
+        self.origin = ""
+        self.unread: list[str] = []
+        for name in _shown(sweep):
+            self.links.append("")
+            if name:
+                self._look_at(name, sweep.directory, directory)
+
+    def _look_at(self, name: str, place: Path, directory: Path) -> None:
+        if not (place / name / "result.json").exists():
+            return  # the table was sent alone
+        try:
+            run = Result(place / name)
+        except Error as error:
+            self.unread.append(str(error).splitlines()[0])
+            return  # its row stays without a page
+        self.unread += [f"{name}: {note}" for note in run.notes]
+        if _wants_page(run.directory):
+            write_run_page(run, kinds=("png",))
+        link = (run.directory / "report.html").relative_to(directory).as_posix()
+        self.links[-1] = link
+        self.origin = self.origin or run.text("surface.origin")
+        self.runs.append((name, run))
+        state = run.fields.get("relaxed")
+        if state is not None and "contact" in state:
+            picture = io.BytesIO()
+            matplotlib.image.imsave(picture, state["contact"] > 0, cmap=CONTACT, vmin=0, vmax=1, origin="lower",
+                                    format="png")
+            self.thumbs.append({"png": base64.b64encode(picture.getvalue()).decode(), "caption": name, "link": link})
+
+
+def _shown(sweep: Sweep) -> list[str]:
+    """Returns for each line of the table the directory of the point that is shown, or ""."""
+    names = []
+    for number, (_, places) in enumerate(sweep.table.groups):
+        done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
+        names.append(str(done[0]["directory"]) if done and number < MOST_POINTS else "")
+    return names
+
+
+def _wants_page(directory: Path) -> bool:
+    """Returns True if the page of a point is missing or older than its result."""
+    page = directory / "report.html"
+    return not page.exists() or page.stat().st_mtime < (directory / "result.json").stat().st_mtime
+
+
+def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) -> None:
+    """Checks that no file is in the way of the page or of the pages of the points. Raises SceneError with the files that are."""
+    curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
+    names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
+    for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name):
+        if (place / "result.json").exists() and _wants_page(place):
+            with contextlib.suppress(Error):  # a point that cannot be read stays without a page
+                names[place] = run_page_files(Result(place).fields, ("png",))
+    store.require_free(names)
+
+
+def _force_curves(points: _Points, ax: Axes) -> bool:
+    """Draws the force curves of several points in one plot, spread evenly over them."""
+    runs = [(n, r) for n, r in points.runs
+            if {"segment", "mean_height", "force"} <= set(r.series) and len(r.series["segment"]) > 1]
+    if len(runs) < 2:
+        return False
+    few = min(len(runs), MOST_CURVES)
+    for k in range(few):
+        name, run = runs[k * (len(runs) - 1) // (few - 1)]
+        unit, label = run_plots.force_unit(run)
+        for number, words in enumerate(run.segment_names):
+            here = run.series["segment"] == number
+            if here.sum() > 1:
+                curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
+                      name if words == "pull-off" else "", colour=COLOURS[k],
+                      line=DASHES[4] if words == "approach" else "-")
+    ax.plot([], [], color=GREY, linestyle="-", label="pull-off")
+    ax.plot([], [], color=GREY, linestyle=DASHES[4], label="approach")
+    felt = [h for _, r in runs for h in r.series["mean_height"][
+        np.abs(r.series["force"]) > 1e-3 * np.abs(r.series["force"]).max()]]
+    if felt:
+        ax.set_xlim(min(felt), max(felt))
+    return finish(ax, "mean height above the apex (Å)" if runs[0][1].curved else "mean separation (Å)", label)
+
+
+def _half_way(table: Table, column: str) -> float | None:
+    """Returns the roughness at which a quantity has fallen to half, between the points; seeds averaged."""
+    means = table.average(table.values(column)).mean
+    points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
+    for (x0, y0), (x1, y1) in zip(points, points[1:]):
+        if y0 >= 0.5 > y1:
+            return x0 + (x1 - x0) * (y0 - 0.5) / (y0 - y1)
+    return None
+
+
+def key_numbers(sweep: Sweep) -> list[KeyNumber]:
+    """Returns the key numbers of a sweep over roughness alone."""
+    table, curves = sweep.table, sweep.curves
+    if [k for k in sweep.axes if not is_seed(k)] != ["surface.rms"] or not table.along:
+        return []
+    wanted = [("rms where the binding energy is half of Δγ", "binding_energy_ratio", "gamma_eff_ratio"),
+              ("rms where half of the area is in contact", "contact_fraction", "contact_fraction")]
+    if "contact_radius.relaxed" in table:
+        wanted = [("rms where γ by JKR, way out, is half of Δγ", "jkr.pull_off_ratio", "gamma_eff_ratio")]
+    found = []
+    for name, simulated, theory in wanted:
+        measured = _half_way(table, simulated) if sweep.simulated else None
+        lines = {"theory": "persson." + theory, "renormalised": "renormalised." + theory}
+        expected = {words: x for words, column in lines.items()
+                    if (x := _half_way(curves, "theory." + column)) is not None}
+        if measured is not None:
+            note = ", ".join(f"{words}: {number(x, 2)} Å" for words, x in expected.items())
+            found.append(KeyNumber(number(measured, 2), "Å", name, note))
+        elif expected:
+            words, x = next(iter(expected.items()))
+            found.append(KeyNumber(number(x, 2), "Å", name, words))
+    return found
+
+
+def _lead(sweeps: list[Sweep]) -> str:
+    parts = []
+    for sweep in sweeps:
+        axes = []
+        for key in sweep.axes:
+            values = list(dict.fromkeys(shown(p["set"].get(key)) for p in sweep.points))
+            axes.append(f"{key} ({values[0]} to {values[-1]})" if values else key)
+        parts.append(f"{sweep.name}: " * (len(sweeps) > 1) + f"{len(sweep.points)} points over {', '.join(axes)}.")
+    return " ".join(parts)
+
+
+def _notices(page: Page, sweep: Sweep) -> None:
+    page.notices += [(f"{point.get('directory', '')} failed", Values(point).text("failure.reason"))
+                     for point in sweep.points if point.get("status") == FAILED]
+    waiting = sweep.table.status.count("waiting") if sweep.simulated else 0
+    if waiting:
+        page.notices.append(("This sweep is not finished", f"{waiting} of {len(sweep.points)} points of {sweep.name} "
+                             "have no result yet; the same `asperity sweep` command goes on with them."))
+
+
+def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
+    heads, rows, meaning = text_of(sweep.table)
+    stride = max(1, (len(rows) + 39) // 40)
+    page.section("points-" + file_name(sweep.name), f"The points of {sweep.name}" if several else "All points")
+    page.table(heads, [[minus(cell) for cell in row] for row in rows[::stride]], points.links[::stride])
+    if meaning:
+        page.add("paragraph", f"In the table: {meaning}.")
+    if stride > 1:
+        page.add("paragraph", f"Every {stride}th of {len(rows)} lines; all are in sweep.csv.")
+    page.add("thumbs", points.thumbs)
+    if points.origin:
+        page.add("paragraph", f"Measured surface: {points.origin}.")
+
+
+def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+    """Writes DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
+    sweeps = load_sweeps(directory)
+    _require_free(directory, sweeps, kinds)
+    page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
+                kinds=kinds)
+    points = [_Points(sweep, directory) for sweep in sweeps]
+    page.unread = [line for some in points for line in some.unread]
+    for sweep in sweeps:
+        _notices(page, sweep)
+        page.add("numbers", key_numbers(sweep))
+        for note in sweep.notes:
+            page.add("paragraph", f"Note: {note}.")
+    page.section("plots", "Adhesion and contact")
+    for name in plots.names(sweeps):
+        page.figure(name, *FIGURES[name], partial(plots.plot, sweeps, name))
+    for sweep, some in zip(sweeps, points):
+        page.figure("curves" + f"-{file_name(sweep.name)}" * (len(sweeps) > 1), "Force and separation",
+                    "Force over the mean separation at some of the points: full lines: pull-off, dotted lines: approach.",
+                    partial(_force_curves, some))
+    note = plots.parts_of(sweeps)[2]
+    if note:
+        page.add("paragraph", f"Note: {note}.")
+    for sweep, some in zip(sweeps, points):
+        if sweep.points:
+            _table(page, sweep, some, len(sweeps) > 1)
+    for sweep in sweeps[1:]:
+        page.section("scene-" + file_name(sweep.name), f"The scene {sweep.name}")
+        page.add("preformatted", toml_of(sweep.scene).strip())
+    end(page, Values({"run": sweeps[0].run}),
+        f"The scene {sweeps[0].name}" if len(sweeps) > 1 else "The scene that the points vary", sweeps[0].scene,
+        "Every key with its value; a swept key has the first of its values.")
+    page.write()
+    return page
+
+
+def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run."""
+    if (directory / RESULT).exists():
+        page = page_of(load_estimate(directory))
+        page.write()
+        return page
+    run = (directory / "result.json").exists()
+    if (directory / "sweep.json").exists() or not run and any(directory.glob("*/sweep.json")):
+        return write_sweep_page(directory, kinds)
+    expect(directory, "result.json", "sweep.json")
+    return write_run_page(Result(directory), kinds)

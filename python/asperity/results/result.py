@@ -1,0 +1,591 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""A result directory: result.json as attributes, the arrays of run.h5 as they are asked for.
+
+A run that failed leaves the reason and perhaps half a series; one of the theory alone leaves no run.h5. Missing parts are
+absent or empty here; a damaged run.h5 is reported in `notes`, and the rest is used.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import json
+import math
+import os
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+
+from ..errors import InputOutputError
+from ..files import store
+
+LARGEST_ARRAY = 2**28
+"""Largest number of values of a data set that is read."""
+DEEPEST_JSON = 64
+"""Largest number of levels of a JSON file; the program itself reads no deeper ones."""
+
+
+def finite(value: Any, otherwise: float | None = None) -> float | None:
+    """Returns a value of a JSON file if it is a finite number, else `otherwise`."""
+    with contextlib.suppress(OverflowError):
+        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
+            return float(value)
+    return otherwise
+
+
+class Attributes:
+    """Mapping whose members are attributes too."""
+
+    _called = "the result"
+
+    def __getattr__(self, key: str) -> Any:
+        if key.startswith("_"):
+            raise AttributeError(key)
+        try:
+            return self[key]
+        except KeyError:
+            raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
+
+    def __missing__(self, key: str) -> Any:
+        raise KeyError(f"{self._called} has no {key!r}; it has {', '.join(self)}")
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *self]
+
+
+class Values(Attributes, dict):
+    """A JSON object: v.theory.persson.gamma_eff, v["theory"]["persson"]["gamma_eff"]."""
+
+    def __repr__(self) -> str:
+        return json.dumps(self, indent=2, ensure_ascii=False)
+
+    def find(self, name: str) -> Any:
+        """Returns a value by its path, None if there is none.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        object
+            The value: number, text, list or Values.
+        """
+        value: Any = self
+        for part in name.split("."):
+            if not isinstance(value, dict) or part not in value:
+                return None
+            value = value[part]
+        return value
+
+    def number(self, name: str, otherwise: float | None = None) -> float | None:
+        """Returns a value by its path if it is a finite number.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+        otherwise : float, optional
+            Returned for every other value.
+
+        Returns
+        -------
+        float or None
+            The number, in the unit of unit(name).
+        """
+        return finite(self.find(name), otherwise)
+
+    def text(self, name: str) -> str:
+        """Returns a value by its path if it is a text, else "".
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        str
+            The text.
+        """
+        value = self.find(name)
+        return value if isinstance(value, str) else ""
+
+    def part(self, name: str) -> Values:
+        """Returns a value by its path if it is an object, else an empty one.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        Values
+            The object.
+        """
+        value = self.find(name)
+        return Values(value) if isinstance(value, dict) else Values()
+
+    def listed(self, name: str, kind: type = object) -> list:
+        """Returns the members of a kind of a list by its path, [] if the value is no list.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+        kind : type
+            Type of the members that are returned.
+
+        Returns
+        -------
+        list
+            The members.
+        """
+        value = self.find(name)
+        return [member for member in value if isinstance(member, kind)] if isinstance(value, list) else []
+
+    def numbers(self) -> dict[str, float]:
+        """Returns all finite numbers by their paths, in the order of the file.
+
+        Returns
+        -------
+        dict of str to float
+            The numbers, in the units of unit(path).
+        """
+        found: dict[str, float] = {}
+        for key, value in self.items():
+            if isinstance(value, dict):
+                found |= {f"{key}.{name}": number for name, number in Values(value).numbers().items()}
+            elif (number := finite(value)) is not None:
+                found[key] = number
+        return found
+
+
+def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
+    """Returns the load of a scene's state in words, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
+    " under a load of 5 MPa". They differ after an approach, whose state carries no load. swept: drive.load is an axis."""
+    keys = Values({"scene": scene}).part("scene")
+    load = keys.number("drive.load", 0.0)
+    under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
+    carried = (load or swept) and keys.listed("drive.path")[:1] == ["relax"]
+    return under if carried else "at zero load", f" {under}" if load and not swept else ""
+
+
+def _deeper_than(value: Any, levels: int) -> bool:
+    members = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return any(levels == 0 or _deeper_than(m, levels - 1) for m in members if isinstance(m, (dict, list)))
+
+
+def read_json(path: Path) -> Values:
+    """Reads a file with a JSON object and checks its digest, if it has one. Raises InputOutputError for anything else."""
+    def refuse(why: str, remedy: str = "was it damaged, or written by hand?") -> InputOutputError:
+        return InputOutputError(str(path), "cannot be read", why, remedy)
+    try:
+        content = path.read_bytes()
+        value = json.loads(content, object_hook=Values)
+    except OSError as error:
+        raise InputOutputError(str(path), "cannot be read", error.strerror or str(error),
+                               "check the path and its permissions") from None
+    except RecursionError:
+        raise refuse("it is nested too deeply") from None
+    except (ValueError, UnicodeDecodeError) as error:
+        raise refuse(f"it is not JSON: {error}") from None
+    if _deeper_than(value, DEEPEST_JSON):
+        raise refuse("it is nested too deeply")
+    if not isinstance(value, dict):
+        return Values()
+    if "digest" in value and not store.json_is_whole(content):
+        raise refuse("its content does not match its digest: it was damaged or changed",
+                     "take a copy that is whole; of a file changed on purpose, remove the member \"digest\"")
+    return value
+
+
+def expect(directory: Path, *files: str) -> None:
+    """Checks that the directory holds one of these files. Raises InputOutputError."""
+    example = "name a directory that a run has written, for example results/first-contact"
+    if not directory.is_dir():
+        raise InputOutputError(str(directory), "is no result directory",
+                               "it is a file" if directory.exists() else "there is no such directory", example)
+    if not any((directory / file).exists() for file in files):
+        if (directory / "sweep.json").exists():
+            raise InputOutputError(str(directory), "holds a sweep, not the result of one run", "sweep.json is in it",
+                                   "name the directory of one of its points; in Python asperity.load_sweep() takes it whole")
+        raise InputOutputError(str(directory), "holds no result",
+                               f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
+                               example + "; a run that was killed leaves no result.json before it is resumed")
+
+
+class RunFile:
+    """File run.h5 of a directory. Every read is checked, and raises InputOutputError if it fails.
+
+    The first read compares the file with the digest at its end, if it was written with one.
+    """
+
+    def __init__(self, path: Path, unread: str = ""):
+        """Keeps the path. unread: why the file is not read; "": it is."""
+        self.path, self.unread = path, unread
+
+    def lacks(self, what: str, there: list[str]) -> KeyError:
+        return KeyError(f"no {what}" + (f"; there are {', '.join(there)}" if there else "") +
+                        (f". {self.unread}" if self.unread else ""))
+
+    @functools.cached_property
+    def _whole(self) -> bool | None:
+        return store.hdf5_is_whole(self.path)
+
+    @contextlib.contextmanager
+    def _opened(self) -> Iterator[h5py.File]:
+        if not self.path.exists():
+            raise InputOutputError(str(self.path), "cannot be read", "there is no such file",
+                                   "the theory alone and a run that failed early have none")
+        try:
+            if self._whole is False:
+                raise ValueError("its content does not match its digest")
+            with h5py.File(self.path, "r") as file:
+                if self._whole is None and "asperity_digest" in file.attrs:
+                    raise ValueError("the digest at its end is missing")
+                yield file
+        except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
+            why = str(error).splitlines()[0] if str(error) else type(error).__name__
+            if not h5py.is_hdf5(self.path):
+                why = "it is not an HDF5 file"
+            raise InputOutputError(str(self.path), "cannot be read", why,
+                                   "run the scene again, or resume it from its checkpoint") from None
+
+    def members(self, group: str) -> list[str]:
+        """Returns the names in a group; [] if there is no such group."""
+        if not self.path.exists():
+            return []
+        with self._opened() as file:
+            found = file.get(group)
+            return list(found) if isinstance(found, h5py.Group) else []
+
+    def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
+        """Reads a data set of numbers of so many dimensions; frame: only this element of the first dimension."""
+        with self._opened() as file:
+            found = file[name]
+            if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
+                raise ValueError(f"{name} is no data set of numbers")
+            shape = found.shape if frame is None else (found.shape or ())[1:]
+            if shape is None or len(shape) != dimensions:
+                raise ValueError(f"{name} has the shape {found.shape}, not {dimensions} dimensions")
+            if math.prod(shape) > LARGEST_ARRAY:
+                raise ValueError(f"{name} has {math.prod(shape)} values")
+            return np.asarray(found[()] if frame is None else found[frame])
+
+    def attribute(self, name: str, key: str) -> Any:
+        """Returns an attribute of a data set or group; None if there is none."""
+        with self._opened() as file:
+            found = file[name].attrs.get(key)
+            return found.decode() if isinstance(found, bytes) else found
+
+
+class Group(Attributes, Mapping):
+    """Arrays of a group of run.h5, read when they are asked for.
+
+    Maps are square, [y, x]; the names in `lists` have one dimension and are read by other members.
+    """
+
+    lists: tuple[str, ...] = ()
+
+    def __init__(self, file: RunFile, path: str):
+        self._file = file
+        self._called = self._path = path
+        self._all = file.members(path)
+        self._read: dict[str, np.ndarray | None] = dict.fromkeys(name for name in self._all if name not in self.lists)
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        if name not in self._read:
+            raise self._file.lacks(f"{name} in {self._path}", list(self))
+        if (values := self._read[name]) is None:
+            values = self._read[name] = self._file.array(f"{self._path}/{name}", 2)
+            if values.shape[0] != values.shape[1] or not values.size:
+                raise InputOutputError(str(self._file.path), f"{self._path}/{name} is no square map",
+                                       f"its shape is {values.shape}", "was the file written by another program?")
+        return values
+
+    def __contains__(self, name: object) -> bool:  # without reading it
+        return name in self._read
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._read)
+
+    def __len__(self) -> int:
+        return len(self._read)
+
+    def unit(self, name: str) -> str:
+        """Returns the unit of an array; "" for pure numbers."""
+        return str(self._file.attribute(f"{self._path}/{name}", "unit") or "")
+
+    def _lists(self, *names: str) -> list[np.ndarray] | None:
+        """Returns arrays of one dimension; None unless all exist."""
+        return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
+
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__} {self._called}: {', '.join(self)}>"
+
+
+class Series(Group):
+    """The path of a run: columns of equal length."""
+
+    def __init__(self, file: RunFile):
+        super().__init__(file, "/series")
+        columns = {name: file.array(f"/series/{name}", 1).astype(float) for name in self}
+        rows = min((len(c) for c in columns.values()), default=0)
+        self._read = {name: column[:rows] for name, column in columns.items()}
+
+    def frame(self):
+        """Returns the columns as a pandas DataFrame."""
+        import pandas
+
+        return pandas.DataFrame(self._read)
+
+
+class State(Group):
+    """The maps of one state: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
+
+    lists = ("gap_edges", "gap_density")
+
+    def __init__(self, file: RunFile, name: str):
+        super().__init__(file, f"/fields/{name}")
+        self.name = name
+
+    def _number(self, key: str) -> float:
+        value = self._file.attribute(self._path, key)
+        return float(value) if isinstance(value, (float, int, np.number)) else 0.0
+
+    @functools.cached_property
+    def slide(self) -> tuple[float, float]:
+        """Place of the block over the substrate along x and y, Å; 0 if it was not slid."""
+        return self._number("slide_x"), self._number("slide_y")
+
+    @functools.cached_property
+    def reference_height(self) -> float:
+        """Height z of undisplaced sites, Å."""
+        return self._number("reference_height")
+
+    @property
+    def gap_distribution(self) -> list[np.ndarray] | None:
+        """Distribution of gaps P(u): edges of the bins (Å) and density (1/Å)."""
+        found = self._lists(*self.lists)
+        return found if found and len(found[0]) == len(found[1]) + 1 else None
+
+
+class Substrate(Group):
+    """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms
+    anywhere also has atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs); else they are None."""
+
+    lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
+
+    def __init__(self, file: RunFile):
+        super().__init__(file, "/substrate")
+
+    @property
+    def spectrum(self) -> list[np.ndarray] | None:
+        found = self._lists(*self.lists[:3])
+        return found if found and len({len(c) for c in found}) == 1 else None
+
+    @functools.cached_property
+    def atoms(self) -> np.ndarray | None:
+        return self._file.array(f"{self._path}/atoms", 2).astype(float) if "atoms" in self._all else None
+
+    @functools.cached_property
+    def types(self) -> np.ndarray | None:
+        if self.atoms is None:
+            return None
+        if "type" not in self._all:
+            return np.ones(len(self.atoms), int)
+        return self._file.array(f"{self._path}/type", 1).astype(int)
+
+
+class States(dict):
+    """States of a run file by name."""
+
+    def __init__(self, file: RunFile):
+        super().__init__({name: State(file, name) for name in file.members("/fields")})
+        self._file = file
+
+    def __missing__(self, name: str) -> State:
+        raise self._file.lacks(f"state {name}", list(self))
+
+
+class Result(Values):
+    """Result of one run: the keys of result.json are attributes.
+
+    Parameters
+    ----------
+    directory : str or Path
+        Result directory.
+
+    Attributes
+    ----------
+    series : Series
+        Columns along the path: series["force"] (eV/Å).
+    fields : States
+        Maps of states, arrays [y, x]: fields["relaxed"].pressure (GPa).
+    substrate : Substrate
+        Heights (Å) and spectrum of the substrate.
+    units : Values
+        Unit of each number, in the same nesting as the numbers.
+    plot : RunPlots
+        Plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
+    notes : list of str
+        Parts that could not be read.
+
+    Raises
+    ------
+    InputOutputError
+        If the directory holds no result.
+    """
+
+    def __init__(self, directory: str | os.PathLike):
+        self.directory = Path(directory)
+        expect(self.directory, "result.json")
+        super().__init__(read_json(self.directory / "result.json"))
+        self.notes: list[str] = []
+        try:
+            if self._of_another_run():
+                raise InputOutputError("", "", "result.json was written with another one")
+            self._open("run.h5")
+        except InputOutputError as error:
+            self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
+            self._open("no run.h5", self.notes[-1])
+
+    def _of_another_run(self) -> bool:
+        """Returns True if run.h5 ends in another digest than that in result.json."""
+        known, path = self.text("run.file_digest"), self.directory / "run.h5"
+        with contextlib.suppress(OSError):
+            there = store.hdf5_digest(path)
+            return bool(known) and there is not None and known != f"crc32:{there:08x}"
+        return False
+
+    def _open(self, name: str, unread: str = "") -> None:
+        file = self.file = RunFile(self.directory / name, unread)
+        self.series, self.substrate, self.fields = Series(file), Substrate(file), States(file)
+
+    @property
+    def units(self) -> Values:
+        return self.part("units")
+
+    @property
+    def segments(self) -> list[Values]:
+        """Segments that have ended, with their numbers: result.segments[0].work_of_drive (meV/Å²)."""
+        return [Values(s) for s in self.listed("segments") if isinstance(s, dict)]
+
+    @property
+    def segment_names(self) -> list[str]:
+        """Segments of the path by their names in the scene; series["segment"] counts them from 0."""
+        return [str(s) for s in self.listed("scene.drive.path")]
+
+    def unit(self, name: str) -> str:
+        """Returns the unit of a number by its path.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "theory.persson.gamma_eff".
+
+        Returns
+        -------
+        str
+            The unit; "" if the file gives none.
+        """
+        return self.units.text(name)
+
+    def key(self, name: str, otherwise: Any = None) -> Any:
+        """Returns a key of the scene of the run.
+
+        Parameters
+        ----------
+        name : str
+            The key, "surface.sites".
+        otherwise : object, optional
+            Returned if the scene has no such key.
+
+        Returns
+        -------
+        object
+            The value, in the unit of docs/reference/scene.md.
+        """
+        value = self.find("scene." + name)
+        return otherwise if value is None else value
+
+    @property
+    def load_words(self) -> tuple[str, str]:
+        return load_words(self.find("scene"))
+
+    @property
+    def edge(self) -> float:
+        """Width of the box, Å; 0 without a scene."""
+        return self.number("scene.surface.sites", 0.0) * self.number("scene.surface.spacing", 0.0)
+
+    @property
+    def curved(self) -> bool:
+        return self.radius is not None
+
+    @property
+    def radius(self) -> float | None:
+        """Radius of the spherical cap, Å; None: not curved."""
+        return self.number("scene.surface.radius")
+
+    @property
+    def failure_text(self) -> str:
+        """Reason why the run failed; "" if it did not."""
+        if "failure" not in self:
+            return ""
+        return self.text("failure.reason") or json.dumps(self["failure"])[:2000]
+
+    @property
+    def stopped(self) -> str:
+        """Reason why the run ended early ("signal", "wall_limit", "max_steps"); "" if it did not."""
+        return self.text("run.stopped")
+
+    @property
+    def title(self) -> str:
+        """Scene in one line; the directory's name for a result without a scene."""
+        name = self.text("name")
+        sites = self.number("scene.surface.sites")
+        if not name or not sites:
+            return name or self.directory.resolve().name
+        kind, rms = self.text("scene.surface.kind"), self.number("scene.surface.rms")
+        if kind == "flat":
+            what = "flat"
+        elif rms is None:
+            what = {"file": "as measured", "atoms": "atoms from a file"}.get(kind, "rough")
+        else:
+            what = f"rms {rms:.4g} Å" if rms > 0 else "smooth"
+        radius = f", R = {self.radius:.4g} Å" if self.radius else ""
+        return f"{name}: {what}, {sites:.0f} × {sites:.0f}{radius}"
+
+    def __repr__(self) -> str:
+        found = ", ".join(f"{k}={v:.4g}" for k in ("binding_energy", "contact_fraction", "delta_gamma")
+                          if (v := self.number(k)) is not None)
+        return f"<Result {self.directory}: {found}>"
+
+
+def load(directory: str | os.PathLike) -> Result:
+    """Loads the result of a run.
+
+    Parameters
+    ----------
+    directory : str or Path
+        Result directory.
+
+    Returns
+    -------
+    Result
+        The result.
+
+    Raises
+    ------
+    InputOutputError
+        If the directory holds no result.
+    """
+    return Result(directory)

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The C++ program: where it is, how it is called, and what is asked of it (schema, checks, theory)."""
+
+from __future__ import annotations
+
+import functools
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from ..errors import BY_CODE, InputOutputError, InternalError, SceneError
+from ..terminal import environment_alone, launched
+
+
+@functools.lru_cache(maxsize=None)
+def version() -> str:
+    """Returns the version of the program that the package calls."""
+    return call(["--version"]).split()[-1]
+
+
+@functools.lru_cache(maxsize=None)
+def path() -> str:
+    """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
+
+    In a source tree without a build it is the script `asperity`, which makes one.
+    """
+    package = Path(__file__).resolve().parents[1]
+    places = [os.environ.get("ASPERITY_PROGRAM", "")]
+    for root in package.parents[1:4]:
+        places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
+    for place in places:
+        if place and os.path.isfile(place) and os.access(place, os.X_OK):
+            if place in {root / "asperity" for root in package.parents[1:4]}:
+                print(f"asperity: there is no build; {place} makes one first, which takes minutes", file=sys.stderr)
+            return str(place)
+    found = shutil.which("asperity")
+    if not found:
+        raise InputOutputError("asperity", "the program was not found",
+                               "neither beside this package nor in PATH",
+                               "build it, or set ASPERITY_PROGRAM to its path")
+    return found
+
+
+def raise_for(code: int, text: str) -> None:
+    """Throws the exception of an exit code, with the program's own message."""
+    if code == 0:
+        return
+    text = re.sub(r"\n\d+ problems?; nothing was written\s*$", "", text.strip())
+    if code < 0:
+        text += f"\nasperity was ended by signal {-code} ({signal.strsignal(-code)})"
+    raise BY_CODE.get(code, InternalError)(text.strip() or f"asperity ended with exit code {code}")
+
+
+def refuse_ranks() -> None:
+    """Refuses a call in one of several ranks, each of which would do the same. Raises SceneError."""
+    if launched()[1]:
+        raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
+                         "it starts its runs itself, each as a program of its own",
+                         "start it alone (srun -n 1); for ranks of each point: asperity sweep SCENE --launch "
+                         '"mpirun -n 2"; for points on the ranks: --executor mpi')
+
+
+def call(arguments: Iterable[str], *, text: str | None = None) -> str:
+    """Runs the program to its end and returns what it printed."""
+    words = [path(), *arguments]
+    try:
+        done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8",
+                              env=environment_alone())
+    except OSError as error:
+        raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
+                               "check that it is installed") from None
+    raise_for(done.returncode, done.stderr)
+    return done.stdout
+
+
+def sets(overrides: Iterable[str]) -> list[str]:
+    """Returns ["a.b=1", ...] as the words of a command line."""
+    return [word for one in overrides for word in ("--set", one)]
+
+
+@functools.lru_cache(maxsize=None)
+def mpi() -> str:
+    """Returns the MPI that the program was built with: "Open MPI v4.1.4"."""
+    found = re.search(r"^ *MPI +(.*\S)", call(["info"]), re.MULTILINE)
+    return found[1] if found else ""
+
+
+@functools.lru_cache(maxsize=None)
+def schema() -> dict[str, dict[str, Any]]:
+    """Returns every key of a scene: kind, unit, default, doc, choices."""
+    return json.loads(call(["defaults", "--json"]))
+
+
+@functools.lru_cache(maxsize=None)
+def quantities() -> dict[str, dict[str, str]]:
+    """Returns every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
+    return json.loads(call(["defaults", "--results", "--json"]))
+
+
+def quantity(path: str) -> dict[str, str]:
+    """Returns unit ("" for a pure number), divisor (per) and meaning of a value; empty for a value that the program does not
+    know."""
+    found = quantities().get(path)
+    if found is None:
+        found = next((q for name, q in quantities().items() if "*" in name and
+                      re.fullmatch(re.escape(name).replace(r"\*", "[^.]+"), path)), {"unit": "", "per": "", "meaning": ""})
+    return {**found, "unit": "" if found["unit"] == "1" else found["unit"]}
+
+
+def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """Returns the scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs),
+    edge_pinning (by which a coarse spacing increases the pull-off force of a sphere)."""
+    return json.loads(call(["check", scene, *sets(overrides), "--json"]))
+
+
+def surface(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map."""
+    return json.loads(call(["surface", scene, *sets(overrides), "--json"]))
+
+
+def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
+    """Returns Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`); the
+    mistakes of a variation are in its `problems`. runnable: also the problems that would stop a run. profile: everything over
+    magnification, and theory.persson.critical_rms."""
+    text = "".join(json.dumps(point) + "\n" for point in points)
+    words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
+    lines = call(words, text=text).splitlines()
+    if len(lines) != len(points):
+        raise InternalError("asperity theory-points", f"answered {len(lines)} of {len(points)} points")
+    return [json.loads(line) for line in lines]
+
+
+def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
+    """Refuses points with problems: raises SceneError with each problem once. where: places of swept keys."""
+    found: dict[tuple[str, str], dict] = {}
+    for point in points:
+        for problem in point.get("problems", []):
+            for key, place in (where or {}).items():
+                if problem["where"].startswith(f"--set {key}="):
+                    problem["where"] = place
+            found.setdefault((problem["where"], problem["what"]), problem)
+    if found:
+        raise SceneError.of(list(found.values()))

@@ -1,0 +1,448 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity estimate`: the numbers of a scene with their errors, from runs of the scene itself with one setting varied at a
+time (estimate_parts.py).
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+import tempfile
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..errors import BY_CODE, Error, InternalError, SceneError, Stopped
+from ..files import store
+from ..maps import height_map, missing_waves
+from ..results.result import Values, read_json
+from ..running import program
+from ..running.pool import DONE, PoolOptions, refuse_jobs
+from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
+from ..terminal import duration
+from ..units import GIGAPASCAL
+from .estimate_parts import CURVED, FLAT, Part, Plan, SpacingAlso, edges, finer, number_of, places, plan_of, stated
+from .stated_number import Found, Number
+from .variations import Runs, Setting, Variation, Variations
+
+RESULT = "estimate.json"
+START = 0.3
+"""s; what a run takes beside its simulation."""
+SURFACES = {False: 8, True: 4}
+"""Surfaces of a scene without and with a path."""
+NO_ADHESION = 0.01
+"""Of Δγ: surfaces that bind by less do not stick."""
+PINNED = 1.3
+"""A factor of the pull-off force (Case::edge_pinning) above which a path over a wall says nothing of its strength."""
+OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "pull_off_stress", "pull_off_force", "jkr.pull_off")
+"""Numbers that the edge of a contact and the range of the attraction decide."""
+
+
+@dataclass
+class Estimate:
+    """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
+    in their order: name, group, what (was varied, or why nothing was), failed; notes."""
+
+    name: str
+    numbers: dict[str, Number]
+    parts: list[dict[str, str]]
+    notes: list[str]
+    scene: dict[str, Any]
+    run: dict[str, Any]
+    directory: Path
+
+    @property
+    def first(self) -> Number:
+        return next(iter(self.numbers.values()))
+
+    def number(self, path: str = "") -> Number:
+        """Returns a number with its error.
+
+        Parameters
+        ----------
+        path : str
+            Path of the number in result.json; "" for the first one.
+
+        Returns
+        -------
+        Number
+            The number with its estimate, its standard error and the parts of the error.
+
+        Raises
+        ------
+        SceneError
+            The estimate has no number of this path.
+        """
+        if path and path not in self.numbers:
+            raise SceneError(self.name, f"has no number {path!r}", "it has " + ", ".join(self.numbers), "ask for one of these")
+        return self.numbers[path] if path else self.first
+
+    @property
+    def unseen(self) -> list[str]:
+        """Parts that were not measured, so that the error does not contain them."""
+        return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
+                if p["failed"] or p["what"].startswith(("not varied", "left out"))]
+
+    def json(self) -> dict[str, Any]:
+        return {"name": self.name, "numbers": {path: {
+            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": _finite(n.estimate),
+            "standard_error": _finite(n.error), "below": _finite(n.below), "least": _finite(n.least), "most": _finite(n.most),
+            "least_error": n.grain, "withheld": n.withheld, "condition": n.condition, "unresolved": n.unresolved, "bounded": n.bounded,
+            "parts": {part: {"shift": f.shift, "standard_error": f.error}
+                      for part, f in n.parts.items()}} for path, n in self.numbers.items()},
+            "parts": self.parts, "notes": self.notes, "scene": self.scene, "run": self.run}
+
+    def __repr__(self) -> str:
+        return f"<Estimate {self.name}: {self.first}>"
+
+
+def _finite(value: float) -> float | None:
+    """Returns the value for JSON; None if it is not finite."""
+    return value if math.isfinite(value) else None
+
+
+def load_estimate(directory: str | os.PathLike) -> Estimate:
+    """Loads the estimate in a directory.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Directory with estimate.json.
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no estimate, or it cannot be read.
+    """
+    found = read_json(Path(directory) / RESULT)
+    numbers = {}
+    for path, n in found.part("numbers").items():
+        one = Values(n)
+        parts = {name: Found(Values(f).number("shift", math.nan), Values(f).number("standard_error", math.nan))
+                 for name, f in one.part("parts").items()}
+        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts,
+                               one.number("least", -math.inf), one.number("most", math.inf), one.number("least_error", 0.0),
+                               one.text("withheld"), one.text("condition"), one.text("unresolved"), one.text("bounded"))
+    return Estimate(found.text("name"), numbers, found.listed("parts", dict), found.listed("notes", str), found.part("scene"),
+                    found.part("run"), Path(directory))
+
+
+# Planning.
+
+MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+"""What the parts of a measured map are written to, in the folder maps."""
+
+
+def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
+               ) -> tuple[tuple[Part, ...], missing_waves.Law | None]:
+    """Returns the parts of the error of a measured map (the same waves on half of the spacing, the map in its mirror images, its
+    quarters; each a scene of its own in `place`) and the law of the waves that the map does not show.
+
+    continuous: the spacing of the sites is no solid's own."""
+    of = Values(keys)
+    sites, edge = int(of.number("surface.sites", 0)), of.number("surface.sites", 0) * of.number("surface.spacing", 0)
+    unit = of.text("surface.file_unit")
+    inputs = inputs_of(scene, keys)
+    store.require_free({place: MAP_FILES}, inputs=inputs)
+    there = height_map.read_map(file_beside(of.text("surface.file"), scene), None if unit in ("", "auto") else unit, assumed="Å")
+    heights = height_map.square(there.heights)
+    size = of.number("surface.file_size") or (min(there.size) if there.size else edge)
+    if size > 1.005 * edge:  # the program takes its middle
+        n = max(2, round(len(heights) * edge / size))
+        start = (len(heights) - n) // 2
+        heights = heights[start:start + n, start:start + n]
+    if of.number("surface.rms") is not None:
+        made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
+        size = float(np.nanstd(heights)) or 1.0  # as it is, the map may be of any size
+        with tempfile.TemporaryDirectory(prefix="asperity-") as there:
+            np.save(Path(there) / "map.npy", heights / size)
+            made["surface"].update(rms=None, file=f"{there}/map.npy", file_unit="Å", file_size=edge)
+            with scene_file(made) as file:
+                heights = heights * (of.number("surface.rms") / (size * surface_made(file).rms))
+
+    def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
+               setting: Setting = ()) -> list[Variation]:
+        rows = []
+        for i, piece in enumerate(pieces, 1):
+            stem = f"{name}-{i}" if len(pieces) > 1 else name
+            box = int(sites * factor / spacing)
+            made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
+            made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
+                                "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+            if name == "finer":  # the surface as it was made: what was taken off it is off
+                made["surface"]["line_noise"] = "keep"
+            thickness = of.number("block.thickness")
+            made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
+            made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
+            if of.text("interface.potential") == "table":
+                made["interface"]["table"] = str(Path(file_beside(of.text("interface.table"), scene)).resolve())
+            made.pop("sweep", None)
+            with store.outputs(place, (f"{stem}.npy", f"{stem}.toml"), inputs=inputs) as written:
+                with written.replacing(f"{stem}.npy") as beside, open(beside, "wb") as file:
+                    np.save(file, piece)
+                written.write(f"{stem}.toml", toml_of(made))
+            rows.append(Variation(name, stem, list(setting), scene=str(place / f"{stem}.toml")))
+        return rows
+
+    parts = [Part("waves", "truncation", "")]
+    if continuous:
+        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}}) as file:
+            made_of_it = surface_made(file).heights
+        order = 1 if spacing_also(0.5) else None  # None: that of the quantity
+        parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
+                          scenes("finer", [made_of_it], 1.0, "none", 0.5, spacing_also(0.5)), finer(2, order)))
+    detrend = of.text("surface.detrend")
+    flat = heights if detrend == "none" else height_map.without_plane(heights)
+    if detrend == "none" and height_map.jump(heights) < height_map.PERIODIC:
+        parts.append(Part("edge", "geometry", "none: the map is periodic"))
+    else:
+        parts.append(Part("edge", "geometry", "the map in its mirror images",
+                          scenes("mirrored", [height_map.mirrored(flat)], 2.0, "none"), edges))
+    if sites % 2 or sites < 32:
+        parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
+    else:
+        parts.append(Part("places", "realisation", "the quarters of the map",
+                          scenes("quarter", height_map.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
+                          places))
+    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
+
+
+class SurfaceMade(NamedTuple):
+    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]; doubts: notes on the file of a map."""
+
+    rms: float
+    slope: float
+    heights: np.ndarray
+    doubts: list[str]
+
+
+def surface_made(file: str) -> SurfaceMade:
+    """Returns the surface that a scene makes."""
+    made = program.surface(file)
+    with tempfile.TemporaryDirectory(prefix="asperity-") as place:
+        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
+    return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
+
+
+def _seconds(scene: str, sets: list[str]) -> float:
+    """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
+    try:
+        text = program.call(["plan", scene, *program.sets(sets)])
+    except Error:
+        return math.nan
+    found = re.search(r"^ *altogether +[\d.]+ \w+ +((?:[\d.]+ (?:s|min|h|d) ?)+)", text, re.M)
+    units = {"s": 1, "min": 60, "h": 3600, "d": 86400}
+    return sum(float(v) * units[u] for v, u in re.findall(r"([\d.]+) (s|min|h|d)\b", found[1])) if found else math.nan
+
+
+def work_of(setting: Setting, scene: Variations) -> float:
+    """Estimates the time of a setting over that of the scene."""
+    set_to = dict(one.split("=", 1) for one in setting)
+
+    def ratio(key: str) -> float:
+        return float(set_to[key]) / scene.own(key) if key in set_to and scene.own(key) else 1.0
+
+    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.displacement_step") ** -0.5)
+            / (ratio("drive.timestep") * ratio("drive.velocity")))
+
+
+# Carrying it out.
+
+def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
+    """Returns the numbers of the scene with the parts of their errors. withheld: reason why no number is stated; "" if they
+    are."""
+    base = plan.scene.outcome.result
+    found: dict[str, Number] = {}
+    for q in CURVED if curved else FLAT:
+        value = number_of(base, q.path)
+        if math.isnan(value):
+            continue
+        unit = {"binding_energy_ratio": "", "pull_off_stress": "MPa"}.get(q.path)
+        if unit is None:
+            unit = program.quantity(q.path)["unit"]
+        found[q.path] = number = stated(q, unit, value, base)
+        for part in plan.parts:
+            if (one := part.found(q)) is not None:
+                number.parts[part.name] = one
+        if plan.rest and "rate" in number.parts:
+            # The quasi-static path has no levels and no time steps either: what these have shifted is part of it.
+            others = sum(number.parts[n].shift for n in ("levels", "timestep") if n in number.parts)
+            number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
+    free = found.get("binding_energy")
+    parted = free is not None and free.least == 0.0 and free.largest < NO_ADHESION * base.number("delta_gamma", 0.0)
+    if parted:
+        free.unresolved = "no adhesion without load"
+    for number in found.values():
+        if parted and withheld:
+            number.bounded = "roughness that the map does not show lowers it further"
+        else:
+            number.withheld = withheld
+    return found
+
+
+class Estimating:
+    """The estimate of a scene in a directory, planned; `carry_out` makes it."""
+
+    def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
+                 only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
+                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
+        """Plans the estimate. withheld, condition: why the numbers OF_A_PATH are not stated, or what they hold for; also:
+        names of files that the caller will write there."""
+        answer = program.check(scene, overrides)
+        keys = answer["scene"]
+        varied = Variations(keys, answer.get("longest_timestep", 0.0))
+        if answer["problems"]:
+            raise SceneError("\n".join(answer["problems"]))
+        path = keys["drive"]["path"]
+        if not {"relax", "approach", "pull-off"} & set(path):
+            raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
+                             "and no pull-off", 'for example --set drive.path=relax')
+        if seeds is not None and not 2 <= seeds <= 1000:
+            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
+        self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
+        self.place = store.chosen(out, f"results/{self.name}-estimate")
+        self.inputs = inputs_of(scene, keys)
+        store.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
+        self.withheld, self.condition = withheld, condition
+        pinning = answer.get("edge_pinning", 1.0)
+        if varied.moves and pinning > PINNED and not withheld:
+            self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
+                             f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
+                             "smaller surface.spacing")
+        of_file, map_parts, self.law = keys["surface"]["kind"] == "file", (), None
+        if of_file:
+            map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
+        self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
+        only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
+        for name in only:
+            if name not in [part.name for part in self.plan.parts]:
+                raise SceneError(f"--parts {name}", "is none of them", "this scene has "
+                                 + ", ".join(part.name for part in self.plan.parts), "name some of these")
+        for part in self.plan.parts if only else []:
+            if part.name not in only and (part.rows or part.name == "waves"):
+                part.rows, part.what = [], "left out: --parts"
+        self.rows = [self.plan.scene]
+        for part in self.plan.parts:
+            self.rows += [row for row in ([part.base, *part.rows] if part.rows else []) if row not in self.rows]
+        self.runs = Runs(scene, overrides, self.place, options, say)
+        self.jobs = self.runs.jobs(self.rows)
+
+    def told(self) -> str:
+        """Tells how many runs the estimate takes, and about how long."""
+        once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
+        base = {(): _seconds(self.runs.scene, self.runs.common)}
+        for row in once.values():
+            still = "drive.mode=quasistatic" in row.setting and self.varied.dynamic
+            key = ("drive.mode=quasistatic",) * still
+            if key not in base:
+                base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
+            factor = {"mirrored": 4.0, "finer": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            work += START + factor * base[key]
+        return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
+
+    def carry_out(self) -> tuple[Estimate | None, bool]:
+        """Carries out the runs. Returns the estimate, None if the scene itself has no result, and False if stopped early."""
+        complete = self.runs.run(self.rows)
+        if self.plan.scene.outcome.status != DONE:
+            return None, complete
+        result = self.plan.scene.outcome.result
+        numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, self._missing(result))
+        for path in OF_A_PATH:
+            if path in numbers:
+                numbers[path].withheld, numbers[path].condition = numbers[path].withheld or self.withheld, self.condition
+        parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
+                 for p in self.plan.parts]
+        notes = list(self.notes)
+        if self.varied.moves and self.keys["drive"]["control"] == "top" and self.keys["surface"]["radius"] == "none":
+            notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
+                         'a machine; drive.control="mean-height" has none.')
+        for one in self.plan.parts:
+            if one.rule is edges and one.rows and not one.failed:
+                here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))
+                notes.append(f"The map in its mirror images binds by {there:.4g} in place of {here:.4g} meV/Å²: neither way to "
+                             "make it periodic is right, and twice the error of the part edge is their difference.")
+        estimate = Estimate(self.name, numbers, parts, notes,
+                            self.keys, {k: result.part("run").get(k) for k in ("version", "git", "machine")}
+                            | {"processor_seconds": sum(row.seconds for row in {id(j): r for j, r in
+                               zip(self.jobs, self.rows)}.values() if row.seconds == row.seconds)}, self.place)
+        if complete:
+            with store.outputs(self.place, [RESULT], inputs=self.inputs) as written:
+                written.write(RESULT, store.sealed_json(estimate.json()))
+        return estimate, complete
+
+
+    def _missing(self, result: Values) -> str:
+        """Completes the part of the waves that a map does not show. Returns the reason why no number is stated; "" if they are."""
+        part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
+        if part is None:
+            return ""
+        modulus = self.varied.own("block.young") * GIGAPASCAL / (1.0 - self.varied.own("block.poisson") ** 2)
+        found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
+        part.what, part.relative = found.what, found.relative
+        self.notes += [found.note] * bool(found.note)
+        return found.withheld
+
+
+def _about(seconds: float) -> str:
+    return "a time that is not known" if math.isnan(seconds) else duration(seconds)
+
+
+def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
+             seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
+    """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error),
+    and the shift by each part of the error. Runs that are there are not run again.
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+    out : str or os.PathLike, optional
+        Directory; None: results/<scene>-estimate.
+    jobs : int
+        Runs side by side; they share the processors.
+    seeds : int, optional
+        Surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path.
+    parts : iterable of str
+        Only these parts of the error: ["tail", "seeds"], or "tail,seeds".
+
+    Returns
+    -------
+    Estimate
+        The numbers with their errors.
+
+    Raises
+    ------
+    SceneError
+        The scene or an argument is refused, or files are in the way.
+    Stopped
+        The estimate stopped early; the same call continues.
+    Error
+        The run of the scene itself failed.
+    """
+    program.refuse_ranks()
+    refuse_jobs(jobs)
+    with scene_file(scene) as file:
+        said: list[str] = []
+        making = Estimating(file, assignments(overrides), None if out is None else str(out),
+                            PoolOptions(jobs=jobs, progress="off"), seeds, parts, say=said.append)
+        with store.in_use(making.place):
+            found, complete = making.carry_out()
+        if not complete:
+            raise Stopped(f"{making.place}: the estimate stopped early", fix="the same call goes on from here")
+        if found is None:
+            outcome = making.plan.scene.outcome
+            raise BY_CODE.get(outcome.exit_code, InternalError)(str(making.place), "the scene itself failed", outcome.reason)
+        return found

@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The scene of a measured map: an elastic half-space on a wall with an exponential attraction of the given work, led in and
+out at a held mean height.
+
+The map is read and checked, and written in Å beside the scene.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from ..errors import SceneError
+from ..files import store
+from ..maps import height_map, missing_waves
+from ..results.result import Values
+from ..running import program
+from ..running.scene import scene_file, toml_of
+from ..units import GIGAPASCAL, MILLIJOULE
+from .estimate_parts import SpacingAlso
+from .estimates import surface_made
+from .variations import Setting
+
+SITES = 256
+"""Sites along an edge unless others are asked for: a path and its variations take minutes."""
+SITE_BYTES = 1200
+"""Of a quasi-static path; the finest variation has four times as many sites."""
+RANGE = "3 Å"
+WIDEST_PIXEL = 1e4
+"""Å"""
+UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
+
+
+ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
+             "surface.file_size": "size", "surface.line_noise": "line_noise"}
+"""What a scene's keys are called here."""
+
+
+def _with_unit(name: str, value: object) -> str:
+    """Returns the text of a quantity with its unit, as scenes have it."""
+    text = re.sub(r"m2$", "m^2", str(value).strip())
+    if re.fullmatch(r"[-+\d.eE]*", text):
+        raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
+                         "write the one that is meant: " + " or ".join(f'"{text or 1} {unit}"' for unit in UNITS[name]))
+    return text
+
+
+def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
+    """Reads a square map: heights (Å, NaN at missing points), edge (Å), notes. Raises SceneError if adhesion cannot be
+    computed of the map."""
+    found = height_map.read_map(file, unit, size or None, channel)
+    heights, notes = found.heights, list(found.notes)
+
+    def refuse(what: str, why: str, fix: str) -> SceneError:
+        return SceneError(file, what, why, fix)
+
+    rows, columns = heights.shape
+    if min(rows, columns) < height_map.FEWEST:
+        raise refuse(f"has {columns} x {rows} points", f"{height_map.FEWEST} along an edge are the least of which a surface is "
+                     "made", "export the whole map")
+    if found.size is None:
+        raise refuse("does not tell how wide it is", "", 'name the length of its shorter edge: --size "100 nm"')
+    missing = np.isnan(heights)
+    if missing.mean() > 0.5:
+        raise refuse("has no heights" if missing.all() else f"lacks {100 * missing.mean():.0f} % of its heights",
+                     f"{int(missing.sum())} of {missing.size} points are missing", "export a part that was measured")
+    pixel = [length / count for length, count in zip(found.size, (columns, rows))]
+    if abs(pixel[0] / pixel[1] - 1) > 0.005:
+        raise refuse("has pixels that are not square", f"{pixel[0]:.4g} x {pixel[1]:.4g} Å", "resample it before")
+    if pixel[0] > WIDEST_PIXEL:
+        raise refuse(f"has pixels of {pixel[0] / 1e4:.4g} µm", "adhesion is decided by roughness down to nanometres, which such "
+                     "a map does not show", "measure a smaller area, or correct the unit of the file")
+    if rows != columns:
+        notes.append(f"the map is not square: its middle is taken, {min(rows, columns)} points along an edge")
+        heights = height_map.square(heights)
+    steepest = max(np.nanmax(abs(np.diff(heights, axis=axis))) for axis in (0, 1))
+    highest = float(np.nanmax(heights) - np.nanmin(heights))
+    if not highest > 0.0:
+        notes.append("the map is flat")
+    for axis in (0, 1):
+        along = np.abs(np.diff(heights, axis=axis)) > 0.5 * highest
+        if highest > 0.0 and along.any(axis=axis).mean() > 0.5:
+            raise refuse("has a step edge across it", f"most lines jump by more than half of its height, {highest:.4g} Å, "
+                         "from one point to the next, and a plane cannot be subtracted from it",
+                         "cut it to one side of the step, or write a scene of it (surface.detrend)")
+    if missing.any():
+        notes.append(f"{int(missing.sum())} points without a height are filled by Laplace's equation")
+    if steepest > pixel[0]:
+        notes.append(f"neighbouring points differ in height by up to {steepest / pixel[0]:.3g} pixels: so steep a map shows the side "
+                     "of the tip")
+    return heights, pixel[0] * len(heights), notes
+
+
+def _smooth_below(most: int) -> int:
+    """Returns the largest even number up to `most` that has no prime factor above 5."""
+    def smooth(n: int) -> bool:
+        for p in (2, 3, 5):
+            while n % p == 0:
+                n //= p
+        return n == 1
+
+    return next(n for n in range(most - most % 2, 0, -2) if smooth(n))
+
+
+class MapScene(NamedTuple):
+    """file: of the scene; notes: on what was made of the map; also: what another spacing sets too; withheld, condition: of
+    numbers that depend on the range of the attraction, why they are not stated, or for which range they hold."""
+
+    file: Path
+    notes: list[str]
+    also: SpacingAlso
+    withheld: str
+    condition: str
+
+
+def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
+             size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
+             line_noise: str | None = None) -> MapScene:
+    """Writes the scene of a map and the map beside it. Raises SceneError for what no scene can be made of, before anything is
+    written."""
+    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson},
+                "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
+                "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
+                              "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
+    if size is not None:
+        sections["surface"]["file_size"] = _with_unit("size", size)
+    try:
+        with scene_file(sections) as checked:  # the program reads the units
+            keys = Values(program.check(checked)["scene"])
+    except SceneError as error:
+        said = re.sub(r"^.*?: (?=[a-z]+\.\w+ = )", "", str(error), flags=re.M)  # the place in a scene that nobody has seen
+        raise SceneError(re.sub(r"^[a-z]+\.\w+(?= = )", lambda key: ARGUMENTS.get(key[0], key[0]), said, flags=re.M)) from None
+    if not keys.number("interface.adhesion") > 0.0:
+        raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
+    heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
+    points = len(heights)
+    memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
+    most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
+    n = _smooth_below(max(most, height_map.FEWEST))
+    spacing = edge / n
+    stiff = keys.number("block.young") * GIGAPASCAL / (1 - keys.number("block.poisson") ** 2)  # eV/Å³
+    adhesion, asked = keys.number("interface.adhesion") / 1e3, keys.number("interface.range")
+
+    def resolved(spacing: float) -> float:
+        """Returns the range, Å, whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""
+        return max(asked, math.sqrt(2 * spacing * adhesion / stiff))
+
+    used = resolved(spacing)
+    longer = f'--range "{math.ceil(used * 1e3) / 1e3:g} Å"'
+
+    def sites_for(reach: float) -> str:
+        """Spells the option of as many sites as resolve this range, "--sites 96, or "; "" if the map has fewer points."""
+        least = edge * 2 * adhesion / (stiff * reach**2)
+        enough = next((k for k in range(max(n, math.ceil(least)), points + 1) if _smooth_below(k) == k), 0)
+        return f"--sites {enough}, or " * (enough > n)
+
+    if reach is not None and used > 1.001 * asked:
+        raise SceneError(f"range = {reach}", f"is not resolved by a spacing of {spacing:.4g} Å", "beside the edge of a contact it "
+                         f"would act on less than two sites (work / E* = {adhesion / stiff:.3g} Å)", f"{sites_for(asked)}{longer}; or "
+                         "leave it out for the numbers that depend on no range")
+    if used > 0.25 * edge:
+        raise SceneError(file, f"is too small for so soft a solid: its attraction would reach {used:.3g} Å, and the map is "
+                         f"{edge:.4g} Å wide", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with a range "
+                         f"of {used:.3g} Å (work / E* = {adhesion / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
+    flat = height_map.without_tilt(heights)
+    rms = float(np.nanstd(height_map.without_plane(heights)))
+    if used > 1.001 * asked and used > rms > 0.0:
+        flattened = stiff * missing_waves.energy_shown(heights, edge) * 1e3 * MILLIJOULE
+        raise SceneError(file, f"is too smooth for so soft a solid: its attraction would reach {used:.3g} Å, and the rms height is "
+                         f"{rms:.3g} Å", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with that range (work / E* = "
+                         f"{adhesion / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
+                         f"map stores {flattened:.3g} of the {1e3 * adhesion * MILLIJOULE:.3g} mJ/m^2 of the work",
+                         f"{sites_for(rms)}a map with smaller pixels; or, if the attraction does reach so far, {longer}")
+    withheld = condition = ""
+    if used > 1.001 * asked:
+        notes.append(f"the range of the attraction is {used:.4g} Å in place of {asked:.4g} Å, which a spacing of "
+                     f"{spacing:.4g} Å does not resolve; numbers that depend on it are not stated, and the part spacing of the "
+                     "others follows it")
+        withheld = (f"the range of the attraction decides, and is {0.1 * used:.3g} nm, which the spacing resolves, in place of "
+                    f"{0.1 * asked:.3g} nm; {longer} states what holds for that range")
+    else:
+        condition = f"for a range of {0.1 * used:.3g} nm"
+    periodic = height_map.jump(flat) < height_map.PERIODIC
+    if periodic:
+        heights = flat
+    notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
+                 "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
+    scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
+                         "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited",
+                         "line_noise": line_noise},
+             "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
+             "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
+                           "frictionless": True},
+             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
+    stem = stem_of(file)
+    with store.outputs(place, ("map.npy", f"{stem}.toml"), inputs=[file]) as out:
+        with out.replacing("map.npy") as beside, open(beside, "wb") as opened:
+            np.save(opened, heights)
+        out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
+    slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
+    made = surface_made(str(place / f"{stem}.toml"))
+    notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made.doubts]
+    kept = made.slope
+    if n < points:
+        notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
+                     f"{kept:.3g}; the map's neighbours have {slope:.3g}")
+    else:
+        notes.append(f"all {points} points along an edge are taken, {spacing / 10:.3g} nm apart; roughness below is not measured")
+
+    def also(factor: float) -> Setting:
+        return [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
+
+    return MapScene(place / f"{stem}.toml", notes, also, withheld, condition)
+
+
+def stem_of(file: str) -> str:
+    """Returns the name of the scene of a map."""
+    return re.sub(r"[^\w.-]", "-", Path(file.partition(":/")[0]).stem) or "map"

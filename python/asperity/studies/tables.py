@@ -1,0 +1,229 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The table of a sweep: its columns, their means over the seeds, and what of it stands in a terminal and a report."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections import UserDict
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..results.result import Values, finite
+from ..running import program
+from ..running.pool import DONE
+from ..terminal import millijoules, number
+from .grid import is_seed, shown
+
+RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
+"""Columns of a result whose path in result.json is that of a key of the scene."""
+RENAMED_BACK = {column: path for path, column in RENAMED.items()}
+AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites of the lowest layer"
+"""What numbers of a result are over, as program.quantity() says it."""
+
+
+@functools.lru_cache(maxsize=None)
+def over_flat(path: str) -> bool:
+    """Returns True if a number of a result is an energy with a column of its ratio to the flat reference."""
+    known = program.quantity(path)
+    return known["unit"] == "meV/Å^2" and known["per"] in (AREA, CONTACT) and path != "delta_gamma" and \
+        "uncertainty" not in path
+
+
+@functools.lru_cache(maxsize=None)
+def of_area(column: str) -> bool:
+    """Returns True if a column is over the nominal area, which is meaningless for a sphere, or the mean of all sites."""
+    path = column.removesuffix("_ratio")
+    return not path.startswith("theory.") and program.quantity(path)["per"] in (AREA, SITES) or \
+        path == "relaxed.mean_height"
+
+
+def unit_of(column: str) -> str:
+    """Returns the unit of a column, a key of the scene or a value of a result."""
+    schema = program.schema()
+    if column in schema:
+        return schema[column]["unit"]
+    path = RENAMED_BACK.get(column, column)
+    return program.quantity(path)["unit"]
+
+
+def columns_of(result: Values) -> dict[str, float]:
+    """Returns the numbers of a result.json that a table holds, by column."""
+    flat = result.number("delta_gamma")
+    found: dict[str, float] = {}
+    for path, value in result.numbers().items():
+        if path.split(".")[0] in ("scene", "units", "failure", "theory", "interface", "run") and path != "run.wall_seconds":
+            continue
+        found[RENAMED.get(path, path)] = value
+        if flat and over_flat(path):
+            found[path + "_ratio"] = value / flat
+    return found
+
+
+def _theory_numbers(point: Mapping[str, Any]) -> dict[str, float]:
+    """Returns the numbers of a point's theories, with the ratios to their Δγ."""
+    numbers = Values({"theory": point["theory"]}).numbers()
+    if flat := numbers.get("theory.persson.delta_gamma"):
+        for name in ("theory.persson.gamma_eff", "theory.persson.gamma_full_contact"):
+            if name in numbers:
+                numbers.setdefault(name + "_ratio", numbers[name] / flat)
+    if flat := point.get("delta_gamma"):
+        for name in ("theory.sphere.maugis_images", "theory.sphere.renormalised"):
+            if name in numbers:
+                numbers[name + "_ratio"] = numbers[name] / flat
+    return numbers
+
+
+class Average(NamedTuple):
+    """A value for each group of points. deviation: standard deviation of the single point (n - 1)."""
+
+    mean: np.ndarray
+    deviation: np.ndarray
+    count: np.ndarray
+
+
+class Columns(UserDict):
+    """Columns by name: numpy arrays of numbers (NaN: none) or, of keys that are words, lists of strings."""
+
+    def __repr__(self) -> str:
+        rows = len(next(iter(self.data.values()), ()))
+        some = ", ".join(list(self)[:6]) + ", ..." * (len(self) > 6)
+        return f"<{type(self).__name__}: {rows} rows, {len(self)} columns: {some}>"
+
+    def __missing__(self, name: str) -> Any:
+        raise KeyError(f"no column {name!r}; there are {', '.join(self)}")
+
+    @property
+    def units(self) -> dict[str, str]:
+        return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}
+
+    def frame(self):
+        """Returns the columns as a pandas DataFrame."""
+        import pandas
+
+        return pandas.DataFrame(self.data)
+
+
+class Table(Columns):
+    """The points of a sweep, a row each: the axes, the numbers of the results, the numbers of the theory.
+
+    groups   points that differ in their seeds only: the values that they share, and their rows
+    status   of each point, in a word
+    """
+
+    def __init__(self, axes: list[str], points: list[dict[str, Any]], simulated: bool):
+        self.axes, self.simulated = axes, simulated
+        self.status = [str(p.get("status", "waiting") if simulated else Values(p["theory"]).text("persson.status"))
+                       for p in points]
+        self._done = np.array([not simulated or status == DONE for status in self.status], bool)
+        groups: dict[str, tuple[dict[str, Any], list[int]]] = {}
+        for i, point in enumerate(points):
+            values = {key: point["set"].get(key) for key in axes if not is_seed(key)}
+            groups.setdefault(json.dumps(values), (values, []))[1].append(i)
+        self.groups = list(groups.values())
+        columns: dict[str, Any] = {}
+        for key in axes:
+            values = [p["set"].get(key) for p in points]
+            numbers = np.array([finite(v, np.nan) for v in values])
+            columns[key] = numbers if np.isfinite(numbers).all() else [shown(v) for v in values]
+        results = [p.get("result", {}) for p in points] if simulated else []
+        theory = [_theory_numbers(point) for point in points]
+        for rows in (results, theory):  # in the order of result.json
+            for name in dict.fromkeys(name for row in sorted(rows, key=len, reverse=True) for name in row):
+                columns[name] = np.array([finite(row.get(name), np.nan) for row in rows])
+        super().__init__(columns)
+
+    @property
+    def along(self) -> str | None:
+        """The key along x: of those with numbers the one with the most values."""
+        numbers = [k for k in self.axes if not is_seed(k) and isinstance(self[k], np.ndarray) and len(self[k])]
+        return max(numbers, key=lambda k: len(set(self[k])), default=None)
+
+    def counted(self, name: str) -> np.ndarray:
+        """Returns a column, NaN for points that are not done; columns of the theory are whole."""
+        return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
+
+    def values(self, name: str) -> np.ndarray:
+        """Returns a column, NaN for meaningless or missing values; "-name": with the other sign."""
+        if name.startswith("-"):
+            return -self.values(name[1:])
+        found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
+        sphere = self.get("contact_radius.relaxed")
+        if sphere is None or not of_area(name):
+            return found
+        return np.where(np.isfinite(sphere), np.nan, found)
+
+    def at(self, key: str) -> np.ndarray:
+        """Returns the value of a key for each group; NaN if it is no number."""
+        return np.array([finite(values.get(key), np.nan) for values, _ in self.groups])
+
+    def average(self, values: np.ndarray) -> Average:
+        """Averages over the seeds of each group, over the points that have a number."""
+        there = [(v := values[rows])[np.isfinite(v)] for _, rows in self.groups]
+        return Average(np.array([v.mean() if len(v) else np.nan for v in there]),
+                       np.array([v.std(ddof=1) if len(v) > 1 else np.nan for v in there]),
+                       np.array([len(v) for v in there]))
+
+    def averages(self) -> dict[str, Average]:
+        """Averages every column that is no axis; results over the points that are done."""
+        return {name: self.average(self.counted(name)) for name in self if name not in self.axes}
+
+    def means(self) -> Columns:
+        """Returns one row for each group: mean, .deviation and .count of every column."""
+        columns: dict[str, Any] = {}
+        for key in (key for key in self.axes if not is_seed(key)):
+            column = [self[key][rows[0]] for _, rows in self.groups]
+            columns[key] = np.array(column) if isinstance(self[key], np.ndarray) else column
+        for name, (mean, deviation, count) in self.averages().items():
+            columns |= {name: mean, name + ".deviation": deviation, name + ".count": count}
+        return Columns(columns)
+
+    def frame(self):
+        return super().frame().assign(status=self.status)
+
+
+BOTH = ", meV/Å² (mJ/m²)"
+# The table as text: head, column and digits; columns without numbers are left out.
+OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_interface.approach_ratio", 4),
+                 ("interface, out", "-work_of_interface.pull_off_ratio", 4),
+                 ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
+                 ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
+                 ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
+                 ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
+                 ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
+                 ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
+OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
+    ("γ_eff" + BOTH, "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
+    ("A/A0", "persson.contact_fraction", 5), ("full contact", "persson.gamma_full_contact_ratio", 5),
+    ("renormalised", "renormalised.gamma_eff_ratio", 5)))
+
+
+def _status(words: list[str]) -> str:
+    """Returns "3 done", "2 done, 1 failed"; for one point its word."""
+    if len(words) == 1:
+        return words[0]
+    return ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
+
+
+def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
+    """Returns heads, a row for all seeds of a point, and the meaning of the numbers."""
+    axes = [key for key in table.axes if not is_seed(key)]
+    cells = [(head, table.average(column), digits)
+             for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
+             if np.isfinite(column := table.values(name)).any()]
+    rows = []
+    for group, (values, places) in enumerate(table.groups):
+        row = [shown(values[key]) for key in axes]
+        for head, (mean, deviation, count), digits in cells:
+            row.append((number(float(mean[group]), digits) if count[group] else "-") +
+                       (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else "") +
+                       (f" ({millijoules(float(mean[group]))})" if head.endswith(BOTH) and count[group] else ""))
+        rows.append([*row, _status([table.status[i] for i in places])])
+    meaning = ("binding energy of the state, and works of approach (in) and pull-off (out), as energies that separate the "
+               "solids over Δγ") if table.simulated else ""
+    if meaning and len(axes) < len(table.axes):
+        meaning += ", mean ± standard deviation over the seeds"
+    return [*axes, *(c[0] for c in cells), ""], rows, meaning
