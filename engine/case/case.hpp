@@ -16,9 +16,9 @@
 #include "decomposition/process_grid.hpp"
 #include "engine/case/effects.hpp"
 #include "engine/case/flat_reference.hpp"
+#include "engine/options/output_options.hpp"
 #include "engine/options/scales.hpp"
 #include "engine/options/segment.hpp"
-#include "engine/options/output_options.hpp"
 #include "engine/options/simulation_options.hpp"
 #include "engine/options/theory_options.hpp"
 #include "engine/scene/scene.hpp"
@@ -35,9 +35,9 @@ namespace asperity {
 
 /// A scene, checked and complete.
 struct Case {
-    Scene scene;         ///< scene of the case
-    int ranks = 1;       ///< number of ranks of the case
-    std::string file;    ///< file of the map or the atoms, as found; empty: the scene has none
+    Scene scene;            ///< scene of the case
+    int ranks = 1;          ///< number of ranks of the case
+    std::string file;       ///< file of the map or the atoms, as found; empty: the scene has none
     SurfaceOptions surface; ///< options of the substrate; a map with rms = 0 keeps its own
     OutputOptions output;
     MapTimes maps;
@@ -61,6 +61,8 @@ struct Case {
     /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
     /// too large; 1 if the spacing resolves the attraction beside the edge.
     double edge_pinning = 1.0;
+    /// Longest step of a quasi-static path, Å: half the potential's width
+    double longest_step = HUGE_VAL;
     /// Stability limit 2/omega_max at the bottom of the well, fs; usable_timestep() of it is used.
     double longest_timestep = 0.0;
     std::vector<std::string> notes; ///< facts worth knowing that are no mistakes

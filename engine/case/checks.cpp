@@ -362,16 +362,14 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                    scene.drive.load));
     double load = std::abs(scene.drive.load); // MPa
     for (const Segment& segment : c.path())
-        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
-    const double poisson = scene.block.poisson;
-    const double strain = 1e-3 * load * (1.0 + poisson) * (1.0 - 2.0 * poisson) /
-                          // Modulus of a block that cannot widen
-                          (scene.block.young * (1.0 - poisson));
+        if (segment.kind == Segment::load)
+            load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
+    const double strain = load * units::megapascal / c.simulation.block.modulus_of_compression();
     if (strain > 0.05 && scene.block.strain == Strain::linear)
         list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
                                    "block.strain = \"linear\" describes small strains",
                                    load, 100.0 * strain));
-    if (const auto note = note_on_contact_edge(scene)) list.push_back(*note);
+    if (const auto note = note_on_contact_edge(c)) list.push_back(*note);
     for (std::size_t i = 0; i < c.table_files.size(); ++i) // no pair of atoms binds with more
         if (const double depth = c.simulation.interface.tables[i]->depth(); depth > 10.0)
             list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "

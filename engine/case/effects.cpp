@@ -53,9 +53,9 @@ Effect dynamic_effect(const Case& c) {
 Effects effects_of(const Case& c) {
     const Scene& s = c.scene;
     const bool wall = s.interface.kind == InterfaceKind::wall, dynamic = c.effects.dynamic;
-    const bool follows_path = std::any_of(c.path().begin(), c.path().end(), [](const Segment& segment) {
-        return segment.kind != Segment::relax;
-    });
+    const bool follows_path =
+        std::any_of(c.path().begin(), c.path().end(),
+                    [](const Segment& segment) { return segment.kind != Segment::relax; });
     const std::string rest = key_of_rest(c);
     const std::string no_time = "a state of force balance: " + rest;
     const auto timed = [&](bool on, std::string why) {

@@ -149,9 +149,8 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                         fmt::format("take {:.2g} K or less with this time step",
                                     scene.drive.temperature * std::pow(0.1 * width / travel, 2)));
     }
-    const double poisson = scene.block.poisson;
-    const double modulus = 1e3 * scene.block.young * (1.0 - poisson) /
-                           ((1.0 + poisson) * (1.0 - 2.0 * poisson)); // MPa, that cannot widen
+    const double modulus = // MPa
+        c.simulation.block.modulus_of_compression() / units::megapascal;
     const auto look = [&](const char* key, double load, const std::string& shown) {
         if (std::abs(load) > modulus)
             refused.add(key, fmt::format("{} strains the block by more than its thickness", shown),
@@ -161,7 +160,8 @@ void refuse_violence(const Case& c, io::Problems& refused) {
     look("drive.load", scene.drive.load, fmt::format("= {:.6g} MPa", scene.drive.load));
     for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)
-            look("drive.path", segment.amount / (units::megapascal * c.area()), fmt::format("has \"{}\", which", segment.text));
+            look("drive.path", segment.amount / (units::megapascal * c.area()),
+                 fmt::format("has \"{}\", which", segment.text));
     if (!c.effects.dynamic && scene.drive.tolerance >= 1.0)
         refused.add("drive.tolerance",
                     fmt::format("= {:.6g} takes every state for balanced", scene.drive.tolerance),

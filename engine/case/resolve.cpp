@@ -232,13 +232,14 @@ void limit_steps(Case& c, io::Problems& refused) {
     const double tension = c.largest_tension * units::gigapascal;
     const double width = c.flat.work_of_adhesion / units::milli_per_unit / tension;
     if (tension > 0.0) {
-        const double longest = 0.5 * width;
-        c.simulation.drive.displacement_step = std::min(scene.drive.displacement_step, longest);
-        if (!c.effects.dynamic && scene.drive.displacement_step > longest)
+        c.longest_step = 0.5 * width;
+        c.simulation.drive.displacement_step =
+            std::min(scene.drive.displacement_step, c.longest_step);
+        if (!c.effects.dynamic && scene.drive.displacement_step > c.longest_step)
             c.notes.push_back(fmt::format(
                 "drive.displacement_step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
                 "the potential (its depth over its largest force)",
-                scene.drive.displacement_step, longest));
+                scene.drive.displacement_step, c.longest_step));
         const double pull = -scene.drive.load * units::megapascal;
         if (pull > tension && scene.surface.kind != SurfaceKind::atoms)
             refused.add(
@@ -345,7 +346,7 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 void derive(Case& c, io::Problems& problems) {
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
-    c.edge_pinning = edge_pinning(c.scene);
+    c.edge_pinning = edge_pinning(c);
     refuse_pinned_edge(c, refused);
     for (std::string& note : notes_on_keys(c))
         c.notes.push_back(std::move(note));
@@ -389,7 +390,8 @@ std::vector<std::string> Case::inputs() const {
 }
 
 bool Case::has(Segment::Kind kind) const {
-    return std::any_of(path().begin(), path().end(), [&](const Segment& s) { return s.kind == kind; });
+    return std::any_of(path().begin(), path().end(),
+                       [&](const Segment& s) { return s.kind == kind; });
 }
 
 bool Case::guided() const {

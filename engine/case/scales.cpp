@@ -35,7 +35,8 @@ double smallest_load(const Case& c) {
     };
     if (c.has(Segment::approach) || c.has(Segment::relax)) consider(c.scene.drive.load);
     for (const Segment& segment : c.path())
-        if (segment.kind == Segment::load) consider(segment.amount / (units::megapascal * c.area()));
+        if (segment.kind == Segment::load)
+            consider(segment.amount / (units::megapascal * c.area()));
     return smallest;
 }
 

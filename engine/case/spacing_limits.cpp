@@ -21,15 +21,15 @@ struct ContactEdge {
     std::string remedy;   ///< a range or a spacing that resolves it
 };
 
-std::optional<ContactEdge> edge_of(const Scene& scene) {
-    const auto& wall = scene.interface;
+std::optional<ContactEdge> edge_of(const Case& c) {
+    const auto& wall = c.scene.interface;
     if (wall.kind != InterfaceKind::wall || wall.law != WallLawKind::exponential ||
         wall.adhesion == 0.0)
         return std::nullopt;
     // The gap opens as the root of the distance from the edge of a contact.
-    const double modulus =
-        scene.block.young * units::gigapascal / (1.0 - scene.block.poisson * scene.block.poisson);
-    const double adhesion = wall.adhesion / units::milli_per_unit, spacing = scene.surface.spacing;
+    const double modulus = c.simulation.block.contact_modulus();
+    const double adhesion = wall.adhesion / units::milli_per_unit;
+    const double spacing = c.simulation.block.spacing;
     ContactEdge edge;
     edge.strip = modulus * wall.range * wall.range / adhesion;
     // A row lets go at its largest tension, adhesion / range, whatever the work of adhesion: where
@@ -44,18 +44,19 @@ std::optional<ContactEdge> edge_of(const Scene& scene) {
 
 } // namespace
 
-std::optional<std::string> note_on_contact_edge(const Scene& scene) {
-    const auto edge = edge_of(scene);
-    if (!edge || edge->strip >= 2.0 * scene.surface.spacing) return std::nullopt;
+std::optional<std::string> note_on_contact_edge(const Case& c) {
+    const auto edge = edge_of(c);
+    const double spacing = c.simulation.block.spacing;
+    if (!edge || edge->strip >= 2.0 * spacing) return std::nullopt;
     return fmt::format(
         "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / adhesion), "
         "{:.2g} spacings: single rows of sites hold the edge in place, and a sphere's pull-off "
         "force is about {:.3g} times too large; {} avoids that",
-        edge->strip, edge->strip / scene.surface.spacing, edge->pinning, edge->remedy);
+        edge->strip, edge->strip / spacing, edge->pinning, edge->remedy);
 }
 
-double edge_pinning(const Scene& scene) {
-    const auto edge = edge_of(scene);
+double edge_pinning(const Case& c) {
+    const auto edge = edge_of(c);
     return edge ? edge->pinning : 1.0;
 }
 
@@ -71,12 +72,12 @@ void refuse_pinned_edge(const Case& c, io::Problems& refused) {
         fmt::format("single rows of sites hold the edge of the contact in place, and the sphere's "
                     "pull-off force would be about {:.3g} times too large",
                     c.edge_pinning),
-        edge_of(scene)->remedy + " resolves it; interface.edge_pinning = \"allow\" runs as it is");
+        edge_of(c)->remedy + " resolves it; interface.edge_pinning = \"allow\" runs as it is");
 }
 
 double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surface) {
     const double a = block.spacing;
-    const double modulus = block.young / (1.0 - block.poisson * block.poisson);
+    const double modulus = block.contact_modulus();
     const CellElasticity elasticity = block.elasticity(0);
     constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
     double lattice = 0.0, continuum = 0.0;

@@ -12,10 +12,10 @@
 
 namespace asperity {
 
-/// Returns Case::edge_pinning of a scene.
-double edge_pinning(const Scene& scene);
+/// Returns Case::edge_pinning of a case whose options of the block are known.
+double edge_pinning(const Case& c);
 /// Returns a sentence with that factor; nothing if the spacing resolves the edge.
-std::optional<std::string> note_on_contact_edge(const Scene& scene);
+std::optional<std::string> note_on_contact_edge(const Case& c);
 /// Refuses the pull-off of a sphere with a factor above 1.3, unless interface.edge_pinning allows
 /// it.
 void refuse_pinned_edge(const Case& c, io::Problems& refused);

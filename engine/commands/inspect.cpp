@@ -120,7 +120,6 @@ int init_command(const std::string& asked, const Communicator& world) {
 }
 
 int check_command(const Case& c, bool json, const Communicator& world) {
-    const Scene& scene = c.scene;
     if (json) {
         const io::Json all = check_json(c, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
@@ -128,12 +127,12 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     }
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root()) return io::exit_code::done;
-    fmt::print("{}: nothing wrong\n", scene.file);
+    fmt::print("{}: nothing wrong\n", c.scene.file);
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
-               scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
+               c.simulation.block.sites, c.edge(), c.simulation.block.thickness, c.levels.size(),
                c.levels.size() == 1 ? "" : "s");
     if (c.effects.dynamic)
-        fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", scene.drive.timestep,
+        fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));
     for (const std::string& note : notes)
         fmt::print("  note: {}\n", note);
@@ -261,7 +260,7 @@ int surface_command(const Case& c, const std::string& out, bool json, const Comm
         if (world.root()) fmt::print("{}\n", io::json_text(all));
         return io::exit_code::done;
     }
-    if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
+    if (c.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
     world.on_root([&] { write_surface(c, surface, out); });
     return io::exit_code::done;

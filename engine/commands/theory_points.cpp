@@ -30,9 +30,8 @@ using io::Json;
 class SurfaceCache {
 public:
     const Surface& of(const Case& c) {
-        const Scene& scene = c.scene;
-        Json keys = scene_json(scene)["surface"];
-        if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
+        Json keys = scene_json(c.scene)["surface"];
+        if (c.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
         if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
             surface_ = surface_of(c);
             keys_ = text;

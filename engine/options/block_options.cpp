@@ -9,7 +9,7 @@ namespace asperity {
 
 double BlockOptions::sound_speed() const {
     const double density = atom_mass / (spacing * spacing * spacing);
-    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
+    return std::sqrt(modulus_of_compression() / density);
 }
 
 CellElasticity BlockOptions::elasticity(int level) const {

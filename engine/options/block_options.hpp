@@ -34,6 +34,8 @@ struct BlockOptions {
     double edge() const { return sites * spacing; }
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+    /// Returns the modulus of a block that is compressed and cannot widen, eV/Å^3.
+    double modulus_of_compression() const { return lame() + 2.0 * shear_modulus(); }
     /// Returns E/(1 - nu^2), eV/Å^3.
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
     /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not

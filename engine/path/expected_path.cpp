@@ -13,8 +13,8 @@ namespace asperity {
 ExpectedPath expected_path(const Case& c, double start) {
     const BlockOptions& block = c.simulation.block;
     const double contact = c.flat.separation - start; // displacement of the top plane
-    const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
-    const double yields = block.thickness * block.spacing / modulus; // deformation under a pressure
+    const double yields = block.thickness * block.spacing /
+                          block.modulus_of_compression(); // deformation under a pressure
     ExpectedPath path;
     path.time = c.simulation.drive.ramp * static_cast<double>(c.path().size() - 1); // turns
     double at = 0.0, pressure = 0.0;

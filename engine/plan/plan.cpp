@@ -163,8 +163,8 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     const BlockOptions& block = c.simulation.block;
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
     fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", c.scene.name,
-               block.sites, block.sites, c.edge(), block.thickness,
-               c.levels.size(), s(c.levels.size()));
+               block.sites, block.sites, c.edge(), block.thickness, c.levels.size(),
+               s(c.levels.size()));
     io::Table effects({"effect", "", "because"}, "<<<");
     for (const auto& [name, effect] : c.effects.list())
         effects.row({name, effect ? "on" : "off", effect.why});
@@ -223,13 +223,11 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
 void require_memory(const Case& c, const Communicator& ranks) {
     c.require_runnable();
     // The same on all ranks.
-    if (nodes_of(c.levels) <= small_nodes && c.sites() <= small_sites)
-        return;
+    if (nodes_of(c.levels) <= small_nodes && c.sites() <= small_sites) return;
     // Nor is anything made to be counted where several times what the fields of any run take is
     // there.
     const double fields = 4096.0 * c.sites() + 512.0 * nodes_of(c.levels);
-    if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5)
-        return;
+    if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5) return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
     const double needed = ranks.sum_on_machine(mine);
     const io::AvailableMemory there = io::available_memory();

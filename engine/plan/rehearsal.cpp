@@ -152,8 +152,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         below.emplace(heights, grid.tile(0), options.spacing, piece.simulation.interface);
     });
     std::optional<SpectralBlock> waves;
-    part(Piece::block,
-         [&] { waves.emplace(options, Communicator(), !piece.effects.lateral); });
+    part(Piece::block, [&] { waves.emplace(options, Communicator(), !piece.effects.lateral); });
     done.sites = sites;
     done.atoms = std::pow(piece.substrate(), 2) + static_cast<double>(heights.atoms.size());
     done.nodes = nodes_of(piece.levels);
@@ -214,8 +213,9 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     } catch (const io::PhysicsError&) { // for the run to tell
     }
     done.resting = now() - begun;
-    const VectorPlane<const double> layer =
-        piece.effects.dynamic ? std::as_const(*simulation).block().lowest_layer() : waves->lowest_layer();
+    const VectorPlane<const double> layer = piece.effects.dynamic
+                                                ? std::as_const(*simulation).block().lowest_layer()
+                                                : waves->lowest_layer();
     std::optional<io::PayloadWriter> record;
     if (piece.effects.maps)
         part(Piece::maps, [&] {

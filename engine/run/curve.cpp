@@ -36,8 +36,8 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 
 } // namespace
 
-void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
-                     double edge, double radius, io::Result& result) {
+void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments, double edge,
+                     double radius, io::Result& result) {
     if (!result.number("work_of_drive.pull_off")) return; // the pull-off did not come to its end
     /// Rows of the last segment of a kind, from the first to behind the last.
     const auto rows_of = [&](Segment::Kind kind) {
@@ -59,8 +59,8 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
     result.set("contact_radius.pull_off", edge * std::sqrt(fraction / std::numbers::pi));
     const auto averaged = [&](std::size_t from, std::size_t to, io::Key key) {
         if (const auto force = attraction_averaged(path, from, to))
-            result.set(key, units::milli_per_unit *
-                                theory::jkr::work_from_pull_off(*force, radius));
+            result.set(key,
+                       units::milli_per_unit * theory::jkr::work_from_pull_off(*force, radius));
     };
     averaged(in.first, in.second, "jkr.approach_averaged");
     averaged(out.first, out.second, "jkr.pull_off_averaged");

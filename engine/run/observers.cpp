@@ -97,9 +97,9 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
             {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
         return;
     }
-    const std::string where =
-        progress_phase(c, c.path()[path.segment()].text, now.force, now.in_contact, now.mean_height) +
-        (iteration > 0 ? ", relaxing" : "");
+    const std::string where = progress_phase(c, c.path()[path.segment()].text, now.force,
+                                             now.in_contact, now.mean_height) +
+                              (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
                      c.effects.dynamic ? now.time : 0.0,
                      way_done(c, path.reference_height(), path.segment(), now.top)});

@@ -94,15 +94,14 @@ void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
     if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.relaxed",
-                   c.edge() * std::sqrt(*fraction / std::numbers::pi));
+        result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
     if (!binding || pressed) return;
     const double energy = *binding / units::milli_per_unit * c.area();
     const double modulus = c.simulation.block.contact_modulus();
-    result.set("jkr.relaxed", units::milli_per_unit * theory::jkr::work_from_binding_energy(
-                                                          energy, *radius, modulus));
+    result.set("jkr.relaxed", units::milli_per_unit *
+                                  theory::jkr::work_from_binding_energy(energy, *radius, modulus));
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
@@ -200,8 +199,8 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
-    if (c.scene.interface.kind == InterfaceKind::atoms ||
-        c.scene.interface.law == WallLawKind::smeared)
+    const auto& wall = c.simulation.interface.wall;
+    if (!wall || !std::holds_alternative<ExponentialWall>(*wall))
         result.set("interface.cutoff", cutoff_of(c.simulation.interface.potential));
     result.set("run.ranks", c.ranks);
     result.set("run.threads", omp_get_max_threads());

@@ -135,9 +135,10 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             with_units(lost),
             c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
-        fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-                   c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
-                   c.effects.dynamic ? "" : "\n  = work of the drive on the pull-off - energy lost there");
+        fmt::print(
+            to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
+            c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
+            c.effects.dynamic ? "" : "\n  = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.effects.dynamic)
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
                        "surface: a jump of the\n  whole block does not change it, jumps of single "
@@ -161,7 +162,8 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
     for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {c.path()[s.number].text, energies(s.work), energies(s.lost)};
+        std::vector<std::string> row = {c.path()[s.number].text, energies(s.work),
+                                        energies(s.lost)};
         if (c.effects.branches) row.push_back(energies(s.relaxed));
         if (!c.effects.dynamic) row.push_back(energies(s.stored));
         row.insert(row.end(), {number(s.force / (c.area() * units::megapascal), 1),
@@ -201,9 +203,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
                io::number(c.edge(), 1));
     fmt::print(to, "  substrate   {}{}\n", surface_text(c, surface),
-               c.radius()
-                   ? fmt::format(", on a sphere of R = {:.6g} Å", *c.radius())
-                   : "");
+               c.radius() ? fmt::format(", on a sphere of R = {:.6g} Å", *c.radius()) : "");
     fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
                io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
@@ -238,8 +238,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
     const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;
-    const std::string at =
-        loaded ? fmt::format("under {:.6g} MPa", c.load_in_megapascal()) : std::string("at zero load");
+    const std::string at = loaded ? fmt::format("under {:.6g} MPa", c.load_in_megapascal())
+                                  : std::string("at zero load");
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
                  interface_in = of("work_of_interface.approach"),
                  interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");

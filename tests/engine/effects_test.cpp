@@ -44,7 +44,7 @@ TEST(Effects, EachIsSwitchedByItsKey) {
         const char *on, *off;
     };
     for (const Row& row :
-         {Row{&Effects::inertia, plain, "", "drive.path=relax"},
+         {Row{&Effects::dynamic, plain, "", "drive.path=relax"},
           {&Effects::lateral, rest, "", "interface.frictionless=true"},
           {&Effects::damping, plain, "", "drive.damping=0"},
           {&Effects::temperature, plain, "drive.temperature=100", ""},
@@ -80,7 +80,7 @@ TEST(Effects, OffMakesNoCall) {
                         "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
                state = {"block.thickness=16", "drive.path=relax"};
     const std::vector<Trace> traces = {
-        {&Effects::inertia,
+        {&Effects::dynamic,
          {"block.thickness=16", "drive.max_steps=20"},
          "",
          "drive.mode=quasistatic",
