@@ -156,14 +156,13 @@ TEST(Scene, Paths) {
         read_case_text("drive.path = [\"approach\", \"load 1 GPa\", \"height 1.2 nm\", "
                        "\"slide y -5\", \"hold 20 ps\", \" pull-off \"]",
                        "s.toml");
-    ASSERT_EQ(guided.path.size(), 6u);
-    EXPECT_EQ(guided.path[1].amount, 1000.0);
-    EXPECT_EQ(guided.path[2].amount, 12.0);
-    EXPECT_EQ(guided.path[3].amount, -5.0);
-    EXPECT_EQ(guided.path[3].axis, 1);
-    EXPECT_EQ(guided.path[4].amount, 20.0);
-    EXPECT_EQ(guided.path[5].kind, Segment::pull_off);
-    EXPECT_EQ(guided.simulation.drive.path[4].amount, 20000.0) << "fs";
+    ASSERT_EQ(guided.path().size(), 6u);
+    EXPECT_EQ(guided.path()[1].amount, 1000.0 * units::megapascal * guided.area()) << "eV/Å";
+    EXPECT_EQ(guided.path()[2].amount, 12.0);
+    EXPECT_EQ(guided.path()[3].amount, -5.0);
+    EXPECT_EQ(guided.path()[3].axis, 1);
+    EXPECT_EQ(guided.path()[4].amount, 20000.0) << "fs";
+    EXPECT_EQ(guided.path()[5].kind, Segment::pull_off);
     EXPECT_TRUE(guided.effects.sliding);
 }
 
