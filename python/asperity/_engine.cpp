@@ -96,7 +96,7 @@ py::object arrays_of(SteppedPath& path, const std::optional<SteppedPath::View>& 
     const auto one = [&](const PlaneView<double>& plane) {
         return array_of(plane, path.lease(), writable);
     };
-    return py::module_::import("asperity.engine")
+    return py::module_::import("asperity.running.engine")
         .attr("Components")(one(view->x), one(view->y), one(view->z));
 }
 
