@@ -45,8 +45,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
 }
 
 Effect dynamic_effect(const Case& c) {
-    if (c.scene.drive.mode == DriveMode::dynamic && !c.has(Segment::relax))
-        return {true, "the path is dynamic"};
+    if (c.scene.is_dynamic()) return {true, "the path is dynamic"};
     return {false, "a state of force balance: " + key_of_rest(c)};
 }
 

@@ -49,6 +49,9 @@ using EachPotential = decltype(one_of_each(PairPotential()));
 /// Prefix of an entry of output.fields: "after-approach:140", 140 ps after the end of the approach.
 inline constexpr std::string_view after_approach = "after-approach:";
 
+/// Bounds of the numbers of sites and layers.
+inline constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
+
 /// A scene, with one struct for each section.
 struct Scene {
     struct Surface {
@@ -146,6 +149,10 @@ struct Scene {
     std::string name = "scene"; ///< the file's name without folder and ending
     io::Positions positions;
 
+    /// Returns true if the path is dynamic: time steps, not equilibria.
+    bool is_dynamic() const;
+    /// Returns true if the path is one relaxation.
+    bool only_relaxes() const;
     /// Returns the edge of the box, Å
     double edge() const { return surface.sites * surface.spacing; }
     /// Returns an empty list of problems with this scene's positions.
@@ -154,11 +161,14 @@ struct Scene {
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
 
-/// Returns the keys of the parameters of potentials, each with the potential's name.
-std::vector<std::pair<std::string, std::string>> keys_of_potentials();
-
 /// Returns every key, bound to the fields of this scene (which must outlive the schema).
 io::Schema bind(Scene& scene);
+
+/// Adds the keys whose values are refused for want of what they need (the column `needs` of
+/// bind()).
+void refuse_unmet_needs(const Scene& scene, io::Problems& problems);
+/// Returns notes on the keys that are set and have no effect, one sentence for each reason.
+std::vector<std::string> notes_on_idle_keys(const Scene& scene);
 
 /// Reads the keys of a scene. Overrides are "section.key=value". Throws io::SceneError with the
 /// mistakes in single keys; resolve() (engine/case/case.hpp) checks the keys together.

@@ -288,7 +288,7 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
     EXPECT_TRUE(said(still + "drive.temperature = 300", "drive.temperature has no effect"));
     EXPECT_TRUE(said(still + "drive.velocity = 2\ndrive.timestep = 20\nblock.model = \"lattice\"",
-                     "drive.velocity, drive.timestep and block.model have no effect"));
+                     "block.model, drive.velocity and drive.timestep have no effect"));
     EXPECT_FALSE(said(still + "drive.displacement_step = 0.1", "has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));
