@@ -26,7 +26,10 @@ std::string convert_first(const std::string& file) {
         return name.find_first_of(" '\"\\$&;()<>*?[]|`!#~") == std::string::npos ? name
                                                                                  : "'" + name + "'";
     };
-    const std::string out = std::filesystem::path(file).stem().string() + ".h5";
+    const std::string stem = std::filesystem::path(file).stem().string();
+    std::error_code error;
+    const bool taken = std::filesystem::exists(stem + ".h5", error); // by the file itself, perhaps
+    const std::string out = stem + (taken ? "-converted.h5" : ".h5");
     return fmt::format("convert it first: asperity convert {} {}", quoted(file), quoted(out));
 }
 

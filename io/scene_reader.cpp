@@ -45,9 +45,13 @@ Problem out_of_range(const Range& range, std::string_view unit, bool other_unit 
 }
 
 Problem no_such_choice(const std::string& word, const Words& choices) {
-    const std::string near = nearest(word, choices);
+    const std::string near = nearest(word.substr(0, word.find(':') + 1), choices),
+                      other = near.empty() ? nearest(word, choices) : near;
     return {"", "is none of its choices", "choices: " + quoted_choices(choices),
-            near.empty() ? "take one of them" : fmt::format("did you mean \"{}\"?", near)};
+            other.empty() ? "take one of them"
+            : other.ends_with(':')
+                ? fmt::format("write a number from 1 on behind it: \"{}1000\"", other)
+                : fmt::format("did you mean \"{}\"?", other)};
 }
 
 /// Returns true if a member of a list is one of the choices, or a choice ending in ':' with a

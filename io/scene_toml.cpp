@@ -122,7 +122,10 @@ std::string shown(const toml::node& node) {
 }
 
 /// Returns advice on the probable intention of a line with a syntax error.
-std::string syntax_advice(std::string_view text, int line_number) {
+std::string syntax_advice(std::string_view text, int line_number, const std::string& why) {
+    if (why.find("array") != why.npos)
+        return "a list stands in one pair of [brackets], its members between commas: one before "
+               "this place is not closed";
     std::istringstream lines{std::string(text)};
     std::string line;
     for (int i = 0; i < line_number && std::getline(lines, line); ++i) {
@@ -166,7 +169,7 @@ public:
             add(at, "this is no TOML", why,
                 why.find("redefine") != why.npos
                     ? "a section stands in one place, and a key once in it"
-                    : syntax_advice(text, at.line));
+                    : syntax_advice(text, at.line, why));
             return;
         }
         for (const auto& [name, node] : root)

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
@@ -73,15 +72,7 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
             maps.after_approach.emplace_back(std::stod(field.substr(after_approach.size())), field);
         if (field.starts_with(every)) {
             kind = every;
-            long long n = 0;
-            const char* end = field.data() + field.size();
-            const auto [stop, error] = std::from_chars(field.data() + every.size(), end, n);
-            if (error == std::errc() && stop == end && n > 0)
-                maps.every = n;
-            else
-                problems.add("output.fields", "has an \"every:\" without a number of steps",
-                             "maps are written every so many steps (points of a quasi-static path)",
-                             "for example fields = [\"relaxed\", \"every:1000\"]");
+            maps.every = std::stoll(field.substr(every.size()));
         }
         if (std::find(kinds.begin(), kinds.end(), kind) != kinds.end())
             problems.add("output.fields", fmt::format("has \"{}\" twice", kind),

@@ -71,9 +71,13 @@ void LedPath::set_load(double pressure) {
 
 void LedPath::set_hold(double time) {
     if (!case_.effects.branches)
-        refuse("hold", "has no effect on this block",
-               "it does not relax, so that force balance does not change with time",
-               "give the block branches (block.prony)");
+        refuse(
+            "hold", "has no effect on this block",
+            "it does not relax, so that force balance does not change with time",
+            case_.scene.block.prony.empty()
+                ? "give the block branches (block.prony)"
+                : "take drive.path = [\"approach\"] in the scene: of one relaxation the state is "
+                  "the relaxed one");
     if (!(time > 0.0) || !std::isfinite(time))
         refuse("hold", fmt::format("for {} ps", time), "a time is above 0 ps", "give one");
     target_ = {.hold = time * units::picosecond};
@@ -181,7 +185,7 @@ void LedPath::restore(const State& state) {
             extensions += branch.size() * state.u.size() / 3;
     if (!state.branches.empty() && state.branches.size() != extensions)
         refuse("restore", "of a state with other branches", "the scene has another block.prony",
-               "give a state of this scene, or State(u, top), which has relaxed");
+               "give a state of this scene, or asperity.State(u, top), which has relaxed");
     if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
         !std::isfinite(state.top))
         refuse("restore", "of displacements that are no numbers", "no state follows from them",

@@ -29,8 +29,6 @@ auto with_scene_errors(const F& work) {
         throw io::SceneError(io::Problem{
             "theory", error.what(), "the scene's keys lead there",
             "look at [surface] (rms, rolloff, q_max), [block] (young, poisson) and [theory]"});
-    } catch (const theory::NoSolution& error) {
-        throw io::SceneError(io::Problem{"theory", error.what(), "", "try another drive.load"});
     }
 }
 

@@ -25,12 +25,13 @@ from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneE
 if TYPE_CHECKING:
     from .forms import Adhesion, Estimate, Result, Sweep, adhesion, estimate, load, load_estimate, load_sweep, run, sweep
     from .running.engine import Simulation as Simulation
+    from .running.engine import State as State
     from .running.engine import Statics as Statics
     from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
                           "load_sweep", "run", "sweep"), ".forms"),
-         "Simulation": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
+         "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",

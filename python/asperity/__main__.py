@@ -18,6 +18,7 @@ from pathlib import Path
 
 from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .running import program
+from .running.scene import STANDARD_INPUT, scene_file
 from .terminal import launched
 
 EXIT = "Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, 75 stopped early."
@@ -265,7 +266,11 @@ def main(words: list[str]) -> int:
             program.refuse_ranks()
         given = argparse.Namespace(command=words[0])
         commands[words[0]].parse_intermixed_args(_spelt_out(words[1:]), given)  # options and scenes in any order
-        return _carry_out(given)
+        with contextlib.ExitStack() as piped:  # what is piped in is read once: commands start the program several times
+            if STANDARD_INPUT in getattr(given, "words", []):
+                file = piped.enter_context(scene_file(STANDARD_INPUT))
+                given.words = [file if word == STANDARD_INPUT else word for word in given.words]
+            return _carry_out(given)
     except Error as error:
         if leads and rank != 0:
             return _after_the_first(error.code)

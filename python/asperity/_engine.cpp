@@ -516,16 +516,17 @@ PYBIND11_MODULE(_engine, m) {
             "restore",
             [](LedPath& s, const py::object& state) {
                 if (!py::isinstance<State>(state))
-                    throw io::SceneError({"restore", "is given " + given_text(state),
-                                          "it takes a State, where the sites stand",
-                                          "give what copy() returned, or State(u, top)"});
+                    throw io::SceneError(
+                        {"restore", "is given " + given_text(state),
+                         "it takes a State, where the sites stand",
+                         "give what copy() returned, or asperity.State(u, top)"});
                 s.restore(state.cast<const State&>());
             },
             py::arg("state"),
             "Puts the sites into a state. The next relax() begins a path in it: work, dissipated "
             "and "
             "number count anew.\n\n"
-            "Parameters\n----------\nstate : State\n    Result of copy(), or State(u, top).\n\n"
+            "Parameters\n----------\nstate : State\n    Result of copy(), or asperity.State(u, top).\n\n"
             "Raises\n------\nSceneError\n    If the state has another number of sites, or values "
             "that are not finite.")
         .def(

@@ -19,6 +19,8 @@ from ..errors import Error, SceneError
 
 SceneLike = Union[str, Path, Mapping[str, Any]]
 Overrides = Union[Mapping[str, Any], list]
+STANDARD_INPUT = "-"
+"""Name by which a command line asks for the standard input."""
 
 
 def toml_value(value: Any) -> str:
@@ -107,15 +109,20 @@ def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None =
 
 @contextlib.contextmanager
 def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
-    if not isinstance(scene, Mapping):
+    piped = str(scene) == STANDARD_INPUT
+    if not isinstance(scene, Mapping) and not piped:
         yield str(scene)
         return
-    sections = {key: value for key, value in scene.items() if key != "name"}
+    if piped:  # once: the commands start the program several times
+        name, text = "stdin", sys.stdin.read()
+    else:
+        name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})
     with tempfile.TemporaryDirectory(prefix="asperity-", dir=folder or None) as directory:
-        file = Path(directory) / f"{scene.get('name', 'scene')}.toml"
-        file.write_text(toml_of(sections), encoding="utf-8")
+        file = Path(directory) / f"{name}.toml"
+        file.write_text(text, encoding="utf-8")
         try:
             yield str(file)
         except Error as error:  # the caller has not seen this file
-            error.args = tuple(re.sub(re.escape(str(file)) + r"(:\d+)*", _caller(), str(a)) for a in error.args)
+            place = re.escape(str(file)) + ("" if piped else r"(:\d+)*")
+            error.args = tuple(re.sub(place, "stdin" if piped else _caller(), str(a)) for a in error.args)
             raise
