@@ -26,7 +26,7 @@ namespace {
 /// For states and paths of pieces, s.
 constexpr double rehearsal_seconds = 1.5;
 /// Sites across the largest piece and the smallest.
-constexpr int most_sites = 256, least_sites = 16;
+constexpr int widest_piece = 256, least_sites = 16;
 /// A run of no more nodes and sites than these fits anywhere.
 constexpr double small_nodes = 2e5, small_sites = 65536.0;
 /// Typical: highest point of a surface over its rms height; power of the width by which states and
@@ -52,7 +52,7 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
         ++halvings;
     std::vector<Piece> pieces;
     double left = rehearsal_seconds;
-    for (; halvings >= 0 && sites >> halvings <= most_sites; --halvings) {
+    for (; halvings >= 0 && sites >> halvings <= widest_piece; --halvings) {
         // Twice the width takes four to eight times as long.
         if (!pieces.empty() && 5.0 * (pieces.back().making + pieces.back().resting) > left) break;
         const Piece piece = rehearse(c, sites >> halvings, left, of_file, atoms);
@@ -107,7 +107,7 @@ Plan make_plan(const Case& c, int threads) {
     const int threads_here = omp_get_max_threads();
     omp_set_num_threads(1);
     int sites = block.sites;
-    while (sites > most_sites &&
+    while (sites > widest_piece &&
            sites / 2.0 * block.spacing >= 2.0 * c.simulation.interface.pairs().cutoff)
         sites /= 2;
     const Piece room = rehearse(c, sites, 0.0, surface, atoms);

@@ -74,7 +74,7 @@ void LedPath::set_hold(double time) {
         refuse(
             "hold", "has no effect on this block",
             "it does not relax, so that force balance does not change with time",
-            case_.scene.block.prony.empty()
+            case_.simulation.block.branches.empty()
                 ? "give the block branches (block.prony)"
                 : "take drive.path = [\"approach\"] in the scene: of one relaxation the state is "
                   "the relaxed one");
