@@ -78,9 +78,14 @@ struct Store {
     }
 
     Problem wrong_type(const std::string& needed, const std::string& example) const {
-        static constexpr const char* types[] = {
-            "a value of another form", "true or false", "a whole number", "a number", "a string",
-            "a list of strings"};
+        static constexpr const char* types[] = {"a value of another form",
+                                                "true or false",
+                                                "a whole number",
+                                                "a number",
+                                                "a string",
+                                                "a list of strings",
+                                                "a list of lists of another length"};
+        static_assert(std::size(types) == std::variant_size_v<Schema::Value>);
         return {
             "", "is of the wrong type",
             fmt::format("{} is needed, this is {}", needed, types[value.index()]),
@@ -237,32 +242,43 @@ struct Store {
         return {};
     }
 
-    Problem operator()(Schema::Pairs* field) const {
-        const auto* list = as<Schema::RawPairs>();
+    Problem operator()(const Schema::Rows& field) const {
+        const auto* list = as<Schema::RawRows>();
         const auto* none = as<Words>(); // an empty list may be of anything
-        if (!list && !(none && none->empty()))
-            return wrong_type("a list of pairs [number, quantity]",
-                              fmt::format("[[0.5, {}]]", example_of(key.unit)));
-        Schema::Pairs pairs;
-        for (std::size_t i = 0; list && i < list->size(); ++i) {
-            const auto& [first, second] = (*list)[i];
-            double quantity = 0.0;
-            const Schema::Value raw = std::holds_alternative<double>(second)
-                                          ? Schema::Value(std::get<double>(second))
-                                          : Schema::Value(std::get<std::string>(second));
-            Problem problem = Store{key, raw}(&quantity);
-            double number = 0.0;
-            if (problem.what.empty()) {
-                const Key bare{.name = key.name, .field = &number, .doc = {}, .range = key.range};
-                problem = Store{bare, Schema::Value(first)}(&number);
+        const std::size_t columns = field.columns.size();
+        const auto of_another_width = [&](const auto& row) { return row.size() != columns; };
+        if ((!list && !(none && none->empty())) ||
+            (list && std::any_of(list->begin(), list->end(), of_another_width))) {
+            std::string names, example;
+            for (const Schema::Column& column : field.columns) {
+                names += (names.empty() ? "" : ", ") + column.name;
+                example += (example.empty() ? "" : ", ") + column.example;
             }
-            if (!problem.what.empty()) {
-                problem.what = fmt::format("in pair {} {}", i + 1, problem.what);
-                return problem;
-            }
-            pairs.emplace_back(number, quantity);
+            return wrong_type("a list of [" + names + "]", "[[" + example + "]]");
         }
-        *field = std::move(pairs);
+        std::vector<std::vector<double>> rows;
+        for (std::size_t i = 0; list && i < list->size(); ++i) {
+            rows.emplace_back(columns);
+            for (std::size_t c = 0; c < columns; ++c) {
+                const Schema::Column& column = field.columns[c];
+                double number = 0.0;
+                const Key one{.name = key.name,
+                              .field = &number,
+                              .doc = {},
+                              .unit = column.unit,
+                              .range = column.range};
+                const Schema::Value raw =
+                    std::visit([](const auto& v) { return Schema::Value(v); }, (*list)[i][c]);
+                Problem problem = Store{one, raw}(&number);
+                if (!problem.what.empty()) {
+                    problem.what =
+                        fmt::format("in row {}, {}, {}", i + 1, column.name, problem.what);
+                    return problem;
+                }
+                rows.back()[c] = number;
+            }
+        }
+        field.set(rows);
         return {};
     }
 };
@@ -270,6 +286,7 @@ struct Store {
 struct Load {
     const Key& key;
     Json operator()(const Choice& field) const { return key.choices.at(field.get()); }
+    Json operator()(const Schema::Rows& field) const { return field.get(); }
     template <class T>
     Json operator()(std::optional<T>* field) const {
         return *field ? Json(**field) : Json(key.word);
@@ -297,6 +314,15 @@ std::string toml_value(const Json& value) {
     return "[" + text + "]";
 }
 
+/// Returns the allowed rows: each column's name and range.
+std::string rows_allowed(const Schema::Rows& rows) {
+    std::string text;
+    for (const Schema::Column& column : rows.columns)
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", column.name,
+                            column.range.text(column.unit));
+    return "list of [" + text + "]";
+}
+
 /// Returns the allowed values: a range with its unit, or choices, or a kind.
 std::string allowed(const Key& key, const std::string& quote) {
     std::string text = quoted_choices(key.choices, " | ", quote);
@@ -305,7 +331,7 @@ std::string allowed(const Key& key, const std::string& quote) {
     const bool limited = std::isfinite(key.range.low) || std::isfinite(key.range.high);
     text = kind == "boolean"   ? "true | false"
            : kind == "number"  ? key.range.text(key.unit)
-           : kind == "pairs"   ? "list of [number, quantity], each " + key.range.text(key.unit)
+           : kind == "rows"    ? rows_allowed(std::get<Schema::Rows>(key.field))
            : kind != "integer" ? "text"
            : limited           ? "whole number, " + key.range.text("")
                                : "whole number";
@@ -363,7 +389,7 @@ const Key* Schema::find(std::string_view path) const {
 
 std::string Key::kind() const {
     static constexpr const char* kinds[] = {"boolean", "integer", "integer", "integer", "number",
-                                            "number",  "text",    "choice",  "list",    "pairs"};
+                                            "number",  "text",    "choice",  "list",    "rows"};
     static_assert(std::size(kinds) == std::variant_size_v<Schema::Field>);
     return kinds[field.index()];
 }

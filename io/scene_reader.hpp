@@ -17,6 +17,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <map>
@@ -92,22 +95,32 @@ struct Variation {
 class Schema {
 public:
     using Words = std::vector<std::string>;
-    /// List of pairs of a number and a quantity, the latter in the key's unit.
-    using Pairs = std::vector<std::pair<double, double>>;
-    /// List of pairs as it stands in a scene.
-    using RawPairs = std::vector<std::pair<double, std::variant<double, std::string>>>;
+    /// List of rows as it stands in a scene: numbers, and quantities in quotes.
+    using RawRows = std::vector<std::vector<std::variant<double, std::string>>>;
 
     /// Value as it stands in a scene, before it is bound. Empty: of a type that no key has.
     using Value =
-        std::variant<std::monostate, bool, long long, double, std::string, Words, RawPairs>;
+        std::variant<std::monostate, bool, long long, double, std::string, Words, RawRows>;
 
     /// Field of an enumeration, set and read by the index of its word.
     struct Choice {
         std::function<void(std::size_t)> set;
         std::function<std::size_t()> get;
     };
+    /// Column of a list of rows: the name of its quantity, its unit ("": a bare number) and range.
+    struct Column {
+        std::string name, unit;
+        Range range;
+        std::string example; ///< a value of it, as it stands in a scene
+    };
+    /// List of rows with a value for each column, in the columns' units.
+    struct Rows {
+        std::vector<Column> columns;
+        std::function<void(const std::vector<std::vector<double>>&)> set;
+        std::function<std::vector<std::vector<double>>()> get;
+    };
     using Field = std::variant<bool*, int*, long long*, std::optional<long long>*, double*,
-                               std::optional<double>*, std::string*, Choice, Words*, Pairs*>;
+                               std::optional<double>*, std::string*, Choice, Words*, Rows>;
 
     /// State of other keys without which a key has no effect, or is refused.
     struct Need {
@@ -142,7 +155,7 @@ public:
         std::vector<Need> needs{};
 
         std::string path() const { return section + "." + name; }
-        std::string kind() const; ///< returns boolean, integer, number, text, choice, list or pairs
+        std::string kind() const; ///< returns boolean, integer, number, text, choice, list or rows
         bool written() const { return !omitted || !omitted(); }
         /// Returns the first need that is not met; nullptr if all are.
         const Need* unmet_need() const;
@@ -196,9 +209,22 @@ public:
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .choices = choices});
     }
-    /// Adds a key that is a list of pairs [number, quantity]; the range is that of both.
-    Key& pairs(std::string name, Pairs& field, std::string unit, Range range, std::string doc) {
-        return add({name, &field, doc, unit, range});
+    /// Adds a key that is a list of rows of quantities: layers = [["2 nm", "10 GPa", 0.3]].
+    template <std::size_t N>
+    Key& rows(std::string name, std::vector<std::array<double, N>>& field,
+              const std::array<Column, N>& columns, std::string doc) {
+        const auto set = [&field](const std::vector<std::vector<double>>& rows) {
+            field.resize(rows.size());
+            for (std::size_t i = 0; i < rows.size(); ++i)
+                std::copy(rows[i].begin(), rows[i].end(), field[i].begin());
+        };
+        const auto get = [&field] {
+            std::vector<std::vector<double>> rows;
+            for (const std::array<double, N>& row : field)
+                rows.emplace_back(row.begin(), row.end());
+            return rows;
+        };
+        return add({name, Rows{{columns.begin(), columns.end()}, set, get}, doc});
     }
     /// Adds a key that is an enumeration, by its names.
     template <class E>

@@ -80,21 +80,24 @@ Schema::Value value_of(const toml::node& node) {
     const auto* array = node.as_array();
     if (!array) return {};
     Schema::Words list;
-    Schema::RawPairs pairs;
+    Schema::RawRows rows;
     for (const toml::node& member : *array) {
-        const auto* pair = member.as_array();
         if (const auto* text = member.as_string()) {
             list.push_back(text->get());
-        } else if (pair && pair->size() == 2 && (*pair)[0].is_number()) {
-            const double number = *(*pair)[0].value<double>();
-            if ((*pair)[1].is_number())
-                pairs.emplace_back(number, *(*pair)[1].value<double>());
-            else if (const auto* quantity = (*pair)[1].as_string())
-                pairs.emplace_back(number, quantity->get());
+        } else if (const auto* row = member.as_array()) {
+            rows.emplace_back();
+            for (const toml::node& cell : *row) {
+                if (const auto number = cell.value<double>(); number && cell.is_number())
+                    rows.back().emplace_back(*number);
+                else if (const auto* quantity = cell.as_string())
+                    rows.back().emplace_back(quantity->get());
+                else
+                    return {};
+            }
         }
     }
     if (list.size() == array->size()) return list;
-    if (pairs.size() == array->size()) return pairs;
+    if (rows.size() == array->size()) return rows;
     return {};
 }
 
@@ -103,12 +106,16 @@ std::string cut(std::string text) {
     return text;
 }
 
-/// Returns the value approximately as the user wrote it, for messages; long ones are cut.
-std::string shown(const toml::node& node) {
+/// Returns the value approximately as the user wrote it.
+std::string as_written(const toml::node& node) {
     std::ostringstream text;
     if (node.is_table())
         text << "{...}";
-    else
+    else if (const auto* list = node.as_array()) {
+        for (const toml::node& member : *list)
+            text << (&member == &list->front() ? "" : ", ") << as_written(member);
+        return "[" + text.str() + "]";
+    } else
         node.visit([&](const auto& value) {
             if constexpr (toml::is_floating_point<decltype(value)>)
                 text << fmt::format("{}", *value); // 0.6, of which TOML++ makes 0.59999999999999998
@@ -118,8 +125,11 @@ std::string shown(const toml::node& node) {
     std::string result = text.str();
     std::replace(result.begin(), result.end(), '\n', ' ');
     if (result.size() >= 2 && result.front() == '\'') result.front() = result.back() = '"';
-    return cut(std::move(result));
+    return result;
 }
+
+/// Returns the value approximately as the user wrote it, for messages; long ones are cut.
+std::string shown(const toml::node& node) { return cut(as_written(node)); }
 
 /// Returns advice on the probable intention of a line with a syntax error.
 std::string syntax_advice(std::string_view text, int line_number, const std::string& why) {

@@ -135,7 +135,7 @@ constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"MPa", "\"1 kPa\""},      {"m/s", "\"5 m/s\""},      {"fs", "\"0.01 ps\""},
     {"ps", "\"20 ps\""},       {"1/ps", "\"0.05 1/ps\""}, {"K", "\"300 K\""},
     {"u", "\"197 u\""},        {"s", "\"10 min\""},       {"meV/Å^2", "\"1.6 J/m^2\""},
-    {"eV/Å", "\"0.1 meV/Å\""},
+    {"eV/Å", "\"0.1 meV/Å\""}, {"N/m", "\"30 mN/m\""},
 };
 
 /// Names of the dimensions.

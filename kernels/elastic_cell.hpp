@@ -49,6 +49,7 @@ namespace asperity {
 struct CellElasticity {
     double k = 0.0;     ///< spring constant mu s, eV/Å^2
     double kappa = 0.0; ///< (lambda - mu) s / 16, eV/Å^2
+    bool operator==(const CellElasticity&) const = default;
 };
 
 /// Cells that a plane of nodes belongs to: above it (lower face), on both sides, or below it.

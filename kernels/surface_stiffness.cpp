@@ -82,32 +82,54 @@ WavePhase wave_phase(int n, int sites) {
     return {std::cos(phase), std::sin(phase)};
 }
 
-SurfaceMatrix surface_stiffness(CellElasticity elasticity, WavePhase x, WavePhase y,
-                                int thickness) {
+namespace {
+
+SurfaceMatrix uniform_stiffness(std::span<const CellLayer> layers) {
+    const auto in_series = [](double below, double above) {
+        return above == 0.0 ? below : below * above / (below + above);
+    };
+    double shear = 0.0, normal = 0.0; // stiffness of the layers above
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        // k = mu a, 16 kappa = (lambda - mu) a.
+        const CellElasticity& e = layers[i].elasticity;
+        shear = in_series(e.k / layers[i].cells, shear);
+        normal = in_series((16.0 * e.kappa + 3.0 * e.k) / layers[i].cells, normal);
+    }
+    return {shear, shear, normal, 0.0, 0.0, 0.0};
+}
+
+} // namespace
+
+SurfaceMatrix surface_stiffness(std::span<const CellLayer> layers, WavePhase x, WavePhase y) {
     // (2 sin(p/2))^2 for both directions: (q a)^2 of long waves.
     const double wave2 = 2.0 * (1.0 - x.cosine) + 2.0 * (1.0 - y.cosine);
-    if (wave2 == 0.0) {
-        // k = mu a, 16 kappa = (lambda - mu) a.
-        const double shear = elasticity.k / thickness;
-        const double normal = (16.0 * elasticity.kappa + 3.0 * elasticity.k) / thickness;
-        return {shear, shear, normal, 0.0, 0.0, 0.0};
-    }
-    const SurfaceMatrix a = own(make_stencil(elasticity, Face::lower), x, y);
-    const SurfaceMatrix d = own(make_stencil(elasticity, Face::upper), x, y);
-    const Coupling b = coupling(make_stencil(elasticity, Face::inner), x, y);
+    if (wave2 == 0.0) return uniform_stiffness(layers);
 
     // Long waves: exp(-2 q depth) < 1e-20, beyond which only rounding is added. Short ones, which
-    // decay at the lattice's own rate: the last layer's share, summed as if the rest decayed as
+    // decay at the lattice's own rate: the last cell's share, summed as if the rest decayed as
     // slowly as exp(-2 q a).
     const double wave = std::sqrt(wave2);
     const double enough = 24.0 / wave + 24.0;
-    const int layers = enough < thickness ? static_cast<int>(enough) : thickness;
-    SurfaceMatrix s = a;
-    for (int layer = 1; layer < layers; ++layer) {
-        const SurfaceMatrix next = difference(a, sandwich(b, inverse(sum(d, s))));
-        const double change = largest(difference(next, s));
-        s = next;
-        if (change <= 1e-17 * std::min(1.0, wave) * largest(s)) break;
+    double depth = 0.0; // depth of the lower side of layer i, in cells
+    for (const CellLayer& layer : layers)
+        depth += layer.cells;
+    bool clamped = true; // true if the cell touches the top plane
+    SurfaceMatrix s;
+    for (std::size_t i = layers.size(); i-- > 0;) {
+        depth -= layers[i].cells;
+        if (!(depth < enough)) continue;
+        const CellElasticity& elasticity = layers[i].elasticity;
+        const SurfaceMatrix a = own(make_stencil(elasticity, Face::lower), x, y);
+        const SurfaceMatrix d = own(make_stencil(elasticity, Face::upper), x, y);
+        const Coupling b = coupling(make_stencil(elasticity, Face::inner), x, y);
+        const double cells = std::min(enough - depth, static_cast<double>(layers[i].cells));
+        for (int cell = 1; cell <= cells || clamped; ++cell) {
+            const SurfaceMatrix next = clamped ? a : difference(a, sandwich(b, inverse(sum(d, s))));
+            const double change = clamped ? largest(a) : largest(difference(next, s));
+            clamped = false;
+            s = next;
+            if (change <= 1e-17 * std::min(1.0, wave) * largest(s)) break;
+        }
     }
     return s;
 }

@@ -10,6 +10,9 @@
 //
 //     S_1 = a,      S_(k+1) = a - b (d + S_k)^-1 b^T,      S = S_thickness.
 //
+// In a block of layers each cell has the a, b and d of its own material, and a plane between two
+// materials has what each side gives it: a from above, d from below.
+//
 // Why six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
 // plane components and within z, and odd where it couples z with x or y: its filters are cosines,
 // sin sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
@@ -30,7 +33,15 @@
 
 #include "kernels/elastic_cell.hpp"
 
+#include <span>
+
 namespace asperity {
+
+/// Layer of cells of one material.
+struct CellLayer {
+    CellElasticity elasticity;
+    int cells = 0; ///< thickness in cells of edge a
+};
 
 /// A real symmetric matrix on (u_x, u_y, i u_z); a stiffness has eV/Å^2 for each site.
 struct SurfaceMatrix {
@@ -46,9 +57,11 @@ struct WavePhase {
 /// Returns the phase of wave n on this many sites.
 WavePhase wave_phase(int n, int sites);
 
-/// Returns S at the phases along x and y, eV/Å^2. The uniform mode (both sines zero and both
-/// cosines one) is exact: shear mu a / thickness, normal (lambda + 2 mu) a / thickness.
-SurfaceMatrix surface_stiffness(CellElasticity elasticity, WavePhase x, WavePhase y, int thickness);
+/// Returns S at the phases along x and y, eV/Å^2, of a block of layers in the order from its lowest
+/// plane upwards; the plane above the last one is clamped. The uniform mode (both sines zero and
+/// both cosines one) is exact: of a layer shear mu a / cells, normal (lambda + 2 mu) a / cells, and
+/// the layers are springs in series.
+SurfaceMatrix surface_stiffness(std::span<const CellLayer> layers, WavePhase x, WavePhase y);
 
 /// Returns the inverse of a positive matrix.
 ASPERITY_INLINE SurfaceMatrix inverse(const SurfaceMatrix& s) {

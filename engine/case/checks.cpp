@@ -88,6 +88,40 @@ void check_path(const Case& c, io::Problems& problems) {
     }
 }
 
+/// Checks the layers and the surface stress of the block.
+void check_layers(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
+    const auto& block = scene.block;
+    if (block.surface_stress > 0.0 && !block.prony.empty())
+        problems.add("block.surface_stress",
+                     fmt::format("= {:.6g} N/m with block.prony", block.surface_stress),
+                     "branches relax the whole stiffness of a wave, and the tension of a surface "
+                     "does not relax",
+                     "leave surface_stress or prony out");
+    double sum = 0.0;
+    for (std::size_t i = 0; i < block.layers.size(); ++i) {
+        const double thickness = block.layers[i][0], spacing = scene.surface.spacing;
+        if (thickness < 0.5 * spacing) {
+            problems.add(
+                "block.layers", fmt::format("has a layer {} of {:.4g} Å", i + 1, thickness),
+                fmt::format("a lattice layer is {:.4g} Å thick (surface.spacing)", spacing),
+                "take a thicker layer or a smaller surface.spacing");
+            return;
+        }
+        sum += std::round(thickness / spacing);
+    }
+    if (!block.layers.empty() && sum >= block.thickness)
+        problems.add(
+            "block.layers",
+            fmt::format("are {:.6g} lattice layers thick, {:.4g} Å", sum,
+                        sum * scene.surface.spacing),
+            fmt::format("the block has {} (block.thickness), and its own material is above "
+                        "its layers",
+                        block.thickness),
+            fmt::format("take block.thickness = {:.0f} or more, or thinner layers",
+                        sum + std::max(1.0, 0.5 * scene.surface.sites)));
+}
+
 /// Checks what a substrate of atoms anywhere cannot have.
 void check_atoms(const Scene& scene, io::Problems& problems) {
     const Scene::Interface& interface = scene.interface;
@@ -191,12 +225,12 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "take kind = \"flat\", or leave rms out to take the map as it is");
     const auto& prony = scene.block.prony;
     for (std::size_t i = 1; i < prony.size(); ++i)
-        if (prony[i].second <= prony[i - 1].second)
-            problems.add(
-                "block.prony",
-                fmt::format("has {:.6g} ps after {:.6g} ps", prony[i].second, prony[i - 1].second),
-                "the relaxation times are to grow from branch to branch",
-                "write the branches in the order of their times, each time once");
+        if (prony[i][1] <= prony[i - 1][1])
+            problems.add("block.prony",
+                         fmt::format("has {:.6g} ps after {:.6g} ps", prony[i][1], prony[i - 1][1]),
+                         "the relaxation times are to grow from branch to branch",
+                         "write the branches in the order of their times, each time once");
+    check_layers(c, problems);
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -302,11 +336,19 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)
             load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
-    const double strain = load * units::megapascal / c.simulation.block.modulus_of_compression();
+    const double strain = load * units::megapascal / c.simulation.block.softest_column();
     if (strain > 0.05 && scene.block.strain == Strain::linear)
         list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
                                    "block.strain = \"linear\" describes small strains",
                                    load, 100.0 * strain));
+    for (const MaterialLayer& layer : c.simulation.block.layers) {
+        const std::size_t i = static_cast<std::size_t>(&layer - c.simulation.block.layers.data());
+        const double asked = scene.block.layers[i][0], made = layer.cells * surface.spacing;
+        if (std::abs(made - asked) > 0.01 * asked)
+            list.push_back(fmt::format("block.layers: layer {} of {:.4g} Å has {} lattice layers, "
+                                       "{:.4g} Å",
+                                       i + 1, asked, layer.cells, made));
+    }
     if (const auto note = note_on_contact_edge(c)) list.push_back(*note);
     for (std::size_t i = 0; i < c.table_files.size(); ++i) // no pair of atoms binds with more
         if (const double depth = c.simulation.interface.tables[i]->depth(); depth > 10.0)

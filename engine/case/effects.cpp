@@ -38,7 +38,8 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
-            {"relaxing block", branches}, {"relaxation", relaxation},
+            {"relaxing block", branches}, {"layers", layers},
+            {"surface stress", surface_stress}, {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
     // clang-format on
@@ -98,6 +99,12 @@ Effects effects_of(const Case& c) {
                   s.block.prony.empty()
                       ? "block.prony = []"
                       : fmt::format("block.prony has {} of them", s.block.prony.size())};
+    e.layers = {!s.block.layers.empty(),
+                s.block.layers.empty()
+                    ? "block.layers = []"
+                    : fmt::format("block.layers has {} of them", s.block.layers.size())};
+    e.surface_stress = {s.block.surface_stress > 0.0,
+                        fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
     e.relaxation = {!dynamic || !finite,
                     !dynamic ? rest
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "
@@ -119,8 +126,11 @@ Effects effects_of(const Case& c) {
     e.checkpoints = {s.output.checkpoint > 0.0,
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const bool atoms = s.surface.kind == SurfaceKind::atoms;
-    e.theory = {!atoms, atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
-                              : "always: Persson's theory of this scene"};
+    e.theory = {!atoms && !e.layers && !e.surface_stress,
+                atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
+                : e.layers || e.surface_stress
+                    ? "block.layers or surface_stress: the theory is of one modulus"
+                    : "always: Persson's theory of this scene"};
     e.device = device_effect(c);
     return e;
 }

@@ -26,24 +26,26 @@ struct Effect {
 
 /// All effects of a scene.
 struct Effects {
-    Effect dynamic,    ///< time steps with inertia; off: states of force balance only
-        lateral,       ///< displacements along x and y
-        damping,       ///< damping against a medium that moves with the top plane
-        temperature,   ///< thermal noise
-        finite_strain, ///< geometrically exact springs
-        coarse_levels, ///< a block that gets coarser with depth
-        skipping,      ///< sites beyond the interaction range are left out of the sweep
-        sliding,       ///< slides of the block over the substrate
-        tail,          ///< continuum correction beyond the cutoff
-        curvature,     ///< a spherical cap under the roughness
-        branches,      ///< memory of a block that relaxes
-        relaxation,    ///< states of equilibrium
-        observation,   ///< energies, contacts and the energy balance: a row of the series
-        maps,          ///< maps of the states that the scene asks for
-        trajectory,    ///< frames of the lowest layer
-        checkpoints,   ///< states from which a run can be resumed
-        theory,        ///< Persson's theory for the same scene
-        device;        ///< time steps on a device in place of the processor
+    Effect dynamic,     ///< time steps with inertia; off: states of force balance only
+        lateral,        ///< displacements along x and y
+        damping,        ///< damping against a medium that moves with the top plane
+        temperature,    ///< thermal noise
+        finite_strain,  ///< geometrically exact springs
+        coarse_levels,  ///< a block that gets coarser with depth
+        skipping,       ///< sites beyond the interaction range are left out of the sweep
+        sliding,        ///< slides of the block over the substrate
+        tail,           ///< continuum correction beyond the cutoff
+        curvature,      ///< a spherical cap under the roughness
+        branches,       ///< memory of a block that relaxes
+        layers,         ///< coatings of the block
+        surface_stress, ///< tension of the block's surface
+        relaxation,     ///< states of equilibrium
+        observation,    ///< energies, contacts and the energy balance: a row of the series
+        maps,           ///< maps of the states that the scene asks for
+        trajectory,     ///< frames of the lowest layer
+        checkpoints,    ///< states from which a run can be resumed
+        theory,         ///< Persson's theory for the same scene
+        device;         ///< time steps on a device in place of the processor
 
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;

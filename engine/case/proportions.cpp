@@ -149,8 +149,7 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                         fmt::format("take {:.2g} K or less with this time step",
                                     scene.drive.temperature * std::pow(0.1 * width / travel, 2)));
     }
-    const double modulus = // MPa
-        c.simulation.block.modulus_of_compression() / units::megapascal;
+    const double modulus = c.simulation.block.softest_column() / units::megapascal;
     const auto look = [&](const char* key, double load, const std::string& shown) {
         if (std::abs(load) > modulus)
             refused.add(key, fmt::format("{} strains the block by more than its thickness", shown),

@@ -115,6 +115,10 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
     block.finite_strain = scene.block.strain == Strain::finite;
     for (const auto& [ratio, time] : scene.block.prony)
         block.branches.push_back({ratio, time * units::picosecond});
+    for (const auto& [thickness, young, poisson] : scene.block.layers)
+        block.layers.push_back({{young * units::gigapascal, poisson},
+                                static_cast<int>(std::lround(thickness / block.spacing))});
+    block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
     return block;
 }
 
@@ -153,7 +157,10 @@ void fill_interface(Case& c) {
     }
     const double adhesion = i.adhesion / units::milli_per_unit;
     // E* q/2 of the shortest wave along an axis, q = pi / a, and the attraction's own curvature.
-    const double shortest_wave = 0.5 * std::numbers::pi * c.simulation.block.contact_modulus() / a;
+    double modulus = 0.0;
+    for (const Material& material : c.simulation.block.materials())
+        modulus = std::max(modulus, material.contact_modulus());
+    const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
     const double curvature = adhesion / (i.range * i.range);
     const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
                                          : std::max(1000.0 * shortest_wave, 50.0 * curvature);

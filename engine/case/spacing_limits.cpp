@@ -27,7 +27,7 @@ std::optional<ContactEdge> edge_of(const Case& c) {
         wall.adhesion == 0.0)
         return std::nullopt;
     // The gap opens as the root of the distance from the edge of a contact.
-    const double modulus = c.simulation.block.contact_modulus();
+    const double modulus = c.simulation.block.surface_material().contact_modulus();
     const double adhesion = wall.adhesion / units::milli_per_unit;
     const double spacing = c.simulation.block.spacing;
     ContactEdge edge;
@@ -77,21 +77,22 @@ void refuse_pinned_edge(const Case& c, io::Problems& refused) {
 
 double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surface) {
     const double a = block.spacing;
-    const double modulus = block.contact_modulus();
-    const CellElasticity elasticity = block.elasticity(0);
+    BlockOptions deep; // one material, and its top plane does not matter
+    static_cast<Material&>(deep) = block.surface_material();
+    deep.spacing = a;
+    const double modulus = deep.contact_modulus();
     constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
     double lattice = 0.0, continuum = 0.0;
     for (const SpectrumBin& bin : surface.spectrum) {
         if (!(bin.q > 0.0) || bin.q * a > std::numbers::pi) continue;
         const double weight = bin.realised * bin.modes;
-        // Deep enough that the top plane does not matter.
-        const int layers = static_cast<int>(std::ceil(8.0 * std::numbers::pi / (bin.q * a)));
+        deep.thickness = static_cast<int>(std::ceil(8.0 * std::numbers::pi / (bin.q * a)));
         double stiffness = 0.0;
         for (int k = 0; k < directions; ++k) {
             const double angle = 0.25 * std::numbers::pi * k / (directions - 1);
             const double x = bin.q * a * std::cos(angle), y = bin.q * a * std::sin(angle);
-            const SurfaceMatrix s = surface_stiffness(elasticity, {std::cos(x), std::sin(x)},
-                                                      {std::cos(y), std::sin(y)}, layers);
+            const SurfaceMatrix s =
+                deep.stiffness({std::cos(x), std::sin(x)}, {std::cos(y), std::sin(y)});
             stiffness += 1.0 / (inverse(s).zz * a * a * directions);
         }
         lattice += weight * stiffness;

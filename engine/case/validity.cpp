@@ -6,6 +6,8 @@
 
 #include "theory/spectrum.hpp"
 
+#include "engine/units.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -64,7 +66,8 @@ std::vector<std::string> notes_on_validity(const Case& c) {
         // Measured on soft blocks: docs/explanation/relaxation.md.
         const bool sideways =
             scene.interface.kind != InterfaceKind::wall && !scene.interface.frictionless;
-        const bool soft = scene.block.young * slope < 2.0 * c.largest_tension;
+        const double young = c.simulation.block.surface_material().young / units::gigapascal;
+        const bool soft = young * slope < 2.0 * c.largest_tension;
         if (c.starts_with(Segment::relax) && sideways && soft && slope > one_state)
             notes.push_back(fmt::format(
                 "on slopes as steep as these (rms {:.2f}) a soft block has several states, and a "

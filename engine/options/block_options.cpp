@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace asperity {
 
@@ -12,9 +13,51 @@ double BlockOptions::sound_speed() const {
     return std::sqrt(modulus_of_compression() / density);
 }
 
-CellElasticity BlockOptions::elasticity(int level) const {
-    const double s = spacing * (1 << level);
-    return {shear_modulus() * s, (lame() - shear_modulus()) * s / 16.0};
+CellElasticity BlockOptions::elasticity(int level) const { return cell(spacing * (1 << level)); }
+
+std::vector<Material> BlockOptions::materials() const {
+    std::vector<Material> all;
+    for (const MaterialLayer& layer : layers)
+        all.push_back(layer.material);
+    all.push_back(*this);
+    return all;
+}
+
+double BlockOptions::softest_column() const {
+    double softest = HUGE_VAL;
+    for (const Material& m : materials())
+        softest = std::min(softest, m.modulus_of_compression());
+    return softest;
+}
+
+std::vector<CellLayer> BlockOptions::column() const {
+    std::vector<CellLayer> column;
+    const auto add = [&](const Material& material, int cells) {
+        const CellElasticity elasticity = material.cell(spacing);
+        if (!column.empty() && column.back().elasticity == elasticity)
+            column.back().cells += cells;
+        else if (cells > 0)
+            column.push_back({elasticity, cells});
+    };
+    int rest = thickness;
+    for (const MaterialLayer& layer : layers) {
+        add(layer.material, layer.cells);
+        rest -= layer.cells;
+    }
+    add(*this, rest);
+    return column;
+}
+
+SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
+    SurfaceMatrix s = surface_stiffness(column(), x, y);
+    s.zz += surface_stress * (2.0 * (1.0 - x.cosine) + 2.0 * (1.0 - y.cosine));
+    return s;
+}
+
+double BlockOptions::softest_wave() const {
+    if (layers.empty()) return contact_modulus() * std::numbers::pi / edge();
+    return 1.0 / inverse(stiffness(wave_phase(1, sites), wave_phase(0, sites))).zz /
+           (spacing * spacing);
 }
 
 double BlockOptions::highest_frequency(double site_stiffness) const {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include "kernels/elastic_level.hpp"
+#include "kernels/surface_stiffness.hpp"
 
-#include <numbers>
 #include <vector>
 
 namespace asperity {
@@ -17,30 +17,63 @@ struct Branch {
     double time = 0.0;  ///< relaxation time: the stress falls to 1/e in it, fs
 };
 
-/// Shape, elasticity and resolution of a block.
-struct BlockOptions {
-    int sites = 512;      ///< atoms across the box, N
-    double spacing = 2.6; ///< a, Å
-    double young = 0.0;   ///< Young's modulus, eV/Å^3
+/// Elastic constants of an isotropic solid.
+struct Material {
+    double young = 0.0; ///< Young's modulus, eV/Å^3
     double poisson = 0.42;
+
+    double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
+    double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+    /// Returns the modulus of a solid that is compressed and cannot widen, lambda + 2 mu, eV/Å^3.
+    double modulus_of_compression() const { return lame() + 2.0 * shear_modulus(); }
+    /// Returns E/(1 - nu^2), eV/Å^3.
+    double contact_modulus() const { return young / (1.0 - poisson * poisson); }
+    /// Returns the constants of a lattice cell, of this edge in Å.
+    CellElasticity cell(double edge) const {
+        return {shear_modulus() * edge, (lame() - shear_modulus()) * edge / 16.0};
+    }
+};
+
+/// Layer of another material below the block's own.
+struct MaterialLayer {
+    Material material;
+    int cells = 0; ///< thickness in cells of edge a
+};
+
+/// Shape, elasticity and resolution of a block.
+struct BlockOptions : Material {
+    int sites = 512;        ///< atoms across the box, N
+    double spacing = 2.6;   ///< a, Å
     double atom_mass = 0.0; ///< eV fs^2/Å^2
     int thickness = 512;    ///< number of cells of edge a
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
     std::vector<Branch> branches{}; ///< branches of a block that relaxes, without inertia
+    /// Layers of a block at rest, from its surface upwards; the block's own material is above them.
+    std::vector<MaterialLayer> layers{};
+    double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }
-    double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
-    double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
-    /// Returns the modulus of a block that is compressed and cannot widen, eV/Å^3.
-    double modulus_of_compression() const { return lame() + 2.0 * shear_modulus(); }
-    /// Returns E/(1 - nu^2), eV/Å^3.
-    double contact_modulus() const { return young / (1.0 - poisson * poisson); }
+    /// Returns all materials, that of the surface first.
+    std::vector<Material> materials() const;
+    /// Returns the smallest modulus of a material that cannot widen, lambda + 2 mu, eV/Å^3.
+    double softest_column() const;
+    /// Returns the material of the surface.
+    const Material& surface_material() const {
+        return layers.empty() ? *this : layers.front().material;
+    }
+    /// Returns the layers of cells of the block at rest, from its surface upwards: `layers` and
+    /// above them the block's own material. Neighbours of one material are one layer.
+    std::vector<CellLayer> column() const;
+    /// Returns the stiffness of a wave at the lowest layer of nodes of the block at rest, eV/Å^2
+    /// for each site: that of the lattice, and the surface stress times (q a)^2 on its normal
+    /// component, (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2 on the lattice.
+    SurfaceMatrix stiffness(WavePhase x, WavePhase y) const;
     /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not
-    /// thin: E* q_L / 2, eV/Å^4. Thin blocks are stiffer.
-    double softest_wave() const { return contact_modulus() * std::numbers::pi / edge(); }
+    /// thin, eV/Å^4: E* q_L / 2, of a block with layers the lattice's. Thin blocks are stiffer.
+    double softest_wave() const;
     /// Returns the speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     CellElasticity elasticity(int level) const;

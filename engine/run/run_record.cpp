@@ -80,7 +80,7 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
     if (in) result.set("stored.approach", in->stored);
     if (out) result.set("stored.pull_off", out->stored);
-    if (!radius) return;
+    if (!radius || c.effects.layers || c.effects.surface_stress) return; // no JKR of these
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
@@ -93,11 +93,12 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
 void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
+    const bool one_modulus = !c.effects.layers && !c.effects.surface_stress;
     if (const auto fraction = result.number("contact_fraction"))
         result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
-    if (!binding || pressed) return;
+    if (!binding || pressed || !one_modulus) return;
     const double energy = *binding / units::milli_per_unit * c.area();
     const double modulus = c.simulation.block.contact_modulus();
     result.set("jkr.relaxed", units::milli_per_unit *

@@ -224,15 +224,33 @@ io::Schema bind(Scene& scene) {
         "on such a path the block is a sum of waves, and at finite strain waves do not add up",
         "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"")};
     schema
-        .pairs("prony", block.prony, "ps", positive(),
-               "branches of a block that relaxes, on a quasi-static path: modulus over young, "
-               "which is then the relaxed one, and relaxation time, as in [[9.0, \"1 ns\"], "
-               "[1.5, \"20 ns\"]], the times growing; drive.velocity says how fast time passes")
+        .rows<2>("prony", block.prony,
+                 {{{"modulus over young", "", positive(), "0.5"},
+                   {"relaxation time", "ps", positive(), "\"1 ns\""}}},
+                 "branches of a block that relaxes, on a quasi-static path, as in [[9.0, \"1 "
+                 "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
+                 "modulus, and drive.velocity says how fast time passes")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
                                  "only the block of a quasi-static path can relax",
                                  "take drive.mode = \"quasistatic\", or leave prony out"),
                   {[&scene] { return !scene.only_relaxes(); },
                    "drive.path is one relaxation, and its state is the relaxed one"}};
+    constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
+                                    "its surface, has them";
+    schema
+        .rows<3>("layers", block.layers,
+                 {{{"thickness", "Å", positive(), "\"2 nm\""},
+                   {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
+                   {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
+                 "coatings between the block's own material and its surface, on a quasi-static "
+                 "path, from the surface upwards; a thickness is rounded to whole lattice layers")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
+                                 "take drive.mode = \"quasistatic\", or leave layers out")};
+    schema
+        .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
+                "tension of the block's surface, on a quasi-static path")
+        .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
+                                 "take drive.mode = \"quasistatic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "

@@ -18,6 +18,7 @@
 #include "io/scene_reader.hpp"
 #include "kernels/pair_potential.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -87,7 +88,11 @@ struct Scene {
         int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
         int layers_per_level = 4;
         Strain strain = Strain::linear;
-        io::Schema::Pairs prony; ///< branches: modulus over young, relaxation time, ps
+        /// Branches: modulus over young, relaxation time, ps.
+        std::vector<std::array<double, 2>> prony;
+        /// Layers from the surface upwards: thickness, Å, Young's modulus, GPa, Poisson's ratio.
+        std::vector<std::array<double, 3>> layers;
+        double surface_stress = 0.0; ///< N/m
     } block;
 
     struct Interface {

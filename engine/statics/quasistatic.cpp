@@ -27,8 +27,8 @@ constexpr double short_time = 0.02;
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report) {
     PathOptions o;
-    o.along =
-        c.simulation.drive.control == Control::top ? Constraint::Of::top : Constraint::Of::mean_height;
+    o.along = c.simulation.drive.control == Control::top ? Constraint::Of::top
+                                                         : Constraint::Of::mean_height;
     o.step = c.simulation.drive.displacement_step;
     o.tolerance = c.tolerance;
     o.scales = c.scales;
@@ -71,14 +71,17 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
                                                     gap + 0.1 * i * scales.length)
                                               .force[2] /
                                           area);
-    const double most = std::max(options.young, 10.0 * scales.force / area);
+    double young = 0.0;
+    for (const Material& material : options.materials())
+        young = std::max(young, material.young);
+    const double most = std::max(young, 10.0 * scales.force / area);
     if (!(pressure > most)) return;
     throw io::PhysicsError(
         fmt::format("a mean height of {:.4g} Å lies too far inside the substrate", height),
         inside ? std::string("it is below the mean plane of the atoms")
                : fmt::format("flat surfaces at this distance press with {:.3g} GPa, and Young's "
                              "modulus of the block is {:.3g} GPa",
-                             pressure / units::gigapascal, options.young / units::gigapascal),
+                             pressure / units::gigapascal, young / units::gigapascal),
         "take a larger height, or lead the block by a load");
 }
 

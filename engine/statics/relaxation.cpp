@@ -258,7 +258,10 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
 
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
     // Stiffness of the block for the shortest wave, E* q/2.
-    double wave = 0.5 * std::numbers::pi * block.contact_modulus() * block.spacing;
+    double wave = 0.0;
+    for (const Material& material : block.materials())
+        wave = std::max(wave, 0.5 * std::numbers::pi * material.contact_modulus() * block.spacing);
+    wave += 4.0 * block.surface_stress;
     for (const Branch& branch : block.branches)
         wave *= 1.0 + branch.ratio;
     const double positions =

@@ -24,11 +24,9 @@ WavePhase phase_of(double angle) { return {std::cos(angle), std::sin(angle)}; }
 /// q, S_zz, S_xx, |S_xz| and 1/(S⁻¹)_zz of a wave in the direction `angle`, per area.
 using WaveStiffness = std::array<double, 5>;
 
-WaveStiffness wave_stiffness(const CellElasticity& elasticity, double spacing, int thickness,
-                             double q, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    const SurfaceMatrix m = surface_stiffness(elasticity, phase_of(q * spacing * c),
-                                              phase_of(q * spacing * s), thickness);
+WaveStiffness wave_stiffness(const BlockOptions& block, double q, double angle) {
+    const double c = std::cos(angle), s = std::sin(angle), spacing = block.spacing;
+    const SurfaceMatrix m = block.stiffness(phase_of(q * spacing * c), phase_of(q * spacing * s));
     const double area = spacing * spacing;
     return {q, m.zz / area, (c * c * m.xx + s * s * m.yy + 2.0 * c * s * m.xy) / area,
             std::abs(c * m.xz + s * m.yz) / area, 1.0 / inverse(m).zz / area};
@@ -37,7 +35,6 @@ WaveStiffness wave_stiffness(const CellElasticity& elasticity, double spacing, i
 /// Returns the stiffness of waves up to Nyquist, averaged over directions.
 Json lattice_stiffness(const Case& c) {
     const BlockOptions& block = c.simulation.block;
-    const CellElasticity elasticity = block.elasticity(0);
     const double low = 2.0 * std::numbers::pi / c.edge();
     const double high = std::numbers::pi / block.spacing;
     constexpr int waves = 48;
@@ -50,8 +47,7 @@ Json lattice_stiffness(const Case& c) {
             k == waves ? high : low * std::pow(high / low, static_cast<double>(k) / waves);
         WaveStiffness mean = {q};
         for (int d = 0; d < 3; ++d) {
-            const WaveStiffness w = wave_stiffness(elasticity, block.spacing, block.thickness, q,
-                                                   nodes[d] * std::numbers::pi / 4.0);
+            const WaveStiffness w = wave_stiffness(block, q, nodes[d] * std::numbers::pi / 4.0);
             for (std::size_t i = 1; i < w.size(); ++i)
                 mean[i] += weights[d] * w[i];
         }

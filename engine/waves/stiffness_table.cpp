@@ -12,16 +12,14 @@ using namespace matrix_entry;
 StiffnessTable::StiffnessTable(const BlockOptions& options, const Slab& slab, bool frictionless)
     : layout_{options.sites, frictionless ? 1 : 3}, first_block_(slab.first_block()),
       table_(layout_.size(slab.all_blocks())) {
-    const CellElasticity elasticity = options.elasticity(0);
     std::vector<WavePhase> phase;
     for (int n = 0; n <= options.sites / 2; ++n)
         phase.push_back(wave_phase(n, options.sites));
 #pragma omp parallel for schedule(dynamic, 4)
     for (int i = 0; i < slab.columns(); ++i)
         for (int j = 0; j <= i; ++j) {
-            const SurfaceMatrix s =
-                surface_stiffness(elasticity, phase[static_cast<std::size_t>(i)],
-                                  phase[static_cast<std::size_t>(j)], options.thickness);
+            const SurfaceMatrix s = options.stiffness(phase[static_cast<std::size_t>(i)],
+                                                      phase[static_cast<std::size_t>(j)]);
             const double normal = frictionless ? 1.0 / inverse(s).zz : s.zz;
             layout_.put({s.xx, s.yy, normal, s.xy, s.xz, s.yz}, i, j, table_);
             layout_.put({s.yy, s.xx, normal, s.xy, s.yz, s.xz}, j, i, table_);

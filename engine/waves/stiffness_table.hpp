@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// S(q) of every wave of a surface: one symmetric 3 x 3 matrix for each, or one number without
-// friction. It belongs to the block alone and does not change: what holds the block and what
-// branches add stands beside it (response.hpp).
+// S(q) of every wave of a surface (BlockOptions::stiffness): one symmetric 3 x 3 matrix for each,
+// or one number without friction. It belongs to the block alone and does not change: what holds the
+// block and what branches add stands beside it (response.hpp).
 #pragma once
 
 #include "decomposition/waves.hpp"
@@ -41,7 +41,7 @@ struct TableLayout {
 
 class StiffnessTable {
 public:
-    /// Computes S of the lattice. Without friction the matrix of a wave is replaced by its answer
+    /// Computes S of a block. Without friction the matrix of a wave is replaced by its answer
     /// to normal forces, 1 / (S^-1)_zz.
     StiffnessTable(const BlockOptions& options, const Slab& slab, bool frictionless);
 

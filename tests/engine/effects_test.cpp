@@ -55,6 +55,8 @@ TEST(Effects, EachIsSwitchedByItsKey) {
           {&Effects::tail, plain, "interface.tail=true", ""},
           {&Effects::curvature, plain, "surface.radius=200", ""},
           {&Effects::branches, relaxing, "block.prony=[[2.0, \"1 ns\"]]", ""},
+          {&Effects::layers, relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]", ""},
+          {&Effects::surface_stress, relaxing, "block.surface_stress=0.1", ""},
           {&Effects::relaxation, plain, "", "block.strain=finite"},
           {&Effects::observation, plain, "", "drive.path=relax"},
           {&Effects::maps, plain, "output.fields=[\"pull-off\"]", ""},

@@ -219,9 +219,9 @@ TEST(Scene, ABlockThatRelaxes) {
               0u);
 
     EXPECT_EQ(only(still + "block.prony = [[-9.0, \"1 ns\"]]").what,
-              "block.prony = [ [ -9.0, \"1 ns\" ] ] in pair 1 is out of range");
+              "block.prony = [[-9, \"1 ns\"]] in row 1, modulus over young, is out of range");
     EXPECT_EQ(only(still + "block.prony = [[9.0, \"1 ns\"], [1.0, 0]]").what,
-              "block.prony = [ [ 9.0, \"1 ns\" ], [ 1.0, 0 ] ] in pair 2 is out of range");
+              "block.prony = [[9, \"1 ns\"], [1, 0]] in row 2, relaxation time, is out of range");
     EXPECT_EQ(only(still + "block.prony = [[9.0, \"20 ns\"], [1.0, \"1 ns\"]]").what,
               "block.prony has 1000 ps after 20000 ps");
     only(still + "block.prony = [[9.0, \"1 nm\"]]");
@@ -239,6 +239,46 @@ TEST(Scene, ABlockThatRelaxes) {
     EXPECT_EQ(note("1 h"), "this branch stays a spring");
     EXPECT_EQ(note("1e-9 ps"), "this branch is always relaxed");
     EXPECT_EQ(note("1 ns"), "");
+}
+
+TEST(Scene, ABlockOfLayers) {
+    const std::string still =
+        "drive.mode = \"quasistatic\"\nsurface.spacing = 2.0\nblock.thickness = 40\n";
+    const Case c = read_case_text(still + "block.layers = [[\"2 nm\", \"10 GPa\", 0.3], [6.9, 5, "
+                                          "0.2]]\nblock.surface_stress = \"30 mN/m\"",
+                                  "s.toml");
+    const BlockOptions& block = c.simulation.block;
+    ASSERT_EQ(block.layers.size(), 2u);
+    EXPECT_EQ(block.layers[0].cells, 10);
+    EXPECT_DOUBLE_EQ(block.layers[0].material.young * 160.21766208, 10.0);
+    EXPECT_EQ(block.layers[1].cells, 3) << "6.9 Å, rounded";
+    EXPECT_EQ(block.layers[1].material.poisson, 0.2);
+    EXPECT_NEAR(block.surface_stress, 0.03 / 16.021766208, 1e-12) << "eV/Å^2";
+    EXPECT_NE(scene_toml(c.scene).find("layers = [[20.0, 10.0, 0.3], [6.9, 5.0, 0.2]]"),
+              std::string::npos);
+    EXPECT_EQ(std::count_if(c.notes.begin(), c.notes.end(),
+                            [](const std::string& n) { return n.starts_with("block.layers: "); }),
+              1)
+        << "of the layer that is rounded by more than 1 %";
+
+    const std::string layer = "block.layers = [[\"2 nm\", \"10 GPa\", 0.3]]";
+    EXPECT_EQ(only(layer).what, "block.layers = [...] on a dynamic path");
+    EXPECT_EQ(only("block.surface_stress = 0.03").what,
+              "block.surface_stress = 0.03 N/m on a dynamic path");
+    EXPECT_EQ(only(still + "block.surface_stress = 0.03\nblock.prony = [[1, \"1 ns\"]]").what,
+              "block.surface_stress = 0.03 N/m with block.prony");
+    EXPECT_EQ(only(still + "block.layers = [[\"8 nm\", \"10 GPa\", 0.3]]").what,
+              "block.layers are 40 lattice layers thick, 80 Å");
+    EXPECT_EQ(only(still + "block.layers = [[0.9, \"10 GPa\", 0.3]]").what,
+              "block.layers has a layer 1 of 0.9 Å");
+    EXPECT_EQ(only(still + "block.layers = [[\"2 nm\", \"10 GPa\", 0.5]]").what,
+              "block.layers = [[\"2 nm\", \"10 GPa\", 0.5]] in row 1, Poisson's ratio, is out of "
+              "range");
+    for (const char* value : {"[[\"2 nm\", \"10 GPa\"]]", "[[]]", "[\"2 nm\"]", "3", "\"2 nm\"",
+                              "[[\"2 nm\", [\"10 GPa\"], 0.3]]"})
+        EXPECT_TRUE(only(still + "block.layers = " + value)
+                        .fix.starts_with("write, for example, [[\"2 nm\", \"10 GPa\", 0.3]]"))
+            << value;
 }
 
 TEST(Scene, OneComplaintAKey) { // out of range, and therefore not also a contradiction

@@ -25,8 +25,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 SurfaceMatrix stiffness(const BlockOptions& o, int nx, int ny) {
-    return surface_stiffness(o.elasticity(0), wave_phase(nx, o.sites), wave_phase(ny, o.sites),
-                             o.thickness);
+    return o.stiffness(wave_phase(nx, o.sites), wave_phase(ny, o.sites));
 }
 
 /// Frictionless normal stiffness over E* q/2.

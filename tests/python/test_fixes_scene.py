@@ -28,6 +28,7 @@ MOVING = {"surface.sites": "16", "block.thickness": "16"}
 TURNS = {**MOVING, "drive.path": '["approach", "pull-off", "approach", "pull-off"]', "drive.timestep": "30"}
 WARM = {**MOVING, "drive.temperature": "10"}
 QUASI = {**MOVING, "drive.mode": "quasistatic"}
+COATED = '[["1 nm", "10 GPa", 0.3]]'
 WALL = {**STILL, "interface.kind": "wall"}
 PULLED = {**WALL, "drive.mode": "quasistatic", "drive.path": "approach, pull-off"}
 ATOMS = {**STILL, "surface.kind": "atoms", "surface.file": "atoms.h5", "interface.pairs": '["Au 0.1 3.28", "B 0.05 3"]'}
@@ -177,6 +178,16 @@ CASES = [
     ('take drive.mode = "quasistatic"', {"block.prony": '[[1.0, "1 ns"]]'}, {"drive.mode": "quasistatic"}, MOVING),
     ("or leave prony out", {"block.prony": '[[1.0, "1 ns"]]'}, {"block.prony": None}, MOVING),
     ("write the branches in the order", {"block.prony": '[[1.0, "2 ns"], [2.0, "1 ns"]]'}, {"block.prony": '[[2.0, "1 ns"], [1.0, "2 ns"]]'}, QUASI),
+    ('take drive.mode = "quasistatic"', {"block.layers": COATED}, {"drive.mode": "quasistatic"}, MOVING),
+    ("or leave layers out", {"block.layers": COATED}, {"block.layers": None}, MOVING),
+    ('take drive.mode = "quasistatic"', {"block.surface_stress": "0.03"}, {"drive.mode": "quasistatic"}, MOVING),
+    ("or leave surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, MOVING),
+    ("leave surface_stress or prony out", {"block.surface_stress": "0.03", "block.prony": '[[1.0, "1 ns"]]'}, {"block.prony": None}, QUASI),
+    ("leave surface_stress or prony out", {"block.surface_stress": "0.03", "block.prony": '[[1.0, "1 ns"]]'}, {"block.surface_stress": None}, QUASI),
+    (r"take block.thickness = (\d+) or more", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.thickness": "{0}"}, QUASI),
+    ("or thinner layers", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
+    ("take a thicker layer", {"block.layers": '[["0.5 Å", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
+    ("or a smaller surface.spacing", {"block.layers": '[["1 Å", "10 GPa", 0.3]]'}, {"surface.spacing": "1.9"}, {**QUASI, "interface.kind": "wall"}),
     ("give a fraction below 1", {"drive.damping_from": "1"}, {"drive.damping_from": "0.5"}, WARM),
     ("give a damping, for example (.*)", {"drive.damping": "0"}, {"drive.damping": "{0}"}, WARM),
     ("or take it out of output.fields", {FIELDS: '["after-approach:5"]'}, {FIELDS: None}, STILL),
@@ -368,6 +379,8 @@ def test_a_fix_of_the_file(tmp_path):
 
 @pytest.mark.parametrize("says, bad, good, base", [
     ("take a surface with heights: (self-affine), flat or file", {}, {"surface.kind": "{0}", "interface.pairs": None}, ATOMS),
+    ("leave block.layers out", {"block.layers": COATED}, {"block.layers": None}, QUASI),
+    ("leave block.surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, QUASI),
     ("give a larger q_max", {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.q_max": "4"}, STILL),
     ('or kind = "flat"', {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.kind": "flat"}, STILL),
     ("give a rough surface of at least 4 sites", {"surface.rms": "1e-200", "theory.spectrum": "realised"}, {"surface.rms": "1"}, STILL)])

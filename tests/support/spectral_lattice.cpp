@@ -70,11 +70,16 @@ CellStiffness cell_stiffness(double spacing, double lame, double shear) {
     return cell;
 }
 
-double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
-                               double shear) {
-    const CellStiffness cell = cell_stiffness(spacing, lame, shear);
-    // Folded with the phases of the wave: low plane, coupling, high plane.
+namespace {
+
+/// A cell folded with the phases of a wave: low plane, coupling, high plane.
+struct FoldedCell {
     Matrix low{}, across{}, high{};
+};
+
+FoldedCell fold(double qx, double qy, double spacing, double lame, double shear) {
+    const CellStiffness cell = cell_stiffness(spacing, lame, shear);
+    FoldedCell folded;
     for (std::size_t i = 0; i < 24; ++i)
         for (std::size_t j = 0; j < 24; ++j) {
             const auto phase = [&](std::size_t p) {
@@ -82,25 +87,43 @@ double surface_stiffness_ratio(double qx, double qy, int thickness, double spaci
             };
             const Complex value = std::conj(phase(i / 3)) * cell[i][j] * phase(j / 3);
             const bool upper_i = i / 3 >= 4, upper_j = j / 3 >= 4;
-            Matrix* into = upper_i ? (upper_j ? &high : nullptr) : (upper_j ? &across : &low);
+            Matrix* into = upper_i ? (upper_j ? &folded.high : nullptr)
+                                   : (upper_j ? &folded.across : &folded.low);
             if (into) (*into)[i % 3][j % 3] += value;
         }
-    Matrix adjoint;
-    for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-            adjoint[i][j] = std::conj(across[j][i]);
-    Matrix s = low;
-    for (int layer = 1; layer < thickness; ++layer) {
-        Matrix middle = high;
+    return folded;
+}
+
+} // namespace
+
+double layered_stiffness(double qx, double qy, const std::vector<LatticeLayer>& layers,
+                         double spacing) {
+    Matrix s{};
+    bool clamped = true;
+    for (std::size_t layer = layers.size(); layer-- > 0;) {
+        const FoldedCell cell = fold(qx, qy, spacing, layers[layer].lame, layers[layer].shear);
+        Matrix adjoint;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
-                middle[i][j] += s[i][j];
-        const Matrix gone = times(times(across, inverse(middle)), adjoint);
-        for (std::size_t i = 0; i < 3; ++i)
-            for (std::size_t j = 0; j < 3; ++j)
-                s[i][j] = low[i][j] - gone[i][j];
+                adjoint[i][j] = std::conj(cell.across[j][i]);
+        for (int n = 0; n < layers[layer].cells; ++n) {
+            Matrix middle = cell.high, gone{};
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    middle[i][j] += s[i][j];
+            if (!clamped) gone = times(times(cell.across, inverse(middle)), adjoint);
+            clamped = false;
+            for (std::size_t i = 0; i < 3; ++i)
+                for (std::size_t j = 0; j < 3; ++j)
+                    s[i][j] = cell.low[i][j] - gone[i][j];
+        }
     }
-    const double stiffness = 1.0 / inverse(s)[2][2].real() / (spacing * spacing);
+    return 1.0 / inverse(s)[2][2].real() / (spacing * spacing);
+}
+
+double surface_stiffness_ratio(double qx, double qy, int thickness, double spacing, double lame,
+                               double shear) {
+    const double stiffness = layered_stiffness(qx, qy, {{thickness, lame, shear}}, spacing);
     const double poisson = lame / (2.0 * (lame + shear));
     const double contact_modulus = 2.0 * shear / (1.0 - poisson); // E / (1 - nu^2)
     return stiffness / (0.5 * contact_modulus * std::hypot(qx, qy));

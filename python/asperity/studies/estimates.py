@@ -387,7 +387,9 @@ class Estimating:
         part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
         if part is None:
             return ""
-        modulus = self.varied.own("block.young") * GIGAPASCAL / (1.0 - self.varied.own("block.poisson") ** 2)
+        layers = self.varied.scene.find("block.layers")
+        young, poisson = layers[0][1:] if layers else (self.varied.own("block.young"), self.varied.own("block.poisson"))
+        modulus = young * GIGAPASCAL / (1.0 - poisson ** 2)  # of the surface, where short waves are
         found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
         part.what, part.relative = found.what, found.relative
         self.notes += [found.note] * bool(found.note)

@@ -21,7 +21,7 @@ from ..running import program
 from ..running.scene import toml_value
 
 MOST_POINTS = 10_000
-LISTS = ("list", "pairs")
+LISTS = ("list", "rows")
 """kinds of keys whose value has commas of its own"""
 
 
