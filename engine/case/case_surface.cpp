@@ -3,6 +3,7 @@
 //
 // The surface of a case: made from its spectrum, or from the map or the atoms of its file.
 #include "engine/case/case.hpp"
+#include "engine/case/site_field.hpp"
 #include "engine/case/spacing_limits.hpp"
 
 #include "io/atoms_file.hpp"
@@ -106,42 +107,6 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     return surface;
 }
 
-/// Returns the map of the scene's file on every rank. The root alone reads it.
-io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
-    const auto& s = c.scene.surface;
-    io::HeightMap map;
-    std::string head;
-    ranks.on_root([&] {
-        map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
-                                           s.file_crop == MapCrop::middle, s.file_size});
-        if (ranks.size() == 1) return;
-        io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
-        json["notes"] = map.notes;
-        json["doubts"] = map.doubts;
-        if (map.width) json["width"] = *map.width;
-        head = io::json_text(json);
-    });
-    if (ranks.size() == 1) return map;
-    std::array<std::uint64_t, 2> sizes = {head.size(), map.heights.size()};
-    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
-    head.resize(sizes[0]);
-    map.heights.resize(sizes[1]);
-    ranks.broadcast(std::as_writable_bytes(std::span(head)));
-    ranks.broadcast(std::span(map.heights));
-    const io::Json json = io::parse_json(head, s.file);
-    map.rows = map.columns = json["rows"];
-    map.unit = json["unit"];
-    map.origin = json["origin"];
-    map.notes = json["notes"].get<std::vector<std::string>>();
-    map.doubts = json["doubts"].get<std::vector<std::string>>();
-    if (json.contains("width")) map.width = json["width"].get<double>();
-    return map;
-}
-
-} // namespace
-
-namespace {
-
 /// Checks the memory before anything is allocated: for the heights, and for the waves that
 /// make_surface() and measure() need. Throws io::SceneError.
 void require_memory_for_heights(const Case& c) {
@@ -168,7 +133,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
     try {
         if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
         if (options.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map = map_of_file(c, world);
+        io::HeightMap map = read_field(heights_of(c), world);
         options.map_edge = map.width.value_or(0.0);
         const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
         if (points != covered && s.resample == Resample::none)

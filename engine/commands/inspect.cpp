@@ -3,8 +3,9 @@
 #include "engine/commands/commands.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/case/site_field.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/run/series.hpp"
 #include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
@@ -155,9 +156,9 @@ namespace {
 
 /// Prints the contents of the file of a measured surface, before the scene uses them.
 void print_map_file(const Case& c) {
-    const Scene& scene = c.scene;
+    const FieldFile field = heights_of(c);
     const io::HeightMap map =
-        io::read_map_file(c.file, {scene.surface.file_unit, false, false, scene.surface.file_size});
+        io::read_map_file(field.file, {field.how.unit, false, false, field.how.size});
     const std::optional<double>&width = map.width, &height = map.height;
     const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
                  dy = height.value_or(0.0) / static_cast<double>(map.rows);
@@ -166,18 +167,18 @@ void print_map_file(const Case& c) {
         return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
     };
     io::Table table({"the file", "", ""}, "<<<");
-    table.row({"name", std::filesystem::path(scene.surface.file).filename().string(), map.format});
+    table.row({"name", std::filesystem::path(field.name).filename().string(), map.format});
     table.row({"points", fmt::format("{} x {}", map.columns, map.rows),
                map.missing > 0 ? fmt::format("{} without a height", map.missing) : ""});
     table.row({"size", width ? fmt::format("{:.6g} x {:.6g} Å", *width, *height) : "?",
-               scene.surface.file_size ? "surface.file_size"
-               : width                 ? ""
-                                       : "the file does not say"});
+               field.how.size ? "surface.file_size"
+               : width        ? ""
+                              : "the file does not say"});
     table.row({"pixel", width ? fmt::format("{:.5g} x {:.5g} Å", dx, dy) : "?", ""});
     table.row({"heights in", map.unit,
-               scene.surface.file_unit != "auto" ? "surface.file_unit"
-               : map.unit_assumed                ? "assumed: the file does not say"
-                                                 : ""});
+               field.how.unit != "auto" ? "surface.file_unit"
+               : map.unit_assumed       ? "assumed: the file does not say"
+                                        : ""});
     table.row({"rms height", fmt::format("{:.8g} Å", s.rms_height), "about the mean"});
     table.row({"rms slope", if_sized(s.rms_slope, "{:.8g}"), "differences of neighbours"});
     table.row({"rms curvature", if_sized(s.rms_curvature, "{:.8g} 1/Å"), "second differences"});

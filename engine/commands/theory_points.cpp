@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/commands.hpp"
 
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/theory/rough_interface.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"

@@ -41,11 +41,12 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
     if (!result.number("work_of_drive.pull_off")) return; // the pull-off did not come to its end
     /// Rows of the last segment of a kind, from the first to behind the last.
     const auto rows_of = [&](Segment::Kind kind) {
-        double number = -1.0;
+        std::optional<double> number;
         for (std::size_t i = 0; i < segments.size(); ++i)
             if (segments[i].kind == kind) number = static_cast<double>(i);
+        if (!number) return std::pair<std::size_t, std::size_t>{};
         const auto [first, end] =
-            std::equal_range(path.segment.begin(), path.segment.end(), number);
+            std::equal_range(path.segment.begin(), path.segment.end(), *number);
         return std::pair{static_cast<std::size_t>(first - path.segment.begin()),
                          static_cast<std::size_t>(end - path.segment.begin())};
     };

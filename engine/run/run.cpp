@@ -5,7 +5,7 @@
 #include "decomposition/aligned_array.hpp"
 #include "engine/run/observers.hpp"
 #include "engine/run/path_maps.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/run/run_session.hpp"
 
 #include <memory>

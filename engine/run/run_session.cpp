@@ -4,7 +4,7 @@
 
 #include "engine/path/checkpoint.hpp"
 #include "engine/run/curve.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/run/summary.hpp"
 #include "io/run_h5.hpp"
 
@@ -38,7 +38,9 @@ void print_unless_closed(const Print& print) {
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
     : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
       grid_(c.grid(ranks.rank())), storage_(options, c, ranks),
-      interruptions_(options, c.effects.checkpoints ? c.output.checkpoint : HUGE_VAL, ranks),
+      interruptions_(options,
+                     c.effects.checkpoints ? std::optional(c.output.checkpoint) : std::nullopt,
+                     ranks),
       progress_(options.progress, !ranks.root()), maps_(*this),
       fingerprint_(physics_of(c, surface_)) {
     print_notes();

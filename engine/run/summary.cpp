@@ -3,7 +3,7 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/device/device_block.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "engine/units.hpp"
 #include "io/terminal.hpp"

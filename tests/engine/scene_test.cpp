@@ -317,6 +317,18 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.seed = 2", "surface.seed has no effect"));
     EXPECT_TRUE(said("drive.displacement_step = 0.1", "drive.displacement_step has no effect"));
+    // Every key that needs another one says so.
+    for (const auto& [key, value, reason] :
+         {std::array{"surface.file_missing", "\"fill\"", "surface.kind is not \"file\""},
+          {"surface.file_crop", "\"middle\"", "surface.kind is not \"file\""},
+          {"interface.edge_pinning", "\"allow\"", "there is no wall with the exponential law"},
+          {"drive.seed", "2", "drive.temperature is 0"},
+          {"drive.damping_from", "0.5\ndrive.damping = 0", "drive.damping is 0"},
+          {"block.layers_per_level", "3\nblock.model = \"lattice\"",
+           "block.model is not \"multiscale\""}})
+        EXPECT_TRUE(said(fmt::format("{} = {}", key, value),
+                         fmt::format("{} has no effect: {}", key, reason)))
+            << key;
     const std::string mixed = "numerics.precision = \"mixed\"\n";
     EXPECT_FALSE(said(mixed, "numerics.precision"));
     for (const char* with : {"surface.lattice_ratio = 1.618",

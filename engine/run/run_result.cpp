@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 
 #include "engine/device/device_block.hpp"
 #include "engine/theory/theory_case.hpp"
