@@ -93,7 +93,8 @@ def python() -> str:
     import asperity
 
     out = ["\n", prose(asperity.__doc__)]
-    for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "Result", "Sweep", "Estimate", "Adhesion", "Simulation", "Statics", "states"):
+    for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "Result", "Sweep", "Estimate",
+                 "Adhesion", "Simulation", "Statics", "states"):
         thing = getattr(asperity, name)
         out += [f"\n## asperity.{name}\n\n", f"`{called(name, thing)}`\n\n", prose(thing.__doc__)]
         if isinstance(thing, type):

@@ -74,10 +74,11 @@ std::vector<Command> all_commands() {
          "what a scene will simulate and what not, and what it will cost; runs nothing",
          {takes::scene,
           takes::set,
-          {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks}},
+          {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks},
+          takes::json},
          [](const Arguments& given, const Communicator& world) {
              return plan_command(case_of(given, given.ranks > 0 ? given.ranks : world.size()),
-                                 world);
+                                 given.json, world);
          }},
         {"surface",
          "make or read the surface, print and write its statistics and heights",
@@ -131,8 +132,10 @@ std::vector<Command> all_commands() {
          }},
         {"info",
          "what this program was built from and runs on",
-         {},
-         [](const Arguments&, const Communicator& world) { return info_command(world); }},
+         {takes::json},
+         [](const Arguments& given, const Communicator& world) {
+             return info_command(given.json, world);
+         }},
     };
 }
 
@@ -153,7 +156,7 @@ int main(int argc, char** argv) {
     const ParallelSession session(argc, argv);
     const Communicator& world = session.world();
     world.share_processors();
-    return exit_code_of(world, [&] {
+    return exit_code_of(world, is_for_programs(argc, argv), [&] {
         if (session.unconnected() > 0) return refuse_unconnected(session);
         return carry_out(commands, argc, argv, world);
     });

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/json.hpp"
 
-#include "io/error.hpp"
 #include "io/files.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +20,14 @@ constexpr int deepest = 64;
 std::string json_text(const Json& value, int indent) {
     // A path on Linux may be any bytes; what is no UTF-8 is replaced rather than refused.
     return value.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+Json problems_json(const std::vector<Problem>& problems) {
+    Json all = Json::array();
+    for (const Problem& one : problems)
+        all.push_back(
+            {{"where", one.where}, {"what", one.what}, {"why", one.why}, {"fix", one.fix}});
+    return all;
 }
 
 Json parse_json(std::string_view text, const std::string& file) {

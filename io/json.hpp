@@ -5,10 +5,13 @@
 // <nlohmann/json_fwd.hpp>.
 #pragma once
 
+#include "io/error.hpp"
+
 #include <nlohmann/json.hpp>
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity::io {
 
@@ -16,6 +19,8 @@ using Json = nlohmann::ordered_json;
 
 /// Returns the text of a value; indent < 0: on one line. NaN and infinity are written as null.
 std::string json_text(const Json& value, int indent = -1);
+/// Returns problems as an array of objects with the members where, what, why and fix.
+Json problems_json(const std::vector<Problem>& problems);
 /// Parses a text. Throws FileError with `file` and the place of the mistake.
 Json parse_json(std::string_view text, const std::string& file);
 /// Returns an object as the text of a file, whose last member `digest` is of all bytes before the

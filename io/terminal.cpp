@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/terminal.hpp"
 
+#include "io/json.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -141,7 +143,7 @@ std::string cell(double value, int digits) {
 }
 
 std::optional<ProgressMode> progress_mode(std::string_view name) {
-    static constexpr std::string_view names[] = {"auto", "bar", "lines", "off"};
+    static constexpr std::string_view names[] = {"auto", "bar", "lines", "json", "off"};
     const auto* const at = std::find(std::begin(names), std::end(names), name);
     if (at == std::end(names)) return std::nullopt;
     return static_cast<ProgressMode>(at - std::begin(names));
@@ -159,7 +161,7 @@ bool Progress::due() const {
     if (mode_ == ProgressMode::off) return false;
     const auto now = Clock::now();
     return seconds(now - last_) >=
-           (mode_ == ProgressMode::lines ? line_seconds(seconds(now - start_)) : bar_seconds);
+           (mode_ == ProgressMode::bar ? bar_seconds : line_seconds(seconds(now - start_)));
 }
 
 void Progress::update(const State& state) {
@@ -181,6 +183,9 @@ void Progress::update(const State& state) {
     if (mode_ == ProgressMode::bar) {
         put(fmt::format("\r\033[K{:.{}}", line, columns_of(to_)));
         bar_drawn_ = true;
+    } else if (mode_ == ProgressMode::json) {
+        const Json fraction = state.fraction < 0.0 ? Json() : Json(state.fraction);
+        put(json_text({{"fraction", fraction}, {"text", line}}) + "\n");
     } else {
         put(line + "\n");
     }
@@ -196,7 +201,7 @@ void Progress::say(const std::string& sentence) {
     first_steps_ = -1; // the next steps are of another kind and speed
     if (mode_ == ProgressMode::off) return;
     finish();
-    put(sentence + "\n");
+    put((mode_ == ProgressMode::json ? json_text({{"text", sentence}}) : sentence) + "\n");
 }
 
 void Progress::finish() {

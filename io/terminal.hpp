@@ -40,9 +40,11 @@ std::string number(double value, int decimals);
 std::string cell(double value, int digits = 4);
 
 /// Mode of progress reports. "bar" redraws one line, on a terminal; "lines" prints a line now and
-/// then, for logs and under mpirun (where ranks see no terminal); "auto" picks one of them.
-enum class ProgressMode { automatic, bar, lines, off };
-/// Returns the mode named "auto", "bar", "lines" or "off"; nothing for another name.
+/// then, for logs and under mpirun (where ranks see no terminal); "auto" picks one of them; "json"
+/// prints the lines as JSON, for programs: {"fraction": done part of the path (null: unknown),
+/// "text": the line}, and sentences as {"text": sentence}.
+enum class ProgressMode { automatic, bar, lines, json, off };
+/// Returns the mode named "auto", "bar", "lines", "json" or "off"; nothing for another name.
 std::optional<ProgressMode> progress_mode(std::string_view name);
 
 /// Progress report of one rank. An update costs a look at the clock; call update() every few steps.

@@ -12,7 +12,7 @@ import extrapolate
 import machine
 
 sys.path.append(str(Path(__file__).resolve().parents[1] / "docs"))
-from tables import block  # noqa: E402
+from tables import block
 
 
 def _number(x):
@@ -143,6 +143,7 @@ def limits_plot(results, file):
 
     matplotlib.use("svg")
     import matplotlib.pyplot as plt
+
     from asperity.plots.style import BLUE, GREEN, YELLOW, style
 
     kinds = (("of limit", "of its bound: arithmetic, division or memory", BLUE),

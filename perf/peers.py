@@ -154,7 +154,10 @@ def main() -> None:
                         "surface.q_max": sites / 8, "output.checkpoint": "none", "drive.load": load,
                         "drive.tolerance": TOLERANCE / attraction}
                 scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
-                options = lambda keys, place: scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]
+
+                def options(keys, place, scene=scene):
+                    return scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]
+
                 _, process, memory = measured(options(keys, place))
                 result = json.loads((place / "result.json").read_text())
                 _, gap, heights = maps(place)
@@ -166,8 +169,9 @@ def main() -> None:
                         "range": a.range, "gap": float(gap.mean()), "tolerance": TOLERANCE, "relative": 1e-6}
                 pathlib.Path(f"{scratch}/case.json").write_text(json.dumps(case))
                 mine = observables(case, gap, heights, softer)["energy"] / w
-                print(f"{sites:5} {load:8g} asperity  {result['contact_fraction']:.4f} {mine:9.5f} {0:20} {result['zero_load']['residual_force']:9.1e} "
-                      f"{result['run']['iterations']:11} {result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
+                print(f"{sites:5} {load:8g} asperity  {result['contact_fraction']:.4f} {mine:9.5f} {0:20} "
+                      f"{result['zero_load']['residual_force']:9.1e} {result['run']['iterations']:11} "
+                      f"{result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
                 for name in ("tamaas", "adhesion", "lattice"):
                     text, process, memory = measured([str(python), __file__, "--solve", name, f"{scratch}/case.json"])
                     r = json.loads(text.splitlines()[-1])

@@ -27,7 +27,7 @@ def run(command, threads, ranks=1):
                 ["--oversubscribe", "--bind-to", "none"]
         command = [*launcher, "-n", str(ranks), *command]
         environment.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment)
+    done = subprocess.run(command, capture_output=True, text=True, env=environment)
     if done.returncode != 0:
         sys.exit(f"bench: {' '.join(command)} failed:\n{done.stderr}")
     return json.loads(done.stdout)

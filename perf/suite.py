@@ -40,7 +40,7 @@ def google(program, pattern, quick):
     options += (["--benchmark_min_time=0.001"] if quick else
                 ["--benchmark_min_time=0.05", "--benchmark_repetitions=10",
                  "--benchmark_enable_random_interleaving=true"])
-    run = subprocess.run([program] + options, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    run = subprocess.run([program] + options, capture_output=True, text=True)
     if run.returncode != 0:
         sys.exit(f"bench: {program} failed:\n{run.stderr}")
     best = {}

@@ -9,7 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 
-from asperity.plots.style import style  # noqa: E402
+from asperity.plots.style import style
 
 gallery = Path(__file__).resolve().parent
 SITES = {"load_cycles": "32", "slide": "32"}

@@ -3,7 +3,8 @@
 """Fig. 5 of the paper with γ by JKR from the force and from the energy at zero load: python3 docs/gallery/fig5.py
 
 Reads docs/data/fig5.csv (5 m/s) and fig5-equilibrium.csv (scenes/paper/fig5-equilibrium.toml), writes fig5-gamma-force.svg beside
-itself and the table docs/data/tables/fig5-gamma-force.csv of docs/reports/paper.md. What a Maugis-Dugdale sphere with the renormalised law has is integrated here.
+itself and the table docs/data/tables/fig5-gamma-force.csv of docs/reports/paper.md. What a Maugis-Dugdale
+sphere with the renormalised law has is integrated here.
 Needs numpy and matplotlib (Debian: python3-numpy python3-matplotlib)."""
 import csv
 import math
@@ -19,9 +20,9 @@ import numpy as np
 GALLERY = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(GALLERY.parents[1] / "python"))
 from asperity.plots.style import RC  # noqa: E402
+from asperity.units import GIGAPASCAL  # noqa: E402
 
-GPA = 1 / 160.21766208  # eV/Å³
-R, E = 4410.0, 77.2 * GPA / (1 - 0.42**2)
+R, E = 4410.0, 77.2 * GIGAPASCAL / (1 - 0.42**2)
 K = 4 * E / 3
 
 
@@ -63,7 +64,7 @@ for rms, these in points.items():
     one = these[0]
     flat, w = float(one["delta_gamma"]), float(one["theory.renormalised.gamma_eff"]) / 1e3
     energy = np.array([float(r["jkr.relaxed_ratio"]) for r in these])
-    law = by_jkr(binding_energy(w, float(one["theory.renormalised.tension"]) * GPA)) * 1e3 / flat
+    law = by_jkr(binding_energy(w, float(one["theory.renormalised.tension"]) * GIGAPASCAL)) * 1e3 / flat
     table.append((rms, energy[0], energy.mean(), energy.std(ddof=1), float(one["theory.renormalised.gamma_eff_ratio"]),
                   float(one["theory.sphere.renormalised_parameter"]), float(one["theory.sphere.renormalised_ratio"]), law))
     path = paths.get(rms)

@@ -14,9 +14,10 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "scenes/validation"))
-import rate
-from asperity.crack import opening_factor
-from asperity.plots.style import BLUE, GREEN, GREY, RED, style
+import rate  # noqa: E402
+
+from asperity.crack import opening_factor  # noqa: E402
+from asperity.plots.style import BLUE, GREEN, GREY, RED, style  # noqa: E402
 
 TABLES = ROOT / "docs/data/tables"
 
@@ -40,7 +41,8 @@ with style():
     work.set(xscale="log", ylim=(0, None), xlabel="velocity (m/s)", ylabel="work of the pull-off (meV/Å²)")
     v = np.geomspace(0.01, 1e4, 40)
     crack.plot(v, [rate.steady(x, 300) for x in v], color=GREY, lw=1.2, label="infinite solid, same law")
-    crack.plot(v, opening_factor([(rate.RATIO, f"{rate.TIME} ns")], v, "21.8 nm"), ":", color=GREEN, lw=1.4, label="Persson and Brener, $a_0$ = 21.8 nm")
+    crack.plot(v, opening_factor([(rate.RATIO, f"{rate.TIME} ns")], v, "21.8 nm"), ":", color=GREEN, lw=1.4,
+               label="Persson and Brener, $a_0$ = 21.8 nm")
     for column, colour, marker, label in ((1, RED, "s", "strip of 64 nm"), (4, BLUE, "o", "strips, as 1/H → 0")):
         some = [(float(r[column]), float(r[0])) for r in rows("rate-crack.csv") if r[column] and float(r[0]) > 1]
         crack.plot(*np.array(some).T, marker, color=colour, ms=4.5, mfc="none", label=label)

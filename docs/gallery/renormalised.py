@@ -3,7 +3,8 @@
 """States at zero load beside the paper's theory and the renormalised theory: python3 docs/gallery/renormalised.py
 
 Reads docs/data/renormalised.csv (512 sites, the paper's roughnesses), fig2-quasistatic.csv and parameters.csv
-(scenes/validation/parameters.py); writes theory-renormalised.svg, fig2-paths.svg and theory-sets.svg beside itself. Needs matplotlib (Debian: python3-matplotlib)."""
+(scenes/validation/parameters.py); writes theory-renormalised.svg, fig2-paths.svg and theory-sets.svg beside itself.
+Needs matplotlib (Debian: python3-matplotlib)."""
 import csv
 import pathlib
 import sys
@@ -48,11 +49,16 @@ def save(figure, name):
 
 table = means(rows("renormalised.csv"), ["surface.rms"])
 rms = np.array([float(k[0]) for k in table])
+
+
+def column(name):
+    return np.array([m[name] for m in table.values()])
+
+
 figure, axes = plt.subplots(1, 2, figsize=(8, 3.4), constrained_layout=True)
 for axis, simulated, theory, label in (
         (axes[0], "binding_energy_ratio", "gamma_eff_ratio", "$γ_{eff}$ / Δγ"),
         (axes[1], "contact_fraction", "contact_fraction", "contact fraction")):
-    column = lambda name: np.array([m[name] for m in table.values()])
     axis.errorbar(rms, column(simulated), column(simulated + "±"), fmt="^", ms=5, color=SIMULATED, capsize=2,
                   label="state at zero load, three surfaces")
     axis.plot(rms, column("theory.renormalised." + theory), "--", color=RENORMALISED, label="renormalised theory")
@@ -61,7 +67,6 @@ for axis, simulated, theory, label in (
 axes[0].legend()
 save(figure, "theory-renormalised.svg")
 
-column = lambda name: np.array([m[name] for m in table.values()])
 paths = {float(r["surface.rms"]): r for r in rows("fig2-quasistatic.csv") if float(r["surface.rms"]) <= 12}
 figure, axis = plt.subplots(figsize=(4.6, 3.4), constrained_layout=True)
 for segment, marker, colour, label in (("pull_off", "s", "#d55e00", "quasi-static pull-off, surface 1"),
@@ -82,7 +87,6 @@ figure, axes = plt.subplots(1, 2, figsize=(8, 3.8), constrained_layout=True, sha
 
 def draw(points, marker, colour, label):
     x = np.array([m["binding_energy_ratio"] for m in points])
-    spread = np.array([m["binding_energy_ratio±"] for m in points])
     for axis, theory in ((axes[0], "theory.renormalised.gamma_eff_ratio"), (axes[1], "theory.persson.gamma_eff_ratio")):
         y = np.array([m[theory] for m in points])
         axis.plot(x, y - x, marker, ms=4.5, color=colour, markerfacecolor="none", label=f"{label} ({len(x)})")

@@ -13,13 +13,14 @@ import csv
 import sys
 from pathlib import Path
 
-import asperity
 import matplotlib
 
+import asperity
+
 matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.ticker import MaxNLocator  # noqa: E402
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 if len(sys.argv) != 4:
     sys.exit(__doc__)

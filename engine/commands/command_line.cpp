@@ -83,7 +83,8 @@ RunOptions run_options(const Arguments& given) {
         options.progress = *mode;
     else
         problems.add(io::Problem{"--progress " + given.progress, "is none of its choices",
-                                 "the choices are auto, bar, lines and off", "give one of them"});
+                                 "the choices are auto, bar, lines, json and off",
+                                 "give one of them"});
     if (options.resuming() && options.resume != "auto" && !std::filesystem::exists(options.resume))
         problems.add(io::Problem{"--resume " + options.resume, "there is no such file",
                                  "a checkpoint file or the word auto is needed",
@@ -101,7 +102,8 @@ const Option set = {"--set", "key=value",
                     &Arguments::overrides};
 const Option json = {"--json", "", "one line of JSON for programs; writes no files",
                      &Arguments::json};
-const Option progress = {"--progress", "MODE", "auto, bar, lines or off", &Arguments::progress};
+const Option progress = {"--progress", "MODE", "auto, bar, lines, off; json: for programs",
+                         &Arguments::progress};
 
 Option out(const std::string& otherwise) {
     return {"--out", "DIR", fmt::format("result directory (default: {})", otherwise),
@@ -151,6 +153,16 @@ std::vector<std::string> spelt_out(int argc, char** argv) {
 }
 
 } // namespace
+
+bool is_for_programs(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool progress = i > 1 && argv[i - 1] == takes::progress.name && word == "json";
+        if (word == takes::json.name || word == takes::progress.name + "=json" || progress)
+            return true;
+    }
+    return argc > 1 && std::string_view(argv[1]) == "theory-points";
+}
 
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world) {

@@ -20,8 +20,9 @@ int init_command(const std::string& file, const Communicator& world);
 /// Checks a scene (`asperity check`). json: prints the scene as it would be used, its [sweep],
 /// notes and limits, as one line.
 int check_command(const Case& c, bool json, const Communicator& world);
-/// Plans a run on the ranks of the case (`asperity plan`).
-int plan_command(const Case& c, const Communicator& world);
+/// Plans a run on the ranks of the case (`asperity plan`). json: prints plan_json() and the notes
+/// as one line.
+int plan_command(const Case& c, bool json, const Communicator& world);
 /// Writes heights.h5 and result.json (`asperity surface`) to `out` (empty:
 /// results/<scene>-surface). json: prints rms height (Å), rms slope of neighbours, notes, and those
 /// on the file of a map (doubts), as one line instead.
@@ -32,8 +33,8 @@ int defaults_command(bool markdown, bool plain, bool results, const Communicator
 /// Prints kind, unit, default, choices and meaning of every key (`asperity defaults --json`);
 /// results: unit and meaning of every value of result.json instead.
 int schema_command(bool results, const Communicator& world);
-/// Prints version, compiler and machine (`asperity info`).
-int info_command(const Communicator& world);
+/// Prints version, compiler and machine (`asperity info`). json: as one line.
+int info_command(bool json, const Communicator& world);
 
 /// Input of `asperity theory-points SCENE`, on one rank: many variations of one scene in one call,
 /// for programs. The Python package computes its theories with it, and sweeps check their points.

@@ -4,6 +4,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "io/error.hpp"
+#include "io/json.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -12,6 +13,7 @@
 #include <new>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -23,13 +25,15 @@ namespace {
 constexpr double patience = 30.0;
 
 /// Prints the error on rank 0 and returns the exit code.
-int report(const std::exception& error, const Communicator& world) {
+int report(const std::exception& error, bool json, const Communicator& world) {
     int code = io::exit_code::internal;
     std::string text = error.what();
+    std::vector<io::Problem> problems;
     if (const auto* known = dynamic_cast<const io::Error*>(&error)) {
         code = known->code();
-        const std::size_t count = known->problems().size();
-        if (code == io::exit_code::scene)
+        problems = known->problems();
+        const std::size_t count = problems.size();
+        if (code == io::exit_code::scene && !json)
             text +=
                 fmt::format("\n{} problem{}; nothing was written", count, count == 1 ? "" : "s");
     } else if (dynamic_cast<const std::bad_alloc*>(&error)) {
@@ -43,6 +47,11 @@ int report(const std::exception& error, const Communicator& world) {
                "\n    why: the program met a state it does not expect"
                "\n    fix: please report this, with the scene";
     }
+    if (json) {
+        const io::Json told = {
+            {"code", code}, {"problems", io::problems_json(problems)}, {"text", text}};
+        text = io::json_text({{"error", told}});
+    }
     if (world.root()) {
         std::fflush(stdout);
         fmt::print(stderr, "{}\n", text);
@@ -53,8 +62,8 @@ int report(const std::exception& error, const Communicator& world) {
 
 /// Ends a run of several ranks by an error on one of them. The others give rank 0 time to report
 /// first; if it does not, the error is not one of rank 0.
-[[noreturn]] void end_together(const std::exception& error, const Communicator& world) {
-    const int code = report(error, world);
+[[noreturn]] void end_together(const std::exception& error, bool json, const Communicator& world) {
+    const int code = report(error, json, world);
     if (!world.root()) {
         std::this_thread::sleep_for(std::chrono::seconds(5));
         fmt::print(stderr, "rank {}: {}\n", world.rank(), error.what());
@@ -95,18 +104,18 @@ int refuse_unconnected(const ParallelSession& session) {
          "--mpi=list)"});
 }
 
-int exit_code_of(const Communicator& world, const std::function<int()>& work) {
+int exit_code_of(const Communicator& world, bool json, const std::function<int()>& work) {
     try {
         return work();
     } catch (const io::SceneError& error) { // on every rank, or on the root for all of them
-        return end_alike(error.what(), report(error, world), world);
+        return end_alike(error.what(), report(error, json, world), world);
     } catch (const io::PhysicsError& error) { // guards compare global numbers: on every rank
-        return end_alike(error.what(), report(error, world), world);
+        return end_alike(error.what(), report(error, json, world), world);
     } catch (const RootFailure& error) { // the root has the reason and the code
         return end_alike(error.what(), io::exit_code::done, world);
     } catch (const std::exception& error) {
-        if (world.size() > 1) end_together(error, world);
-        return report(error, world);
+        if (world.size() > 1) end_together(error, json, world);
+        return report(error, json, world);
     }
 }
 

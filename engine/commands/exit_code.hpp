@@ -16,8 +16,9 @@ class Communicator;
 class ParallelSession;
 
 /// Calls work() and returns the exit code, the same on every rank: the result of work(), or the
-/// code of the error that it threw, which is printed.
-int exit_code_of(const Communicator& world, const std::function<int()>& work);
+/// code of the error that it threw, which is printed. json: the error is printed as one line
+/// {"error": {"code", "problems": [{"where", "what", "why", "fix"}], "text"}}, for programs.
+int exit_code_of(const Communicator& world, bool json, const std::function<int()>& work);
 
 /// Ends a process of a launcher that has started several processes of which MPI connects none
 /// (session.unconnected()): each would take itself for the whole run. The first process throws

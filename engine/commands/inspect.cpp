@@ -59,8 +59,7 @@ io::Json check_json(const Case& c, const Communicator& world) {
         all["edge_pinning"] = c.edge_pinning;
         all["notes"] = notes;
     } catch (const io::SceneError& error) {
-        for (const io::Problem& problem : error.problems())
-            all["problems"].push_back(io::format(problem));
+        all["problems"] = io::problems_json(error.problems());
     }
     return all;
 }
@@ -140,11 +139,17 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int plan_command(const Case& c, const Communicator& world) {
+int plan_command(const Case& c, bool json, const Communicator& world) {
     const std::vector<std::string> notes = examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root([&] {
         const int threads = std::max(1, cores / c.ranks);
+        if (json) {
+            io::Json all = plan_json(c, threads, make_plan(c, threads));
+            all["notes"] = notes;
+            fmt::print("{}\n", io::json_text(all));
+            return;
+        }
         print_plan(stdout, c, threads, make_plan(c, threads));
         for (const std::string& note : notes)
             fmt::print("note: {}\n", note);
@@ -188,12 +193,13 @@ void print_map_file(const Case& c) {
     fmt::print("\n");
 }
 
-void write_surface(const Case& c, const Surface& surface, const std::string& out) {
+/// Writes the files of a surface. Returns lines to print.
+std::vector<std::string> write_surface(const Case& c, const Surface& surface,
+                                       const std::string& out) {
     const Scene& scene = c.scene;
     const io::ResultDirectory place(
         {out, scene.name + "-surface", false, false, {"heights.h5", "result.json"}, c.inputs()});
 
-    const SurfaceStatistics& statistics = surface.statistics;
     const std::string file = place.directory() / "heights.h5";
     io::HeightMap map;
     map.rows = map.columns = static_cast<std::size_t>(surface.sites);
@@ -201,7 +207,7 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     map.width = map.height = surface.length;
     map.origin = surface.origin;
     std::vector<double> q, realised, target;
-    for (const SpectrumBin& bin : statistics.spectrum) {
+    for (const SpectrumBin& bin : surface.statistics.spectrum) {
         q.push_back(bin.q);
         realised.push_back(bin.realised);
         target.push_back(bin.target);
@@ -218,7 +224,15 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
                           {"/spectrum/scale_dependent_slope", "1", lines.slope}});
 
     io::write_result(place.directory(), surface_result(c, surface));
+    std::vector<std::string> said;
+    for (const std::string& note : place.notes())
+        said.push_back("note: " + note);
+    said.push_back("heights and spectrum in " + file);
+    return said;
+}
 
+void print_surface(const Surface& surface) {
+    const SurfaceStatistics& statistics = surface.statistics;
     io::Table table({"the surface made", "", ""}, "<><");
     if (surface.atoms.size() > 0) table.row({"atoms", fmt::format("{}", surface.atoms.size()), ""});
     table.row({surface.atoms.size() > 0 ? "sites" : "atoms",
@@ -241,9 +255,6 @@ void write_surface(const Case& c, const Surface& surface, const std::string& out
     table.print(stdout);
     for (const std::string& note : surface.notes)
         fmt::print("note: {}\n", note);
-    for (const std::string& note : place.notes())
-        fmt::print("note: {}\n", note);
-    fmt::print("heights and spectrum in {}\n", file);
 }
 
 } // namespace
@@ -258,12 +269,20 @@ int surface_command(const Case& c, const std::string& out, bool json, const Comm
                                map_statistics(surface.height, n, n, pixel, pixel, true).rms_slope},
                               {"doubts", surface.doubts},
                               {"notes", surface.notes}};
-        if (world.root()) fmt::print("{}\n", io::json_text(all));
+        world.on_root([&] {
+            if (!out.empty()) write_surface(c, surface, out);
+            fmt::print("{}\n", io::json_text(all));
+        });
         return io::exit_code::done;
     }
     if (c.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
-    world.on_root([&] { write_surface(c, surface, out); });
+    world.on_root([&] {
+        const std::vector<std::string> lines = write_surface(c, surface, out);
+        print_surface(surface);
+        for (const std::string& line : lines)
+            fmt::print("{}\n", line);
+    });
     return io::exit_code::done;
 }
 
@@ -298,9 +317,24 @@ int schema_command(bool results, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int info_command(const Communicator& world) {
+int info_command(bool json, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     const io::BuildInfo build = io::build_info();
+    if (json) {
+        const io::Json all = {{"version", build.version},
+                              {"git", build.git},
+                              {"compiler", build.compiler},
+                              {"flags", build.flags},
+                              {"mpi", ParallelSession::library()},
+                              {"hdf5", build.hdf5},
+                              {"fftw", std::string(fftw_version)},
+                              {"ranks", world.size()},
+                              {"threads", omp_get_max_threads()},
+                              {"cuda", static_cast<bool>(cuda_device())},
+                              {"processor", name(processor_level())}};
+        fmt::print("{}\n", io::json_text(all));
+        return io::exit_code::done;
+    }
     io::Table table({"", ""}, "<<");
     table.row({"version", build.version});
     table.row({"git", build.git});

@@ -133,17 +133,6 @@ Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     return point;
 }
 
-Json problems_json(const std::vector<io::Problem>& problems) {
-    Json point = Json::object();
-    for (const io::Problem& problem : problems) {
-        point["problems"].push_back({{"where", problem.where},
-                                     {"what", problem.what},
-                                     {"why", problem.why},
-                                     {"fix", problem.fix}});
-    }
-    return point;
-}
-
 } // namespace
 
 int theory_points_command(const TheoryPoints& what) {
@@ -177,7 +166,7 @@ int theory_points_command(const TheoryPoints& what) {
                     if (now.contains(part)) point[part] = now[part];
             }
         } catch (const io::SceneError& error) {
-            point = problems_json(error.problems());
+            point = {{"problems", io::problems_json(error.problems())}};
         }
         fmt::print("{}\n", io::json_text(point));
     }

@@ -7,6 +7,7 @@
 #include "engine/statics/zero_load.hpp"
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
+#include "io/json.hpp"
 #include "io/machine.hpp"
 #include "io/terminal.hpp"
 #include "kernels/variant.hpp"
@@ -81,6 +82,14 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
                                                  : 0.0;
     return bytes * here + tables * piece.table * (whole - here);
 }
+
+/// Returns the largest memory of all ranks together, bytes.
+double bytes_at_once(const Plan& plan) {
+    return std::accumulate(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end(), 0.0);
+}
+
+/// Returns the seconds of the whole run.
+double seconds_altogether(const Plan& plan) { return plan.making + plan.moving + plan.rest; }
 
 /// Prints the scale of the tolerance.
 void print_scales(std::FILE* to, const Case& c, double height) {
@@ -192,8 +201,8 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
                              : "");
     line("maps", plan.bytes[Piece::maps], 0.0, "while nothing is relaxed");
     table.rule();
-    const double bytes = std::accumulate(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end(), 0.0);
-    line("altogether", bytes, plan.making + plan.moving + plan.rest,
+    const double bytes = bytes_at_once(plan);
+    line("altogether", bytes, seconds_altogether(plan),
          fmt::format("{} rank{} of {} thread{}; memory: the most at once", c.ranks, s(c.ranks),
                      threads, s(threads)));
     table.print(to);
@@ -214,10 +223,30 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
                "wall time   of idle processors, without messages between machines; measured on "
                "{0} x {0} sites, kernels for {1}\nNothing was run or written.\n",
                plan.sites, name(processor_level()));
-    if (plan.making + plan.moving + plan.rest > one_day)
+    if (seconds_altogether(plan) > one_day)
         fmt::print(to, "note: the run takes more than a day: fewer sites or layers, a higher "
                        "velocity, or drive.mode = \"quasistatic\"; `asperity cost` says what each "
                        "loses\n");
+}
+
+nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
+    io::Json effects = io::Json::object(), bytes, seconds;
+    for (const auto& [name, effect] : c.effects.list())
+        effects[name] = {{"on", static_cast<bool>(effect)}, {"because", effect.why}};
+    constexpr std::array names = {"surface", "interface", "block", "kept", "rest", "maps"};
+    static_assert(names.size() == Piece::parts);
+    for (std::size_t part = 0; part < Piece::parts; ++part)
+        bytes[names[part]] = plan.bytes[part];
+    bytes["altogether"] = bytes_at_once(plan);
+    bytes["available"] = io::available_memory().bytes;
+    seconds["surface"] = plan.making;
+    seconds["steps"] = plan.moving;
+    seconds["rest"] = plan.rest;
+    seconds["altogether"] = seconds_altogether(plan);
+    seconds["factor"] = plan.factor;
+    return {{"name", c.scene.name}, {"effects", effects},  {"ranks", c.ranks},
+            {"threads", threads},   {"steps", plan.steps}, {"bytes", bytes},
+            {"seconds", seconds},   {"ended", plan.ended}};
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {

@@ -10,6 +10,8 @@
 
 #include "engine/plan/rehearsal.hpp"
 
+#include <nlohmann/json_fwd.hpp>
+
 #include <cstdio>
 #include <vector>
 
@@ -33,6 +35,12 @@ struct Plan {
 /// reading files.
 Plan make_plan(const Case& c, int threads);
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
+/// Returns the plan for programs: {"name", "effects": {name: {"on", "because"}}, "ranks",
+/// "threads", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
+/// "altogether", "available"}, "seconds": {"surface", "steps", "rest", "altogether", "factor"},
+/// "ended"}, named as the members of Plan; altogether: largest bytes at once, and seconds of the
+/// whole run.
+nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not
 /// fit into the memory of its machines: the ranks of each machine together are compared with the

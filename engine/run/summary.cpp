@@ -19,6 +19,9 @@ namespace asperity {
 
 namespace {
 
+/// Fraction of the work of adhesion of flat surfaces below which solids do not stick.
+constexpr double no_adhesion = 0.01;
+
 std::string levels_text(const Case& c) {
     if (!c.effects.dynamic) return "static response of the lattice, wave by wave";
     const auto& levels = c.levels;
@@ -313,6 +316,10 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                        : std::string(),
             io::number(*of("pair_binding_energy"), 2), io::number(*of("relaxed.elastic_energy"), 2),
             io::number(100.0 * *of("contact_fraction"), 1));
+    if (state && flat > 0.0 && *state < no_adhesion * flat)
+        fmt::print(to,
+                   "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n",
+                   at, 100.0 * no_adhesion);
     if (c.simulation.block.finite_strain)
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "

@@ -130,7 +130,7 @@ LedPath::Point LedPath::now() const {
     if (!points) return before_;
     Point p{points->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double sites = static_cast<double>(surface_.sites) * surface_.sites;
+    const double edge = case_.simulation.block.sites, sites = edge * edge;
     p.instabilities = points->dissipation().events;
     p.contact_fraction = static_cast<double>(p.in_contact) / sites;
     p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
@@ -159,7 +159,7 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{surface_.sites, {}, path_.block().top()};
+    State state{case_.simulation.block.sites, {}, path_.block().top()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
@@ -175,10 +175,10 @@ LedPath::State LedPath::copy() const {
 }
 
 void LedPath::restore(const State& state) {
-    if (state.sites != surface_.sites)
+    const int sites = case_.simulation.block.sites;
+    if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
-               fmt::format("the scene has {0} x {0}", surface_.sites),
-               "give a state of this scene");
+               fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
     std::size_t extensions = 0;
     if (const auto* memory = path_.block().memory())
         for (const SiteField<double>& branch : *memory)
@@ -227,7 +227,8 @@ void LedPath::hold(Held held) {
 /// Begins the path unless it has begun.
 void LedPath::begin() {
     if (path_.points()) return;
-    hold(held_.value_or(case_.simulation.drive.control == Control::top ? Held::top : Held::mean_height));
+    hold(held_.value_or(case_.simulation.drive.control == Control::top ? Held::top
+                                                                       : Held::mean_height));
     path_.begin_by_hand(*held_, remembers_);
 }
 

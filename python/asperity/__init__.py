@@ -23,10 +23,20 @@ from typing import TYPE_CHECKING
 from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped
 
 if TYPE_CHECKING:
-    from .forms import Adhesion, Estimate, Result, Sweep, adhesion, estimate, load, load_estimate, load_sweep, run, sweep
-    from .running.engine import Simulation as Simulation
-    from .running.engine import State as State
-    from .running.engine import Statics as Statics
+    from .forms import (
+        Adhesion as Adhesion,
+        Estimate as Estimate,
+        Result as Result,
+        Sweep as Sweep,
+        adhesion as adhesion,
+        estimate as estimate,
+        load as load,
+        load_estimate as load_estimate,
+        load_sweep as load_sweep,
+        run as run,
+        sweep as sweep,
+    )
+    from .running.engine import Simulation as Simulation, State as State, Statics as Statics
     from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",

@@ -78,10 +78,9 @@ def _parser() -> argparse.ArgumentParser:
     sweep.add_argument("--jobs", type=_many, default=1, metavar="N",
                        help="points side by side; each takes an equal share of the processors, unless "
                             "OMP_NUM_THREADS or --launch chooses")
-    executor = dict(metavar="WHERE", default="", help="run them on workers instead: mpi (the ranks of "
-                    "`mpirun -n 3 asperity ... --executor mpi`, the first of which leads) or dask:tcp://HOST:PORT; one "
-                    "thread each, unless OMP_NUM_THREADS says more there")
-    sweep.add_argument("--executor", **executor)
+    workers = ("run them on workers instead: mpi (the ranks of `mpirun -n 3 asperity ... --executor mpi`, the first of which "
+               "leads) or dask:tcp://HOST:PORT; one thread each, unless OMP_NUM_THREADS says more there")
+    sweep.add_argument("--executor", metavar="WHERE", default="", help=workers)
     sweep.add_argument("--launch", default="", metavar="WORDS",
                        help='what to put before the program for every point: "mpirun -n 2"')
     sweep.add_argument("--wall-limit", default="", metavar="23h50m",
@@ -91,7 +90,7 @@ def _parser() -> argparse.ArgumentParser:
                "The same command goes on where it stopped.")
     scene(cost, "results/<scene>-cost")
     cost.add_argument("--jobs", type=_many, default=1, metavar="N", help="runs side by side, one thread each")
-    cost.add_argument("--executor", **executor)
+    cost.add_argument("--executor", metavar="WHERE", default="", help=workers)
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--parameters", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")

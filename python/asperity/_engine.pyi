@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 #
-# Types of the compiled module (_engine.cpp); Final: to be read. What each name means: help(asperity.Simulation).
+# Types of the compiled module (binding/); Final: to be read. What each name means: help(asperity.Simulation).
 import os
 from collections.abc import Callable
 from typing import Any, Final, NamedTuple, overload

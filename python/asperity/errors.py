@@ -13,7 +13,9 @@ from __future__ import annotations
 
 import sys
 import sysconfig
+from collections.abc import Callable
 from pathlib import Path
+from typing import Self
 
 NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "jinja2")
 """Packages of PyPI that this package imports."""
@@ -31,27 +33,32 @@ def to_install(*packages: str) -> str:
             f"export ASPERITY_PYTHON={place}/bin/python3")
 
 
+def _text_of(where: str, what: str = "", why: str = "", fix: str = "") -> str:
+    """Returns the message of a problem."""
+    text = f"{where}: {what}" if where and what else where or what
+    for head, line in (("why", why), ("fix", fix)):
+        if line:
+            text += f"\n    {head}: " + line.replace("\n", "\n         ")
+    return text
+
+
 class Error(Exception):
-    """Base class: `code` is the exit code, `problems` the number of mistakes."""
+    """Base class: `code` is the exit code, `problems` the number of mistakes, `listed` each of them as a dictionary with the
+    members where, what, why and fix."""
 
     code = 1
 
     def __init__(self, where: str, what: str = "", why: str = "", fix: str = ""):
-        text = f"{where}: {what}" if where and what else where or what
-        for head, line in (("why", why), ("fix", fix)):
-            if line:
-                text += f"\n    {head}: " + line.replace("\n", "\n         ")
-        super().__init__(text)
-        self.problems = 1
+        super().__init__(_text_of(where, what, why, fix))
+        self.listed = [{"where": where, "what": what, "why": why, "fix": fix}]
 
-
-class SceneError(Error):
-    """Error in the scene, in the command line or in an input that the scene names (exit 2)."""
-
-    code = 2
+    @property
+    def problems(self) -> int:
+        """Number of mistakes."""
+        return len(self.listed)
 
     @classmethod
-    def of(cls, problems: list[dict]) -> SceneError:
+    def of(cls, problems: list[dict[str, str]]) -> Self:
         """Returns one error with all problems that the program listed.
 
         Parameters
@@ -61,12 +68,30 @@ class SceneError(Error):
 
         Returns
         -------
-        SceneError
+        Error
             The error, whose message lists them all.
         """
-        error = cls("\n".join(str(cls(**p)) for p in problems))
-        error.problems = len(problems)
+        error = cls("")
+        error.listed = problems
+        error.args = ("\n".join(_text_of(**problem) for problem in problems),)
         return error
+
+    def rewrite(self, change: Callable[[str], str]) -> None:
+        """Replaces the texts of all problems, and with them the message.
+
+        Parameters
+        ----------
+        change : callable
+            Returns the new text of a member of a problem.
+        """
+        self.listed = [{name: change(text) for name, text in problem.items()} for problem in self.listed]
+        self.args = ("\n".join(_text_of(**problem) for problem in self.listed),)
+
+
+class SceneError(Error):
+    """Error in the scene, in the command line or in an input that the scene names (exit 2)."""
+
+    code = 2
 
 
 class SceneWarning(UserWarning):

@@ -130,11 +130,7 @@ def _report_of_estimate(self: Estimate) -> Path:
     return page.path
 
 
-Estimate.plot = _plot_of_estimate
-Estimate.quote = _quote
-Estimate.report = _report_of_estimate
-Estimate.__str__ = _text_of_estimate
-Result.plot = property(_plot_of_run)
-Result.report = _report_of_run
-Sweep.plot = _plot_of_sweep
-Sweep.report = _report_of_sweep
+for kind, name, form in ((Estimate, "plot", _plot_of_estimate), (Estimate, "quote", _quote), (Estimate, "report", _report_of_estimate),
+                         (Estimate, "__str__", _text_of_estimate), (Result, "plot", property(_plot_of_run)),
+                         (Result, "report", _report_of_run), (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep)):
+    setattr(kind, name, form)

@@ -73,8 +73,9 @@ def parse_duration(text: str) -> float:
     """Returns the seconds of "23h50m", "45m", "90s" or "90". Raises SceneError."""
     match = re.fullmatch(r"(?:([\d.]+)d)?(?:([\d.]+)h)?(?:([\d.]+)m(?:in)?)?(?:([\d.]+)s)?|([\d.]+)", text)
     try:
-        seconds = sum(float(part) * unit for part, unit in zip(match.groups(), (86400, 3600, 60, 1, 1)) if part)
-    except (AttributeError, ValueError):
+        parts = zip(match.groups() if match else (), (86400, 3600, 60, 1, 1))
+        seconds = math.fsum(float(part) * unit for part, unit in parts if part)
+    except ValueError:
         seconds = 0.0
     if not seconds > 0:
         raise SceneError(f"--wall-limit {text}", "is no length of time", "", "for example 23h50m, 45m or 90s")

@@ -7,8 +7,9 @@
 
 westergaard: contact of a wave without adhesion against pressure. johnson: the adhesive wave at zero load, for several ranges
 of the attraction, extrapolated. load: the same wave under pressures from near pull-off to beyond the jump into full contact. hertz:
-a paraboloid without adhesion, periodic images corrected for. gfmd: the same by the measure of user-gfmd's tests. jkr: force against height of an adhesive sphere, as the range
-falls. area: contact area of self-affine surfaces against pressure without adhesion, extrapolated in the spacing.
+a paraboloid without adhesion, periodic images corrected for. gfmd: the same by the measure of user-gfmd's tests. jkr:
+force against height of an adhesive sphere, as the range falls.
+area: contact area of self-affine surfaces against pressure without adhesion, extrapolated in the spacing.
 """
 import argparse
 import math
@@ -65,7 +66,8 @@ def westergaard(runs: Runs) -> None:
         box, amplitude = sites * 2.6, 0.01 * sites * 2.6
         peak = math.pi * E * amplitude / box
         for load in (0.02, 0.1, 0.3, 0.5, 0.7, 0.9, 0.98):
-            r = runs.state(f"westergaard-{sites}-{load}", runs.sine(sites, amplitude) | {"interface.adhesion": 0, "drive.load": load * peak / GPA * 1e3})
+            r = runs.state(f"westergaard-{sites}-{load}",
+                           runs.sine(sites, amplitude) | {"interface.adhesion": 0, "drive.load": load * peak / GPA * 1e3})
             f, exact = r["contact_fraction"], 2 / math.pi * math.asin(math.sqrt(load))
             print(f"{sites:5} {load:5} {f:8.4f} {exact:8.4f} {f - exact:12.4f}")
 
@@ -73,7 +75,10 @@ def westergaard(runs: Runs) -> None:
 def johnson_exact(alpha: float) -> tuple[float, float]:
     """Contact fraction and binding energy over w at zero load (docs/reports/validation.md)."""
     low, high = 0.0, 0.999
-    branch = lambda f: math.sin(math.pi * f / 2) ** 2 - alpha * math.sqrt(math.tan(math.pi * f / 2))
+
+    def branch(f):
+        return math.sin(math.pi * f / 2) ** 2 - alpha * math.sqrt(math.tan(math.pi * f / 2))
+
     low = max((k / 1000 for k in range(1, 900) if branch(k / 1000) < 0 <= branch((k + 1) / 1000)), default=0.0)
     high = low + 0.001
     for _ in range(60):
@@ -82,7 +87,10 @@ def johnson_exact(alpha: float) -> tuple[float, float]:
     f = low
     # Energies over w, in units where p* = 1: E* h² π / λ = 2 / (π α² ) w ... by quadrature of U = ∫ p C dp.
     steps, U = 20000, 0.0
-    c = lambda x: -math.log(math.sin(math.pi * x / 2))
+
+    def c(x):
+        return -math.log(math.sin(math.pi * x / 2))
+
     for k in range(steps):
         a, b = f * k / steps, f * (k + 1) / steps
         x = (a + b) / 2
@@ -193,7 +201,8 @@ def jkr(runs: Runs) -> None:
             end = int(np.argmax(height)) + 1
             height, force = height[:end], force[:end]
             inside = attached & (r["mean_height"] < height.max()) & (r["mean_height"] > height.min())
-            off[label.removeprefix("smooth sphere, ")] = np.sqrt(np.mean((np.interp(r["mean_height"][inside], height, force) - r["force"][inside]) ** 2)) / unit
+            apart = np.interp(r["mean_height"][inside], height, force) - r["force"][inside]
+            off[label.removeprefix("smooth sphere, ")] = np.sqrt(np.mean(apart**2)) / unit
         print(f"{reach:6} {sites:6} {sphere['maugis_parameter']:9.3f} {-r['force'].min() / unit:15.4f} {sphere['jkr_images'] / 30:20.4f} "
               f"{sphere['maugis_images'] / 30:8.4f} {off['Maugis-Dugdale with images']:16.4f} {off['JKR with images']:40.4f}")
 
@@ -217,7 +226,8 @@ def area(runs: Runs) -> None:
             for seed, spectrum in enumerate(surfaces, 1):
                 whole = np.zeros((sites, sites // 2 + 1), complex)
                 whole[:64, :64], whole[-63:, :64] = spectrum[:64, :64], spectrum[-63:, :64]
-                gradient = 2j * math.pi / box * np.fft.fftfreq(sites, 1 / sites)[:, None], 2j * math.pi / box * np.fft.rfftfreq(sites, 1 / sites)[None, :]
+                gradient = (2j * math.pi / box * np.fft.fftfreq(sites, 1 / sites)[:, None],
+                            2j * math.pi / box * np.fft.rfftfreq(sites, 1 / sites)[None, :])
                 slopes = [np.fft.irfft2(g * whole, s=(sites, sites)) for g in gradient]
                 heights = np.fft.irfft2(whole, s=(sites, sites)) * slope / math.sqrt(sum(np.mean(g**2) for g in slopes))
                 r = runs.state(f"area-{reduced}-{sites}-{seed}", runs.map(f"area-{sites}-{seed}", heights) | {

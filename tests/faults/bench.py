@@ -33,7 +33,7 @@ import tempfile
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
-from run_outcome import outcome  # noqa: E402
+from run_outcome import outcome
 
 SCENE = """
 [surface]

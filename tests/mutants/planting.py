@@ -178,7 +178,7 @@ def plant_python(text, mutants):
     first = 1 + max((i for i, node in enumerate(tree.body) if getattr(node, "module", "") == "__future__"),
                     default=0 if ast.get_docstring(tree) else -1)
     tree.body[first:first] = ast.parse(f"_mutant = __import__('runpy').run_path({str(RUNTIME)!r})['mutant']").body
-    return ast.unparse(ast.fix_missing_locations(tree)) + "\n", {number: () for number in paths}
+    return ast.unparse(ast.fix_missing_locations(tree)) + "\n", dict.fromkeys(paths, ())
 
 
 def plant(name, text, mutants):

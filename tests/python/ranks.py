@@ -12,11 +12,11 @@ import re
 import sys
 from pathlib import Path
 
-import conftest
 import numpy
 from mpi4py import MPI
 
 import asperity
+import conftest
 
 del os.environ["OMP_NUM_THREADS"]  # of conftest
 comm, place = MPI.COMM_WORLD, Path(sys.argv[1])

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import numpy
 import pytest
-from conftest import ROOT, command, found
 
 import asperity
+from conftest import ROOT, command, found
 
 ATOMS = ROOT / "scenes/atoms"
 FAST = ["drive.velocity=100", "block.layers_per_level=3", "drive.mode=dynamic"]

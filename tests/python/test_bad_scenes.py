@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
+
 from conftest import command
 
 MAP = '[surface]\nkind = "file"\nfile = "map.txt"\nsites = 32'

@@ -14,6 +14,7 @@ import xml.dom.minidom
 from pathlib import Path
 
 import pytest
+
 from conftest import ROOT
 
 pytest.importorskip("matplotlib", reason="no Matplotlib: apt-get install python3-matplotlib")

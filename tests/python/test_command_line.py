@@ -7,9 +7,10 @@ import os
 import re
 from pathlib import Path
 
-import asperity
 import h5py
 import pytest
+
+import asperity
 from conftest import command
 
 COMMANDS = "run init plan check surface theory sweep report export convert defaults info".split()

@@ -13,13 +13,13 @@ import types
 import h5py
 import numpy
 import pytest
-from conftest import command
 
 from asperity import errors
 from asperity.errors import InputOutputError, SceneError
 from asperity.maps import convert as module
 from asperity.maps.convert import convert
 from asperity.running import program
+from conftest import command
 
 N, PIXEL = 24, 0.25  # nm
 X, Y = numpy.meshgrid(numpy.arange(N), numpy.arange(N), indexing="ij")
@@ -292,6 +292,17 @@ def test_what_could_become_other_atoms_is_refused(tmp_path, old, new):
         convert(tmp_path / "solid.data", tmp_path / "atoms.h5")
 
 
+def test_what_is_not_read_of_atoms_is_said(tmp_path):
+    for text, says in ((lammps(), "Masses, Velocities"), (lammps(" # full", " 1 1 0.5"), "Masses, Velocities, charges")):
+        (tmp_path / "solid.data").write_text(text)
+        (tmp_path / "atoms.h5").unlink(missing_ok=True)
+        assert f"note: sections and columns that are not read, since a rigid substrate is types and places: {says}" in convert(
+            tmp_path / "solid.data", tmp_path / "atoms.h5")
+    text = lammps()[:lammps().index("\nVelocities")].replace("Masses\n\n1 197.0 # Au\n\n", "")
+    (tmp_path / "plain.data").write_text(text + "\n")
+    assert "not read" not in convert(tmp_path / "plain.data", tmp_path / "plain.h5")
+
+
 def test_atoms_that_stand_twice_or_are_cut_anywhere_are_refused(tmp_path):
     text = lammps()
     twice = text.replace("3 atoms", "2 atoms").replace("\n2 1 10.75", "\n1 1 10.75")
@@ -317,6 +328,9 @@ def test_extended_xyz(tmp_path):
     for second, before, after in ((' Properties=species:S:1:pos:R:3 pbc="T T F"', "Au ", ""),
                                   (' note="a = b" Properties=id:I:1:species:S:1:pos:R:3:q:R:1', "7 Au ", " 0.5")):
         atoms_of(tmp_path, extended(LATTICE + second, before, after), "solid.extxyz")
+    (tmp_path / "note.extxyz").write_text(extended(LATTICE + ' note="a = b" Properties=id:I:1:species:S:1:pos:R:3:q:R:1', "7 Au ", " 0.5"))
+    said = convert(tmp_path / "note.extxyz", tmp_path / "note.h5").partition("types and places: ")[2]
+    assert {"id", "q", "note"} <= set(said.splitlines()[0].split(", "))
     assert atoms_of(tmp_path, extended().replace("Au 11", "C 11"), "solid.xyz")[:2] == ("Au C", [0, 0, 1])
     for old, new in ((" 1.5 -1", " nan -1"), (" 1.5 -1", " 1e8 -1"), ("5.25", "-5.25"), ("3\n", "4\n"), ("3\n", "2\n"),
                      ('="10 0', '="10 1'), ('="10 0', '="10'), ('="10 0', '="-10 0'), (LATTICE, "a film of gold"),

@@ -7,7 +7,6 @@ import math
 
 import numpy as np
 import pytest
-from conftest import command, rows, started, wait_for
 
 import asperity
 from asperity.reports import cost as report_cost
@@ -17,6 +16,7 @@ from asperity.running.scene import scene_file
 from asperity.studies import cost
 from asperity.studies.cost_parameters import Base, CostCase, Parameter, Row, cost_case, numbers_of
 from asperity.studies.variations import NAN, joined
+from conftest import command, rows, started, wait_for
 
 
 def test_energies_are_compared_over_their_own_flat():

@@ -7,6 +7,7 @@ import sys
 
 import numpy as np
 import pytest
+
 from asperity import SceneError
 from asperity.crack import modulus, opening_factor
 from conftest import ROOT

@@ -7,9 +7,9 @@ import re
 import subprocess
 
 import pytest
-from conftest import ROOT, command
 
 import asperity
+from conftest import ROOT, command
 
 PAGES = [ROOT / "ARCHITECTURE.md", ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./asperity .*)", page.read_text(), re.M)

@@ -6,7 +6,6 @@ import json
 
 import numpy as np
 import pytest
-from conftest import command
 
 import asperity
 from asperity.reports import estimate as report_estimate
@@ -18,6 +17,7 @@ from asperity.studies import estimate_parts
 from asperity.studies.estimate_parts import FLAT, coarser, finer, limit, mean, plan_of, solved, standard_error, widened
 from asperity.studies.estimates import Found, Number, load_estimate
 from asperity.studies.variations import Variation, Variations
+from conftest import command
 
 GAMMA, CONTACT = FLAT[0], FLAT[2]
 TINY = {"name": "tiny", "surface": {"sites": 32, "rms": 0.6}, "block": {"thickness": 32}, "drive": {"path": ["relax"]}}

@@ -15,12 +15,12 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, command, held, is_told, rows, running, wait_for
 
 import asperity
 from asperity.files import store
 from asperity.running import pool
 from asperity.studies.sweeps import load_sweep
+from conftest import ROOT, command, held, is_told, rows, running, wait_for
 
 distributed = pytest.importorskip("distributed", reason="no Dask: apt-get install python3-distributed")
 

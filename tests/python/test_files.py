@@ -14,10 +14,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import command
 
 import asperity
 from asperity.files import store
+from conftest import command
 
 SCENE = """
 [surface]

@@ -11,14 +11,14 @@ import shutil
 import subprocess
 import sys
 import tomllib
-import warnings
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import asperity
-import asperity.terminal
 import numpy as np
 import pytest
+
+import asperity
+import asperity.terminal
 import test_fixes_files
 import test_fixes_scene
 from asperity.files import store

@@ -6,10 +6,11 @@ the catalogue on files that a scene names, that `asperity convert` reads and of 
 import re
 from pathlib import Path
 
-import asperity
 import h5py
 import numpy as np
 import pytest
+
+import asperity
 from asperity.maps import height_map
 from asperity.maps.convert import convert, read_heights
 from asperity.studies import map_scene

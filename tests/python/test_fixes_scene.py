@@ -10,6 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
+
 from following import ask, followed, not_followed
 
 SOURCES = ("engine/scene/", "engine/options/", "engine/setup/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
@@ -322,7 +323,7 @@ def check(settings):
 
 def filled(text, groups):
     for k, group in enumerate(groups):
-        text = text.replace("{%d}" % k, group)
+        text = text.replace(f"{{{k}}}", group)
     return text
 
 

@@ -7,9 +7,9 @@ import os
 from pathlib import Path
 
 import pytest
-from conftest import ROOT, command
 
 import asperity
+from conftest import ROOT, command
 
 SMALL = "[surface]\nsites = 32\nrms = '0.5 Å'\n[drive]\nmax_steps = 20\n[output]\nseries = 10\n"
 SCENES = sorted((ROOT / "scenes").rglob("*.toml"))

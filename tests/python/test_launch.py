@@ -9,11 +9,11 @@ import subprocess
 import sys
 
 import pytest
-from conftest import BOUND, SMALL
 
 import asperity
 import asperity.running.runs
 from asperity.running import program
+from conftest import BOUND, SMALL
 
 
 @pytest.mark.parametrize("named", ["", "no-such-launcher --option"])

@@ -74,7 +74,7 @@ def sources(*folders):
 
 
 def test_nothing_above_the_case_reads_a_raw_scene():
-    files = [*sources(*ABOVE_THE_CASE), ENGINE.parent / "python/asperity/_engine.cpp"]
+    files = [*sources(*ABOVE_THE_CASE), *(ENGINE.parent / "python/binding").glob("*.[hc]pp")]
     assert len(files) > 60
     found = [f"{f.name}: {line.strip()}" for f in files for line in f.read_text().splitlines()
              if RAW.search(line) and "scene.surface.sites = scene.block.thickness = " not in line]

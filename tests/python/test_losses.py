@@ -6,14 +6,13 @@ cycle, and every place that shows one loss shows the others."""
 import json
 
 import pytest
-from conftest import command
 
 import asperity
 from asperity.plots import sweep as sweep_plots
-from asperity.reports import run as report
-from asperity.reports import sentences
+from asperity.reports import run as report, sentences
 from asperity.running import program
 from asperity.studies import estimate_parts, tables
+from conftest import command
 
 ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
          "drive": {"mode": "quasistatic", "velocity": 1.0}}

@@ -8,12 +8,12 @@ import re
 import h5py
 import numpy as np
 import pytest
-from conftest import command
 
 from asperity.errors import Error, InputOutputError
 from asperity.maps import height_map
 from asperity.maps.convert import convert, read_heights
 from asperity.running import program
+from conftest import command
 
 N, EDGE = 16, 32.0  # points, nm
 Y, X = np.indices((N, N))
@@ -164,7 +164,8 @@ def test_one_map_stays_one(tmp_path, name):
 def test_what_the_user_says_holds_over_the_file_and_is_said(tmp_path):
     """The same for a scene and for adhesion: heights, width, and one note for each that differs."""
     file = tmp_path / "map.h5"
-    for told_unit, told_size, scale in (("nm", EDGE, 1.0), ("µm", 0.1, 0.5), (None, None, 1.0), ("V", EDGE, 1.0), ("nm", 0.0, 2.0), ("nm", -3.0, 1.0)):
+    for told_unit, told_size, scale in (("nm", EDGE, 1.0), ("µm", 0.1, 0.5), (None, None, 1.0), ("V", EDGE, 1.0),
+                                          ("nm", 0.0, 2.0), ("nm", -3.0, 1.0)):
         with h5py.File(file, "w") as opened:
             attributes = opened.create_dataset("heights", data=HEIGHT).attrs
             for key, value in (("unit", told_unit), ("size_x", told_size), ("scale", scale)):

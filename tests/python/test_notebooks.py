@@ -5,9 +5,9 @@
 import sys
 
 import pytest
-from conftest import ROOT, SMALL
 
 import asperity
+from conftest import ROOT, SMALL
 
 nbclient, nbformat, *_ = [
     pytest.importorskip(name, reason=f"no {name}: apt-get install python3-{name}")

@@ -11,6 +11,7 @@ from pathlib import Path
 from urllib.parse import unquote
 
 import pytest
+
 from conftest import ROOT
 
 markdown_it = pytest.importorskip("markdown_it", reason="no markdown_it: apt-get install python3-markdown-it")

@@ -3,20 +3,20 @@
 """Plots: what is drawn, in which units, and the files that are written."""
 
 import io
+from types import SimpleNamespace
 
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import SMALL
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import asperity
 from asperity import units
 from asperity.files import store
-from asperity.plots import run as run_plots
-from asperity.plots import style
+from asperity.plots import run as run_plots, style
 from asperity.theory import theories
+from conftest import SMALL
 
 
 def axes():
@@ -279,3 +279,21 @@ def test_the_way_through_empty_space_is_left_out_of_the_contact(path_run):
     low, high = run.plot.contact(axes()).get_xlim()
     touching = run.series["top_displacement"][~far]
     assert low < touching.min() and touching.max() < high < 900.0
+
+
+def test_segments_of_a_path_are_told_apart():
+    """Each segment is a curve of its own points: ways in their colours, other segments in the other colours in turn, named once;
+    what a script led is grey; one point is no curve."""
+    names = ["hold 1 ps", "approach", "pull-off", "slide", "hold 1 ps", "relax"]
+    number = np.array([0, 0, 1, 1, 2, 2, 2, 3, 3, 4, 4, 5, -1, -1])
+    x = np.arange(14.0)
+    ax = axes()
+    run = SimpleNamespace(segment_names=names, series={"segment": number})
+    assert run_plots._by_segment(ax, run, x, -x, ", in contact", ("-", ":"))
+    found = [(curve.label, line.get_color(), curve.x.tolist()) for curve, line in zip(style.drawn(ax).curves, ax.lines)]
+    first, second, third = (run_plots.OTHERS[i % len(run_plots.OTHERS)] for i in (1, 2, 3))
+    assert found == [("hold 1 ps, in contact", first, [0, 1]), ("approach, in contact", style.BLUE, [2, 3]),
+                     ("pull-off, in contact", style.RED, [4, 5, 6]), ("slide, in contact", second, [7, 8]), ("", third, [9, 10]),
+                     (run_plots.BY_HAND + ", in contact", style.GREY, [12, 13])]
+    assert [line.get_linestyle() for line in ax.lines[:3]] == ["-", "-", ":"]
+    assert not run_plots._by_segment(ax, SimpleNamespace(segment_names=["relax"], series={"segment": np.zeros(1)}), x[:1], x[:1], "")

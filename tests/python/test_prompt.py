@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy
 import pytest
-from conftest import SMALL
 from matplotlib.figure import Figure
 
 import asperity
 from asperity import terminal
 from asperity.plots import style
+from conftest import SMALL
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 STATIC = {"name": "static", "surface": {"sites": 16, "rms": 0.3}, "drive": {"mode": "quasistatic"}}

@@ -6,9 +6,9 @@ there is."""
 from pathlib import Path
 
 import pytest
-from conftest import command, found
 
 import asperity
+from conftest import command, found
 
 PATH = """[surface]
 sites = 24
@@ -108,3 +108,12 @@ def test_one_relaxation_stopped_inside(place):
     (["output.fields=[]", 'drive.path=["relax","pull-off"]', "drive.load=100"], 0, "carries drive.load")])
 def test_what_a_check_says(place, sets, expect, says):
     command("check", "path.toml", "--set", *sets, expect=expect, says=says)
+
+
+def test_a_path_that_never_adheres_says_so(place):
+    stiff = ["surface.sites=32", "surface.rms=3", "block.thickness=32", "block.young=1000", "interface.kind=wall", "interface.adhesion=1",
+             "drive.mode=quasistatic"]
+    Path("rough.toml").write_text("")
+    said = command("run", "rough.toml", "--progress", "off", "--set", *stiff)
+    assert "the solids do not stick (below 1 % of flat on flat)" in said
+    assert "do not stick" not in command("run", "rough.toml", "--progress", "off", "--out", "sticky", "--set", *stiff[:3], "drive.path=relax")

@@ -9,9 +9,9 @@ import sys
 
 import numpy
 import pytest
-from conftest import BOUND, ROOT
 
 import asperity
+from conftest import BOUND, ROOT
 
 
 def test_ranks_have_the_bits_of_a_run(mpi4py_launcher, path_run, tmp_path):

@@ -7,7 +7,6 @@ import re
 import h5py
 import numpy as np
 import pytest
-from conftest import ROOT, command
 
 import asperity
 import asperity.maps.height_map
@@ -15,6 +14,7 @@ import asperity.running.program
 import asperity.studies.map_scene
 from asperity.maps.convert import read_heights
 from asperity.studies.grid import axes_of
+from conftest import ROOT, command
 
 SMALL = "[surface]\nsites = 16\n[block]\nthickness = 16\n[drive]\npath = [\"relax\"]\n"
 SECTIONS = "surface|block|interface|drive|theory|numerics|output"
@@ -63,7 +63,8 @@ def hdf5(name, **attributes):
     return name
 
 
-MAP = (SMALL + '[interface]\nkind = "wall"\n').replace("sites = 16", 'sites = 32\nspacing = "2 nm"\nkind = "file"\nfile = "map.h5"').replace("thickness = 16", "thickness = 32")
+MAP = (SMALL + '[interface]\nkind = "wall"\n').replace("sites = 16", 'sites = 32\nspacing = "2 nm"\nkind = "file"\nfile = "map.h5"'
+                                                               ).replace("thickness = 16", "thickness = 32")
 
 
 def test_a_unit_that_a_map_does_not_say_right(place):

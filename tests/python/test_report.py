@@ -11,12 +11,12 @@ from html.parser import HTMLParser
 import matplotlib.image
 import numpy as np
 import pytest
-from conftest import ROOT, SMALL, STATE, command, unsealed
 
 import asperity
 from asperity.reports import sentences
 from asperity.reports.sweep import key_numbers, write_page
 from asperity.theory import theories
+from conftest import ROOT, SMALL, STATE, command, unsealed
 
 
 class PageText(HTMLParser):

@@ -13,11 +13,11 @@ import types
 import h5py
 import numpy as np
 import pytest
-from conftest import SMALL, STATE, command, unsealed
 
 import asperity
 from asperity.results.result import finite
 from asperity.running import program, scene
+from conftest import SMALL, STATE, command, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):

@@ -15,9 +15,9 @@ from pathlib import Path
 
 import numpy
 import pytest
-from conftest import ROOT, SMALL
 
 import asperity
+from conftest import ROOT, SMALL
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5},
         "drive": {"velocity": 100.0, "timestep": 20.0}}
@@ -577,3 +577,18 @@ def test_statics_goes_on_after_a_load_that_it_cannot_reach():
         other.mean_height = height
         there = other.relax()
     assert repr(after) == repr(there)
+
+
+@pytest.mark.parametrize("kind", ["Simulation", "Statics"])
+def test_what_could_not_be_made_can_be_looked_at(kind):
+    """An error's frames hold no object of the engine that is none, and that of a derived class shows itself."""
+    class Derived(getattr(asperity, kind)):
+        def __init__(self, scene):
+            super().__init__(scene)
+
+    for make in (getattr(asperity, kind), Derived):
+        with pytest.raises(asperity.SceneError) as error:
+            make({"surface": {"sites": 3}})
+        frames = [frame.frame.f_locals for frame in error.traceback]
+        there = [value for names in frames for value in list(names.values()) if isinstance(value, getattr(asperity, kind))]
+        assert [repr(value) for value in there] == [f"<{kind} that could not be made>"] * (make is Derived)

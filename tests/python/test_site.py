@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from conftest import ROOT
 
 for module, package in {"sphinx": "python3-sphinx", "myst_parser": "python3-myst-parser", "furo": "furo"}.items():

@@ -83,8 +83,10 @@ def test_what_does_not_stick_is_said_in_words():
 
 def test_every_form_says_the_same(place):
     numbers = {}
-    for i, (value, parts, more) in enumerate(((0.5, {"a": Found(0.6, 0.2)}, {}), (0.1, {"a": Found(-0.2, 0.2)}, {}), (0.2, {"a": Found(9.0, 0.1)}, {}),
-                                              (0.1, {"a": Found(0.0, 0.1)}, {"withheld": "no reason"}), (0.1, {"a": Found(0.0, 0.01)}, {"bounded": "above all"}))):
+    for i, (value, parts, more) in enumerate(((0.5, {"a": Found(0.6, 0.2)}, {}), (0.1, {"a": Found(-0.2, 0.2)}, {}),
+                                              (0.2, {"a": Found(9.0, 0.1)}, {}),
+                                              (0.1, {"a": Found(0.0, 0.1)}, {"withheld": "no reason"}),
+                                              (0.1, {"a": Found(0.0, 0.01)}, {"bounded": "above all"}))):
         numbers[str(i)] = Number(str(i), f"n{i}", "", "", value, parts, 0.0, 1.0, 1e-4, condition="here", **more)
     made = Estimate("made", numbers, [{"name": "a", "group": "geometry", "what": "", "failed": ""}], [], {}, {}, place)
     (place / "estimate.json").write_text(json.dumps(made.json(), allow_nan=False))
@@ -220,7 +222,8 @@ def test_numbers_of_an_estimate_are_withheld_with_their_reason(place):
         assert bool(n.reason) == of_range and (not of_range or "range of the attraction" in n.reason), path
     gamma = soft.first
     assert gamma.parts["waves"].error > 0 and 0 <= gamma.estimate <= gamma.most and any("likely too high" in note for note in soft.notes)
-    sphere = {"surface": {"kind": "flat", "sites": 32, "spacing": "40 nm", "radius": "5 µm"}, "block": {"young": "3 GPa", "poisson": 0.33, "thickness": 32},
+    sphere = {"surface": {"kind": "flat", "sites": 32, "spacing": "40 nm", "radius": "5 µm"},
+              "block": {"young": "3 GPa", "poisson": 0.33, "thickness": 32},
               "interface": {"kind": "wall", "adhesion": "70 mJ/m²", "range": "0.3 nm", "edge_pinning": "allow"}, "drive": {"mode": "quasistatic"}}
     found = asperity.estimate(sphere, out="sphere", parts="spacing")
     assert [bool(n.reason) for n in found.numbers.values()] == [True, True, False]

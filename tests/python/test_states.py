@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import command, started, wait_for
 
 import asperity
 import asperity.studies.states
 from asperity.files import store
+from conftest import command, started, wait_for
 
 SCENE = """surface = { sites = 64, rms = 4, seed = 2 }
 block = { thickness = 64 }
@@ -195,3 +195,16 @@ def test_jkr_is_of_a_state_without_load(place):
 def test_what_is_refused(place, words, says):
     command("states", *words, expect=2, says=says)
     assert not Path("results").exists()
+
+
+def test_a_block_over_another_lattice(place):
+    """A copy has the sites of the block, not the atoms of the substrate; so do the parts of the sites in contact."""
+    scene = {"surface": {"sites": 16, "rms": 1.5, "lattice_ratio": 1.618}, "block": {"thickness": 16}, "drive": {"path": ["relax"]}}
+    with pytest.warns(asperity.SceneWarning):
+        statics = asperity.Statics(scene)
+    assert statics.copy().u.shape == (3, 16, 16) and not statics.copy().u.any()
+    statics.mean_height = 4.3
+    assert statics.relax().contact == statics.maps().contact.mean() > 0.5
+    with pytest.warns(asperity.SceneWarning):
+        found = asperity.states(scene, starts=5)
+    assert found["starts"] == 5 and min(found["start_energies"]) > 0.9 * max(found["start_energies"]) > 50.0

@@ -15,7 +15,6 @@ from pathlib import Path
 import h5py
 import numpy as np
 import pytest
-from conftest import STATE, command, held, is_told, rows, running, started, wait_for
 from matplotlib.figure import Figure
 
 import asperity
@@ -29,6 +28,7 @@ from asperity.running import pool, program
 from asperity.studies import grid
 from asperity.studies.sweeps import load_sweep, load_sweeps
 from asperity.studies.tables import text_of
+from conftest import STATE, command, held, is_told, rows, running, started, wait_for
 
 SCENE = """
 [surface]
@@ -118,7 +118,7 @@ def nine_points():
 def test_tables_average_over_seeds(tmp_path):
     sweep = nine_points()
     average = sweep.table.averages()["binding_energy"]
-    assert list(average.count) == [3, 3, 2]
+    assert list(average.points) == [3, 3, 2]
     assert average.mean[0] == pytest.approx(41.375 / 3, rel=1e-14)
     assert average.deviation[0] == pytest.approx(math.sqrt((100 + 182.25 + 319.515625 - 41.375**2 / 3) / 2), rel=1e-12)
     found = sweep.json(sweep.table)
@@ -176,15 +176,15 @@ def test_a_table_knows_what_means_nothing():
     """Of a sphere, energies over the nominal area; the key along x is the one with the most numbers that is no seed."""
     flat = nine_points()
     flat.points = flat.points[:6]  # two roughnesses, three seeds
-    assert flat.table.along == "surface.rms" and np.isfinite(flat.table.values("binding_energy_ratio")).all()
+    assert flat.table.along == "surface.rms" and np.isfinite(flat.table.column("binding_energy_ratio")).all()
     sphere = nine_points()
     for point in sphere.points[:8]:
         point["result"].update({"contact_radius.relaxed": 30.0, "jkr.pull_off_ratio": 0.9})
     table = sphere.table
-    assert np.isnan(table.values("binding_energy_ratio")).all() and (table["binding_energy_ratio"][:8] > 0).all()
+    assert np.isnan(table.column("binding_energy_ratio")).all() and (table["binding_energy_ratio"][:8] > 0).all()
     heads = text_of(table)[0]
     assert "state" not in heads and "JKR out" in heads and "theory" in heads
-    assert np.isnan(table.values("no such column")).all()
+    assert np.isnan(table.column("no such column")).all()
     theory = asperity.Sweep("t", {}, flat.axes, flat.points).table  # the same names in a sweep of the theory alone
     assert (theory.values("theory.persson.gamma_eff") == theory["theory.persson.gamma_eff"]).all()
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import h5py
 import pytest
-from conftest import ROOT, command
 
 import asperity
+from conftest import ROOT, command
 
 PAPER = ROOT / "scenes/paper/fig2.toml"
 

@@ -10,12 +10,12 @@ import pytest
 from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "scenes/validation"))
-import adhesion  # noqa: E402
-import rate  # noqa: E402
-import rings  # noqa: E402
-import jumps  # noqa: E402
-import stated_errors  # noqa: E402
-import tables  # noqa: E402
+import adhesion
+import jumps
+import rate
+import rings
+import stated_errors
+import tables
 
 
 def test_rings_without_adhesion_are_hertz():

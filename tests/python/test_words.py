@@ -41,7 +41,7 @@ def texts():
     for name in files("README.md", "ARCHITECTURE.md", "docs/*.md", "docs/data/tables/*.csv", "scenes/*.toml", "asperity",
                       "python/asperity/reports/templates/*"):
         yield name, (ROOT / name).read_text(encoding="utf-8")
-    for name in files("engine/*.cpp", "engine/*.hpp", "io/*.cpp", "io/*.hpp", "kernels/*.hpp", "python/asperity/*.cpp"):
+    for name in files("engine/*.cpp", "engine/*.hpp", "io/*.cpp", "io/*.hpp", "kernels/*.hpp", "python/binding/*.cpp"):
         if name not in REFUSED:
             yield name, "\n".join(strings_of_c((ROOT / name).read_text(encoding="utf-8")))
     for name in files("python/asperity/*.py", "docs/gallery/*.py", "examples/*.py"):

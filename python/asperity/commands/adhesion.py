@@ -19,7 +19,7 @@ from ..reports.run import run_page_files, write_run_page
 from ..results.result import Result
 from ..running import program
 from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
-from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating
+from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating, require_free_runs
 from ..studies.map_scene import MapScene, scene_of, stem_of
 
 
@@ -124,7 +124,8 @@ def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable
 
 
 def _require_free(place: Path, file: str) -> None:
-    """Checks that no file is in the way of those that are known beforehand: all but the runs'. Raises SceneError."""
+    """Checks that no file is in the way. Raises SceneError."""
+    require_free_runs(place)
     page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
     store.require_free({place: ["map.npy", f"{stem_of(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
                         place / "scene": page}, inputs=[file])

@@ -55,7 +55,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     found = program.check(scene, overrides)
     case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
     if found["problems"]:
-        raise SceneError("\n".join(found["problems"]))
+        raise SceneError.of(found["problems"])
     cost = Cost(case, asked)
     directory = store.chosen(out, f"results/{found['name']}-cost")
     print(f"reference: {case.reference_text}", flush=True)
@@ -96,8 +96,8 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
         if complete and found is None:
             print(f"The scene itself failed, and there is nothing to vary: {outcome.reason}")
             return outcome.exit_code or PHYSICS
-        written = report_estimate.write(found) if complete else []
-    if not complete:
+        written = report_estimate.write(found) if complete and found is not None else []
+    if not complete or found is None:
         print("Stopped early: the same command goes on from here.")
         return STOPPED
     print(report_estimate.text_of(found))

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy
@@ -24,7 +25,7 @@ def lammps(path: Path, content: str) -> dict:
     units = re.search(r"units = (\w*)", lines[0])
     if lines[0].startswith("ITEM:") or (units and units[1] not in ("metal", "real")):
         raise refuse(path, "is no LAMMPS data file in Å", lines[0][:80], "write_data, in units of style metal")
-    header, section, style, columns, atoms = {}, "", None, 0, {}
+    header, section, style, columns, atoms, unread = {}, "", None, 0, {}, {}
     for number, line in enumerate(lines[1:], 2):
         text, _, comment = (part.strip() for part in line.partition("#"))
         words = text.split()
@@ -49,6 +50,8 @@ def lammps(path: Path, content: str) -> dict:
                     int(words[kind])  # a type is a whole number, or a label
                 atoms[int(words[0])] = words[kind], [float(w) for w in words[x:x + 3]]
                 _ = [int(w) for w in words[plain:]]  # image flags
+            elif words:
+                unread[section] = True
         except (ValueError, KeyError) as error:
             raise refuse(f"{path}:{number}", "the line cannot be read", error, "atom styles are " + ", ".join(STYLES)
                           + "; write it behind the section's name: Atoms # molecular") from None
@@ -57,9 +60,17 @@ def lammps(path: Path, content: str) -> dict:
         raise refuse(path, "the file of atoms is not whole", f"{len(atoms)} atoms are there, its header: {header}")
     if any(header.get("xy xz yz", [])) or {"avec", "bvec", "cvec"} & header.keys():
         raise refuse(path, "the box of the atoms is not orthogonal", "", "repeat or cut the atoms to a square box")
-    return {"types": [atom[0] for atom in atoms.values()], "position": [atom[1] for atom in atoms.values()],
+    if style in ("charge", "full"):
+        unread["charges"] = True
+    return {"notes": _not_read("sections and columns", unread),
+            "types": [atom[0] for atom in atoms.values()], "position": [atom[1] for atom in atoms.values()],
             "low": [side[0] if side else 0.0 for side in box],
             "width": [side[1] - side[0] if side else 0.0 for side in box]}
+
+
+def _not_read(what: str, names: Iterable[str]) -> list[str]:
+    """Returns a note on what a file has beside types and places."""
+    return [f"{what} that are not read, since a rigid substrate is types and places: {', '.join(names)}"] if names else []
 
 
 def extended_xyz(path: Path) -> dict:
@@ -72,7 +83,9 @@ def extended_xyz(path: Path) -> dict:
     if len(frames) > 1 or not all(frames[0].pbc[:2]) or abs(cell - numpy.diag(numpy.diag(cell))).max() > 1e-9:
         raise ValueError(f"{len(frames)} frames, pbc {frames[0].pbc}, Lattice {cell.tolist()}; one frame, periodic "
                          "along x and y, in an orthogonal box is needed")
-    return {"types": frames[0].get_chemical_symbols(), "position": frames[0].positions,
+    others = [*(name for name in frames[0].arrays if name not in ("numbers", "positions")),
+              *(name for name in frames[0].info if name != "Origin")]
+    return {"notes": _not_read("arrays and values", others), "types": frames[0].get_chemical_symbols(), "position": frames[0].positions,
             "low": frames[0].info.get("Origin", (0.0, 0.0, 0.0)), "width": numpy.diag(cell)}
 
 
@@ -95,4 +108,4 @@ def folded(path: Path, atoms: dict) -> dict:
             place[place[:, k] >= width[k], k] = 0.0  # of a negative number next to zero
     names = list(dict.fromkeys(atoms["types"]))
     return {"position": place, "names": names, "type": [names.index(t) for t in atoms["types"]], "box": width[:2],
-            "outside": outside}
+            "outside": outside, "notes": atoms["notes"]}

@@ -6,16 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy
 
 from ..errors import InputOutputError
+from ..units import LENGTHS
 
-LENGTHS = {"Å": 0, "\u212b": 0, "A": 0, "Ang": 0, "angstrom": 0, "Angstrom": 0, "fm": -5, "pm": -2, "nm": 1, "um": 4,
-           "\u00b5m": 4, "\u03bcm": 4, "\u00c2\u00b5m": 4, "mm": 7, "cm": 8, "m": 10, "km": 13}
-"""Powers of ten of units of length, in Å. Âµm is µm in UTF-8 that a program took for Latin-1."""
 NO_HEIGHT = 1e30
 """Numbers this large stand for points without a height: 1.7e38 of Surfer, the largest float or double (SDF)."""
 LISTED = 20
@@ -71,7 +70,10 @@ def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
     unit = text_of(told.get("unit"))
     if len(heights.shape) == 2:
         return [Channel(name, lambda: {"heights": heights[()], **told}, unit)]
-    return [Channel(f"{name}[{k + 1}]", lambda k=k: {"heights": heights[k], **told}, unit) for k in range(heights.shape[0])]
+    def frame(k: int) -> dict[str, Any]:
+        return {"heights": heights[k], **told}
+
+    return [Channel(f"{name}[{k + 1}]", partial(frame, k), unit) for k in range(heights.shape[0])]
 
 
 def select(path: Path, channels: list[Channel], wanted: str | None, first: int | None = None, unit: str | None = None) -> dict:

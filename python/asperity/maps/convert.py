@@ -20,6 +20,7 @@ import contextlib
 import re
 import tempfile
 import zipfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +31,10 @@ from ..errors import Error, to_install
 from ..files import store
 from ..running import program
 from ..running.scene import toml_of
+from ..units import LENGTHS
 from . import arrays as map_arrays
 from .atoms import extended_xyz, folded, lammps
-from .channels import LENGTHS, NO_HEIGHT, Channel, factor, refuse, select, text_of
+from .channels import NO_HEIGHT, Channel, factor, refuse, select, text_of
 from .text import of_text
 
 PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b"BM"}
@@ -56,11 +58,11 @@ def _instrument(path: Path) -> tuple[list[Channel], int]:
             raise refuse(path, f"does not say the unit of channel {number + 1} ({name})", "",
                          "take another channel (--channel), or export it as text with a header")
         # heights() is [x, y]; masked where there is no height.
-        heights = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
+        heights: numpy.ndarray = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
         return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes}
 
     names = [str(channel.name) for channel in reader.channels]
-    return [Channel(name, lambda k=k, name=name: load(k, name)) for k, name in enumerate(names)], reader.default_channel.index
+    return [Channel(name, partial(load, k, name)) for k, name in enumerate(names)], reader.default_channel.index
 
 
 def _text_in(raw: bytes) -> str:
@@ -143,8 +145,8 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
         try:
             return list(program.surface(str(scene))["doubts"])
         except Error as error:
-            said = re.sub(r"^.*map\.toml(:\d+)*: |^ +(why|fix): ", "", str(error), flags=re.M)
-            return ["a scene refuses it as it is: " + "; ".join(said.splitlines())]
+            return ["a scene refuses it as it is: " + "; ".join(one[name] for one in error.listed for name in ("what", "why", "fix")
+                                                                if one[name])]
 
 
 def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:

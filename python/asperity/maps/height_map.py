@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 import numpy
 
-from .channels import LENGTHS, factor, length, refuse
+from ..units import LENGTHS
+from .channels import factor, length, refuse
 from .convert import read_heights
 
 FEWEST = 16
@@ -55,7 +56,7 @@ def read_map(file: str, unit: str | None = None, size: float | None = None, chan
         if edges and abs(edges[0] / heights.shape[1] / pixel - 1.0) > 1e-3:
             notes.append(f"the file says that the map is {min(edges):.6g} Å wide, and {size:.6g} Å are taken (--size)")
         edges = (pixel * heights.shape[1], pixel * heights.shape[0])
-    return HeightMap(heights, edges or None, notes)
+    return HeightMap(heights, (edges[0], edges[1]) if edges else None, notes)
 
 
 def square(heights: numpy.ndarray) -> numpy.ndarray:

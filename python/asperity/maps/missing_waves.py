@@ -118,7 +118,7 @@ def law_of(heights: np.ndarray, edge: float, spacing: float) -> Law | None:
     fitted = (q <= q1 * (1 + 1e-9)) & (q >= q1 / DECADE * (1 - 1e-9))
     if fitted.sum() < 3 or not (c[fitted] > 0.0).any():
         return None
-    here = [values[fitted] for values in (q, c, count)]
+    here = q[fitted], c[fitted], count[fitted]
     hurst, c1, rolloff = _fit(*here, q1)
     power = here[0] >= rolloff
     spread = here[2][power] * (np.log(here[0][power]) - np.average(np.log(here[0][power]), weights=here[2][power])) ** 2

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 import contextlib
 import re
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 import numpy
 
 from ..errors import InputOutputError
-from .channels import LENGTHS, Channel, refuse
+from ..units import LENGTHS
+from .channels import Channel, refuse
 
 SIZE = r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)"
 HEADERS = ("width", "height", "edge", "x-length", "y-length", "value units", "x-unit", "y-unit", "z-unit", "bit2nm")
@@ -103,7 +106,9 @@ class Text:
 def parts(path: Path, content: str) -> list[Text]:
     """Returns the parts of a text, split where lines without numbers stand between those with numbers. What stands there is the header of
     the following part; behind the last part it belongs to that."""
-    found, header, between = [], {}, True
+    found: list[Text] = []
+    header: dict[str, str] = {}
+    between = True
     for number, line in enumerate(content.split("\n"), 1):
         line, _, comment = line.partition("#")
         if said := re.match(r"([^:=：]*)[:=：](.*)", comment):
@@ -154,7 +159,7 @@ def _matrix(text: Text) -> dict:
     text.translate()
     said = {key: value for key, value in text.header.items() if value}
     spip = "x-pixels" in said or "bit2nm" in said or said.get("file format", "").lower() == "ascii"
-    found = {"heights": text.matrix(said, ("x-pixels", "y-pixels")),
+    found: dict[str, Any] = {"heights": text.matrix(said, ("x-pixels", "y-pixels")),
              "unit": said.get("value units", said.get("z-unit"))}
     if "bit2nm" in said and not found["unit"]:
         if not re.fullmatch(r"[-+]?[\d.]*[1-9][\d.]*([eE][-+]?\d+)?", said["bit2nm"]):
@@ -231,8 +236,10 @@ def _matrix_or_points(text: Text) -> list[Channel]:
                 said = "its three columns are taken as points x, y and height"
                 return [Channel("height", lambda: points | {"unit": unit, "notes": [*notes, said]}, unit)]
             if points["heights"].size == rows:
-                return [Channel(f"column {k + 1}", lambda k=k: _points(text, (0, 1, k), columns) | {"unit": unit, "notes": notes}, unit)
-                        for k in range(2, columns)]
+                def column(k: int) -> dict[str, Any]:
+                    return _points(text, (0, 1, k), columns) | {"unit": unit, "notes": notes}
+
+                return [Channel(f"column {k + 1}", partial(column, k), unit) for k in range(2, columns)]
         if columns == 3:
             notes.append("its three columns are rows of a map: as points x, y and height they are on no grid")
     return [Channel(text.header.get("channel") or "map", lambda: found, unit)]
@@ -274,7 +281,11 @@ def _table(text: Text) -> list[Channel]:
         raise refuse(f"{text.path}:{text.lines[0][0]}", "its x and y have different units", f"{names[x][1]} and {names[y][1]}",
                      "write both in one unit")
     size_unit = {} if names[x][1] is None else {"size_unit": names[x][1]}
-    return [Channel(name, lambda k=k, unit=unit: _points(below, (x, y, k), len(names)) | {"unit": unit} | size_unit, unit)
+
+    def column(k: int, unit: str | None) -> dict[str, Any]:
+        return _points(below, (x, y, k), len(names)) | {"unit": unit} | size_unit
+
+    return [Channel(name, partial(column, k, unit), unit)
             for k, (name, unit) in enumerate(names) if k not in (x, y)]
 
 
@@ -302,5 +313,5 @@ def of_text(path: Path, content: str) -> list[Channel]:
     for k, one in enumerate(maps, 1):
         title = one.translate() or f"lines {one.lines[0][0]} to {one.lines[-1][0]}"
         unit = one.header.get("value units") or one.header.get("z-unit") or ("nm" if "bit2nm" in one.header else None)
-        channels.append(Channel(title, lambda one=one: _matrix(one), unit))
+        channels.append(Channel(title, partial(_matrix, one), unit))
     return channels

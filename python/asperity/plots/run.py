@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import partial
-from typing import Any, Callable
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -109,9 +110,9 @@ def loading(run: Result, ax: Axes) -> bool:
 def contact(run: Result, ax: Axes) -> bool:
     """Draws contact fraction and fraction of repulsive sites over the displacement of the top plane."""
     columns = _columns(run, "top_displacement", "contact_fraction", "repulsive_fraction", "segment")
-    if not columns or not _by_segment(ax, run, *columns[:2], ", in contact"):
+    if not columns or not _by_segment(ax, run, columns[0], columns[1], ", in contact"):
         return False
-    _by_segment(ax, run, *columns[:3:2], ", repulsive", (DASHES[4], DASHES[2]))
+    _by_segment(ax, run, columns[0], columns[2], ", repulsive", (DASHES[4], DASHES[2]))
     ax.set_ylim(bottom=0)
     top, touching = columns[0], columns[0][columns[1] > 1e-3 * columns[1].max()]
     if touching.size and np.ptp(touching) < 0.5 * np.ptp(top):  # most of the way is through empty space
@@ -224,13 +225,13 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     points = theories.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
     if not all("theory" in p for p in points):
         return []
-    curves = []
+    curves: list[tuple[str, list, list, Any]] = []
     for words, line, key, flat in (("Persson’s theory", "-", "persson.gamma_eff", "theory.persson.delta_gamma"),
                                    ("renormalised theory", DASHES[3], "renormalised.gamma_eff", "delta_gamma")):
-        found = [(value, gamma / point.number(flat)) for value, point in zip(values, points)
+        found = [(value, gamma / point.needed(flat)) for value, point in zip(values, points)
                  if (gamma := point.number("theory." + key)) is not None]
         if found:
-            curves.append((words, *zip(*found), line))
+            curves.append((words, [value for value, _ in found], [ratio for _, ratio in found], line))
     return curves
 
 
@@ -244,7 +245,7 @@ def gaps(state: State, ax: Axes) -> bool:
     found = state.gap_distribution
     if found is None or not (found[1] > 0).any():
         return False
-    return _histogram(ax, *found, "gap $u$ (Å)", "$P(u)$ (1/Å)")
+    return _histogram(ax, found[0], found[1], "gap $u$ (Å)", "$P(u)$ (1/Å)")
 
 
 def pressures(state: State, ax: Axes) -> bool:

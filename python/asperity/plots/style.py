@@ -17,7 +17,8 @@ import json
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any
+from functools import partial
+from typing import Any, cast
 from weakref import WeakKeyDictionary
 
 import matplotlib
@@ -43,7 +44,7 @@ CONTACT = ListedColormap(["#dfe3e6", "#0b4a6f"])
 for _map in (GAP, PRESSURE, CONTACT):
     _map.set_bad("#9a9a9a")
 
-RC = {
+RC: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 8, "mathtext.fontset": "dejavusans",
     "axes.linewidth": 0.7, "axes.labelsize": 8.5, "axes.edgecolor": INK, "axes.labelcolor": INK,
     "text.color": INK, "xtick.color": INK, "ytick.color": INK, "axes.facecolor": "none",
@@ -88,7 +89,7 @@ def drawn(ax: Axes) -> Drawn:
 
 def style() -> Any:
     """Returns the context in which figures of the package are made: `with style(): fig, ax = ...`."""
-    return matplotlib.rc_context(RC)
+    return matplotlib.rc_context(cast(Any, RC))  # whose keys the stubs list
 
 
 def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str,
@@ -134,7 +135,7 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
     for name, axis in (("x", ax.xaxis), ("y", ax.yaxis)):
         if name in log:
             getattr(ax, f"set_{name}scale")("log")
-            axis.set_minor_locator(ticker.LogLocator(subs=np.arange(2, 10), numticks=30))
+            axis.set_minor_locator(ticker.LogLocator(subs=[float(n) for n in range(2, 10)], numticks=30))
             axis.set_minor_formatter(ticker.NullFormatter())
             low, high = axis.get_view_interval()
             if high < 12 * low:  # less than a decade: the minor ticks need their numbers
@@ -164,7 +165,7 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
 
 def millijoules(ax: Axes, factor: float, label: str) -> None:
     """Adds a second axis in mJ/m² on the right; factor: of the axis on the left."""
-    right = ax.secondary_yaxis("right", functions=(lambda y: y * factor, lambda y: y / factor))
+    right = ax.secondary_yaxis("right", functions=(partial(np.multiply, factor), partial(np.multiply, 1.0 / factor)))
     right.set_ylabel(label)
     right.yaxis.set_minor_locator(ticker.AutoMinorLocator())
     ax.tick_params(axis="y", which="both", right=False)
@@ -290,6 +291,6 @@ def readout(fig: Figure) -> str:
             keep = np.isfinite(one.x) & np.isfinite(one.y)
             x, y = one.x[keep], one.y[keep]
             some = slice(None, None, 1 + len(x) // MOST_POINTS)
-            data["curves"].append([one.label, [[float("%.5g" % a), float("%.5g" % b)]
+            data["curves"].append([one.label, [[float(f"{a:.5g}"), float(f"{b:.5g}")]
                                                for a, b in zip(x[some], y[some])]])
     return json.dumps(data, ensure_ascii=False, separators=(",", ":")).replace("<", "\\u003c")

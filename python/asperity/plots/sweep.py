@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +24,7 @@ from ..running import program
 from ..studies.grid import shown
 from ..studies.sweeps import Sweep
 from ..studies.tables import Table
-from ..units import MILLIJOULE, NANONEWTON
-from ..units import shown as shown_unit
+from ..units import MILLIJOULE, NANONEWTON, shown as shown_unit
 from .style import (
     BLUE,
     COLOURS,
@@ -64,14 +64,14 @@ class Trace:
     """column of what its energy (the column without _ratio) may be wrong by"""
 
     def values(self, table: Table) -> np.ndarray:
-        return table.values(self.column) / self.unit
+        return table.column(self.column) / self.unit
 
     def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
         """Returns means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
         values = self.values(table)
-        energy = table.values(self.column.removesuffix("_ratio"))
+        energy = table.column(self.column.removesuffix("_ratio"))
         over = np.divide(values, energy, where=energy != 0, out=energy * np.nan)
-        error = table.values(self.uncertainty) * np.abs(over)
+        error = table.column(self.uncertainty) * np.abs(over)
         mean, deviation, _ = table.average(values)
         bars = np.array([deviation, table.average(error).mean])
         return mean, np.where(np.isfinite(bars).any(axis=0), np.sqrt(np.nansum(bars**2, axis=0)), np.nan)
@@ -182,7 +182,7 @@ def _agree(one: dict[str, float], other: dict[str, float]) -> bool:
     """Returns True if two curves, {point: value}, agree: at the same points, or at different values that both have."""
     both = np.array([(one[point], other[point]) for point in one.keys() & other.keys()]).reshape(-1, 2)
     enough = one.keys() == other.keys() or (len(both) and np.ptp(np.nan_to_num(both)) > 1e-6)
-    return bool(enough) and np.allclose(*both.T, rtol=1e-6, atol=1e-9, equal_nan=True)
+    return bool(enough) and np.allclose(both[:, 0], both[:, 1], rtol=1e-6, atol=1e-9, equal_nan=True)
 
 
 def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
@@ -244,7 +244,8 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if name == "works" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
         return False  # of paths
     simulated = False
-    colours, told = dict(zip(_words(shared, x), COLOURS)), set()
+    colours = dict(zip(_words(shared, x), COLOURS))
+    told: set = set()
     used, dashes = [trace.colour for trace in lines], [trace.line for trace in lines]
     of_theory: dict[str, str] = {}
 
@@ -315,7 +316,7 @@ def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], s
     """Writes gamma.svg, .pdf, .png and the others into the directory. Returns the SVG files, and the reason why a sweep is
     left out."""
     note = parts_of(sweeps)[2]
-    figures = {name: fig for name in names(sweeps) if (fig := make(lambda ax, name=name: plot(sweeps, name, ax))) is not None}
+    figures = {name: fig for name in names(sweeps) if (fig := make(partial(plot, sweeps, name))) is not None}
     if figures:
         with store.outputs(directory, [file for name in figures for file in files_of(name)]) as out:
             for name, fig in figures.items():

@@ -33,7 +33,7 @@ def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
             curve(ax, [r.seconds for r in some], [100 * r.error[question] for r in some], label, colour=colour, line="",
                   marker=marker, filled=marker != "P")
     if front := sorted((r.seconds, 100 * r.error[question]) for r in rows if r.front[question]):
-        curve(ax, *zip(*front), "best for its time", colour=GREY, line=DASHES[1], behind=True)
+        curve(ax, [time for time, _ in front], [error for _, error in front], "best for its time", colour=GREY, line=DASHES[1], behind=True)
     finish(ax, "processor time (s)", "largest error of γ and contact (%)" if question == "state" else
            "largest error of γ, contact, works and force (%)", log="xy", legend="above")
     return bool(rows)
@@ -94,10 +94,10 @@ def text_of(cost: Cost) -> str:
         if cost.target or not cost.answered(question):
             continue
         parts.append(f"\nCheapest for {what}:")
-        for target, row in zip(TARGETS, cost.cheapest[question]):
-            parts.append(f"  {100 * target:>4g} %  " + ("none of those that were run" if row is None else
-                         f"{row.seconds:.2f} s, error {percent(row.error[question])} %: "
-                         + ("--set " + " ".join(row.setting) if row.setting else "the scene as it is")))
+        for target, cheapest in zip(TARGETS, cost.cheapest[question]):
+            parts.append(f"  {100 * target:>4g} %  " + ("none of those that were run" if cheapest is None else
+                         f"{cheapest.seconds:.2f} s, error {percent(cheapest.error[question])} %: "
+                         + ("--set " + " ".join(cheapest.setting) if cheapest.setting else "the scene as it is")))
     if not cost.answered("path"):
         parts.append("\nThe path was not followed: works and force are not measured.")
     parts += [f"failed: {r.parameter} {r.label}: {r.outcome.reason}" for r in cost.rows if r.outcome.status == FAILED]
@@ -106,6 +106,7 @@ def text_of(cost: Cost) -> str:
 
 def answer_of(cost: Cost) -> str:
     """Returns the answer for the target; its last line is to be put behind a command."""
+    assert cost.target is not None
     target, varied = f"{100 * cost.target:.6g} %", "varied: " + ", ".join(p.name for p in cost.case.parameters)
     row, question = cost.chosen, cost.case.bases[0].question
     if row is None:

@@ -26,7 +26,8 @@ LEFT_OUT = [text for text in ALWAYS_LEFT_OUT if not text.startswith("edges")]  #
 
 
 def quote(n: Number) -> str:
-    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds; corrected by +27 (tail)."""
+    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds;
+    corrected by +27 (tail)."""
     text, (factor, _) = str(n), n.units[0]
     if n.reason or n.below == n.below:
         return text

@@ -147,12 +147,10 @@ class Export:
         height = self.run.substrate.height
         n = len(height)
         y, x = np.divmod(np.arange(n * n), n)
-        self.rigid = self.run.substrate.atoms
-        if self.rigid is None:
-            self.rigid = np.column_stack([x * self.run.edge / n, y * self.run.edge / n, height.ravel()])
-        self.types = self.run.substrate.types
-        if self.types is None:
-            self.types = np.ones(len(self.rigid), int)
+        atoms, types = self.run.substrate.atoms, self.run.substrate.types
+        lattice = [x * self.run.edge / n, y * self.run.edge / n, height.ravel()]
+        self.rigid: np.ndarray = np.column_stack(lattice) if atoms is None else atoms
+        self.types: np.ndarray = np.ones(len(self.rigid), int) if types is None else types
         if len(self.types) != len(self.rigid):
             raise self._strange(f"has {len(self.types)} types of {len(self.rigid)} atoms",
                                 "each atom of the substrate has one")

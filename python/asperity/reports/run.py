@@ -180,7 +180,7 @@ def _numbers(page: Page, run: Result) -> None:
 def _times(page: Page, run: Result) -> None:
     found = run.part("run.phases")
     bars = [(name, s, c) for name in found
-            if None not in ((s := found.number(f"{name}.seconds")), (c := found.number(f"{name}.calls")))]
+            if (s := found.number(f"{name}.seconds")) is not None and (c := found.number(f"{name}.calls")) is not None]
     longest = max((s for _, s, _ in bars), default=0.0) or 1.0
     page.section("times", "Time spent")
     page.add("bars", [{"name": name, "fraction": s / longest, "text": f"{s:.3g} s, {c:.0f} ×"}

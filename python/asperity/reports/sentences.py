@@ -208,10 +208,10 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     if lost is None:
         lost = into + out
     if run.curved:
-        loop, *parts = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
+        loop, *ways = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
         return f"A cycle of approach and pull-off loses {loop} eV" + (
-            f": {parts[0]} on the way in, where the contact spreads by itself, and {parts[1]} on the way out, where it "
-            "detaches." if all(parts) else ".") + _relaxing_sentence(run, lambda e: minus(f"{e * run.edge**2 / 1e3:.4g}") + " eV")
+            f": {ways[0]} on the way in, where the contact spreads by itself, and {ways[1]} on the way out, where it "
+            "detaches." if all(ways) else ".") + _relaxing_sentence(run, lambda e: minus(f"{e * run.edge**2 / 1e3:.4g}") + " eV")
     text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
     if relaxing := _relaxing_sentence(run, energy):
         text += f" Of these works {energy(lost)} are lost at instabilities." + relaxing
@@ -219,9 +219,9 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
-    own = [run.number("work_of_interface." + k) for k in ("approach", "pull_off")]
-    if None not in own and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
-        text += (f" The interface’s force does the work {energy(own[0])} on the approach and {energy(own[1])} on the "
+    inwards, outwards = (run.number("work_of_interface." + k) for k in ("approach", "pull_off"))
+    if inwards is not None and outwards is not None and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
+        text += (f" The interface’s force does the work {energy(inwards)} on the approach and {energy(outwards)} on the "
                  "pull-off (its integral over the mean height); a jump of the block as a whole does not change it.")
     return text
 

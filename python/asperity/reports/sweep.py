@@ -17,8 +17,7 @@ from matplotlib.axes import Axes
 
 from ..errors import Error
 from ..files import store
-from ..plots import run as run_plots
-from ..plots import sweep as plots
+from ..plots import run as run_plots, sweep as plots
 from ..plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
 from ..results.result import Result, Values, expect
 from ..running.pool import DONE, FAILED
@@ -95,9 +94,9 @@ class _Points:
 def _shown(sweep: Sweep) -> list[str]:
     """Returns for each line of the table the directory of the point that is shown, or ""."""
     names = []
-    for number, (_, places) in enumerate(sweep.table.groups):
+    for line, (_, places) in enumerate(sweep.table.groups):
         done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
-        names.append(str(done[0]["directory"]) if done and number < MOST_POINTS else "")
+        names.append(str(done[0]["directory"]) if done and line < MOST_POINTS else "")
     return names
 
 
@@ -128,8 +127,8 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
     for k in range(few):
         name, run = runs[k * (len(runs) - 1) // (few - 1)]
         unit, label = run_plots.force_unit(run)
-        for number, words in enumerate(run.segment_names):
-            here = run.series["segment"] == number
+        for segment, words in enumerate(run.segment_names):
+            here = run.series["segment"] == segment
             if here.sum() > 1:
                 curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
                       name if words == "pull-off" else "", colour=COLOURS[k],
@@ -145,7 +144,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
 
 def _half_way(table: Table, column: str) -> float | None:
     """Returns the roughness at which a quantity has fallen to half, between the points; seeds averaged."""
-    means = table.average(table.values(column)).mean
+    means = table.average(table.column(column)).mean
     points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
     for (x0, y0), (x1, y1) in zip(points, points[1:]):
         if y0 >= 0.5 > y1:

@@ -15,7 +15,7 @@ import math
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, cast, overload
 
 import h5py
 import numpy as np
@@ -29,6 +29,10 @@ DEEPEST_JSON = 64
 """Largest number of levels of a JSON file; the program itself reads no deeper ones."""
 
 
+@overload
+def finite(value: Any, otherwise: float) -> float: ...
+@overload
+def finite(value: Any, otherwise: None = None) -> float | None: ...
 def finite(value: Any, otherwise: float | None = None) -> float | None:
     """Returns a value of a JSON file if it is a finite number, else `otherwise`."""
     with contextlib.suppress(OverflowError):
@@ -46,7 +50,7 @@ class Attributes:
         if key.startswith("_"):
             raise AttributeError(key)
         try:
-            return self[key]
+            return cast(Mapping[str, Any], self)[key]
         except KeyError:
             raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
 
@@ -83,6 +87,10 @@ class Values(Attributes, dict):
             value = value[part]
         return value
 
+    @overload
+    def number(self, name: str, otherwise: float) -> float: ...
+    @overload
+    def number(self, name: str, otherwise: None = None) -> float | None: ...
     def number(self, name: str, otherwise: float | None = None) -> float | None:
         """Returns a value by its path if it is a finite number.
 
@@ -99,6 +107,29 @@ class Values(Attributes, dict):
             The number, in the unit of unit(name).
         """
         return finite(self.find(name), otherwise)
+
+    def needed(self, name: str) -> float:
+        """Returns a number by its path that every such file has, as a key of a resolved scene.
+
+        Parameters
+        ----------
+        name : str
+            Path of the value, "block.young".
+
+        Returns
+        -------
+        float
+            The number, in the unit of unit(name).
+
+        Raises
+        ------
+        KeyError
+            There is no such number.
+        """
+        number = self.number(name)
+        if number is None:
+            raise KeyError(f"{self._called} has no number {name!r}")
+        return number
 
     def text(self, name: str) -> str:
         """Returns a value by its path if it is a text, else "".
@@ -198,7 +229,7 @@ def read_json(path: Path) -> Values:
         raise refuse(f"it is not JSON: {error}") from None
     if _deeper_than(value, DEEPEST_JSON):
         raise refuse("it is nested too deeply")
-    if not isinstance(value, dict):
+    if not isinstance(value, Values):
         return Values()
     if "digest" in value and not store.json_is_whole(content):
         raise refuse("its content does not match its digest: it was damaged or changed",
@@ -455,7 +486,7 @@ class Result(Values):
                 raise InputOutputError("", "", "result.json was written with another one")
             self._open("run.h5")
         except InputOutputError as error:
-            self.notes.append(f"run.h5 cannot be read to its end ({str(error).split('why: ')[-1].splitlines()[0]}).")
+            self.notes.append(f"run.h5 cannot be read to its end ({error.listed[0]['why']}).")
             self._open("no run.h5", self.notes[-1])
 
     def _of_another_run(self) -> bool:

@@ -47,6 +47,7 @@ def load() -> Any:
             if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
                 os.environ.setdefault("GOMP_SPINCOUNT", "3000")
             spec = importlib.util.spec_from_file_location(NAME, file)
+            assert spec and spec.loader
             module = importlib.util.module_from_spec(spec)
             spec.loader.exec_module(module)
             sys.modules[NAME] = module
@@ -62,8 +63,12 @@ if TYPE_CHECKING:
     from .. import _engine
 else:
     _engine = load()
-RestState, SiteMaps, Energies, Point = _engine.RestState, _engine.SiteMaps, _engine.Energies, _engine.Point
-State, quantity = _engine.State, _engine.quantity
+RestState = _engine.RestState
+SiteMaps = _engine.SiteMaps
+Energies = _engine.Energies
+Point = _engine.Point
+State = _engine.State
+quantity = _engine.quantity
 
 
 class Components(NamedTuple):
@@ -230,18 +235,26 @@ class Simulation(_engine.Simulation):
     """
 
     __setattr__ = _set_what_is_there
+    _made = False
 
     def __repr__(self) -> str:
+        if not self._made:  # the engine has nothing to show then
+            return "<Simulation that could not be made>"
         return (f"<Simulation {self._name}: {self.segment}, step {self.steps}, {self.time:.4g} ps, "
                 f"{self.stress:.4g} MPa, contact {self.contact:.4g}>")
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None, comm: Any = None):
         """Places a scene at the start of its path."""
-        with scene_file(scene, overrides=overrides) as file:
-            super().__init__(file, assignments(overrides), _number(comm))
+        try:
+            with scene_file(scene, overrides=overrides) as file:
+                super().__init__(file, assignments(overrides), _number(comm))
+        except BaseException:
+            del self  # or a debugger would look into what the engine has not made
+            raise
         self._begin(comm)
 
     def _begin(self, comm: Any) -> None:
+        self._made = True
         self._comm = comm
         self._observers: list[tuple[Callable, str]] = []
         self._rows: list[dict[str, float]] = []
@@ -354,7 +367,12 @@ class Simulation(_engine.Simulation):
                              "give a function of the simulation")
         # The engine must not keep alive what keeps the engine alive.
         itself, number = weakref.ref(self), len(self._observers)
-        self._every(n, lambda: itself()._observe(number))
+
+        def observe() -> None:
+            if (simulation := itself()) is not None:
+                simulation._observe(number)
+
+        self._every(n, observe)
         self._observers.append((observer, name or getattr(observer, "__name__", "value").replace("<lambda>", "value")))
 
     def _observe(self, number: int) -> None:
@@ -481,8 +499,11 @@ class Statics(_engine.Statics):
     """
 
     __setattr__ = _set_what_is_there
+    _made = False
 
     def __repr__(self) -> str:
+        if not self._made:
+            return "<Statics that could not be made>"
         return (f"<Statics {self._case['name']}: point {self.now.number}, mean height {self.now.mean_height:.4g} Å, "
                 f"{self.stress:.4g} MPa, contact {self.now.contact:.4g}>")
 
@@ -513,8 +534,13 @@ class Statics(_engine.Statics):
 
     def __init__(self, scene: SceneLike, overrides: Overrides | None = None):
         """Places the solids of a scene beyond the interaction range."""
-        with scene_file(scene, overrides=overrides) as file:
-            super().__init__(file, assignments(overrides))
+        try:
+            with scene_file(scene, overrides=overrides) as file:
+                super().__init__(file, assignments(overrides))
+        except BaseException:
+            del self
+            raise
+        self._made = True
 
     @property
     def load(self) -> None:

@@ -21,8 +21,8 @@ import subprocess
 import threading
 import time
 import uuid
-from collections import Counter
-from collections.abc import Callable, Iterator
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass, field
 from numbers import Integral
@@ -86,7 +86,7 @@ class PoolOptions:
 
 def refuse_jobs(jobs: object) -> None:
     """Refuses a wrong number of runs side by side. Raises SceneError."""
-    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= jobs <= 1024:
+    if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= int(jobs) <= 1024:
         raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
                          "leave it out for one after the other")
 
@@ -103,7 +103,7 @@ def look_at(job: Job) -> Outcome:
     try:
         result = read_json(path)
     except InputOutputError as error:
-        return Outcome(damaged=str(error).split("why: ")[-1].splitlines()[0])
+        return Outcome(damaged=error.listed[0]["why"])
     remedy = "name another directory (--out), or remove this one"
     if result.find("scene") != job.answer["scene"]:
         raise SceneError(str(job.directory), "holds the result of another scene",
@@ -125,6 +125,14 @@ def look_at(job: Job) -> Outcome:
     return outcome
 
 
+def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool = False) -> list[dict[str, str]]:
+    """Returns the files that are in the way of a run in a directory, as problems. damaged: its result cannot be read and is set
+    aside."""
+    aside = (RESULT, "run.h5") if damaged and store.is_named(directory, RESULT) else ()
+    names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
+    return store.in_the_way(directory, names, renew=False, inputs=inputs) + store.in_the_way(directory, [LOG], inputs=inputs)
+
+
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError with the files that are in
     the way of the jobs that wait."""
@@ -132,11 +140,7 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     problems = []
     for job, outcome in zip(jobs, outcomes):
         if outcome.status == WAITING:
-            aside = (RESULT, "run.h5") if outcome.damaged and store.is_named(job.directory, RESULT) else ()
-            names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
-            inputs = inputs_of(job.file, job.answer["scene"])
-            problems += store.in_the_way(job.directory, names, renew=False, inputs=inputs)
-            problems += store.in_the_way(job.directory, [LOG], inputs=inputs)
+            problems += in_the_way_of_run(job.directory, inputs_of(job.file, job.answer["scene"]), bool(outcome.damaged))
     if problems:
         raise SceneError.of(problems)
     for job, outcome in zip(jobs, outcomes):
@@ -269,19 +273,24 @@ def _signals() -> Iterator[list[int]]:
             signal.signal(number, handler)
 
 
-def _last_line(job: Job) -> str:
-    """Returns the last line that the run of a job has written."""
+def _log(job: Job) -> str:
+    """Returns what the run of a job has written."""
     try:
-        text = (job.directory / LOG).read_text("utf-8", "replace")
+        return (job.directory / LOG).read_text("utf-8", "replace").strip()
     except OSError:
         return ""
-    return text.rstrip().rpartition("\n")[2].strip()
+
+
+def _reason(job: Job, code: int) -> str:
+    """Returns why a run failed: the error that it told, or else its last line."""
+    text = _log(job)
+    error = program.error_of(text, code)
+    return str(error).splitlines()[0] if error else program.told(text.rpartition("\n")[2].strip()).get("text", "")
 
 
 def _fraction(job: Job) -> float:
-    """Returns the progress of a run by its last line (" 45 %  approach, ..."); 0: not known."""
-    head = _last_line(job).split(" %")[0].strip()
-    return min(1.0, int(head) / 100) if head.isdigit() else 0.0
+    """Returns the part of its path that a run has done, by its last line; 0: not known."""
+    return program.told(_log(job).rpartition("\n")[2]).get("fraction") or 0.0
 
 
 class Pool:
@@ -294,7 +303,7 @@ class Pool:
         self.running: dict[int, float] = {}  # since when
         # Of each scene, the points that were done and the seconds that they took.
         self.done: Counter[str] = Counter()
-        self.seconds: Counter[str] = Counter()
+        self.seconds: dict[str, float] = defaultdict(float)
         self.stopping = self.killed = False
         self.start_time = time.monotonic()
         self.place = place.resolve()
@@ -327,7 +336,7 @@ class Pool:
     def _submitted(self, executor: Executor, i: int) -> Future:
         job, options = self.jobs[i], self.options
         directory = str(job.directory.resolve())
-        words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "lines",
+        words = [*options.launch, program.path(), "run", job.file, "--out", directory, "--progress", "json",
                  "--resume", "auto", *program.sets(job.overrides)]
         equal = 1 if options.executor else max(1, len(os.sched_getaffinity(0)) // options.jobs)
         threads = options.threads or (0 if options.launch else equal)
@@ -370,7 +379,7 @@ class Pool:
         else:
             outcome.status, outcome.exit_code = FAILED, max(code, 1)
             outcome.reason = ended.reason or outcome.reason or outcome.damaged or (
-                f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _last_line(job))
+                f"ended by signal {-code} ({signal.strsignal(-code)})" if died else _reason(job, code))
             self._say(job, f"FAILED (exit {outcome.exit_code}): {outcome.reason}")
 
     def _stop_if_told(self, interruptions: int, left: dict[Future, int]) -> set[Future]:
@@ -416,7 +425,8 @@ class Pool:
     def _left(self, fractions: dict[int, float], now: float) -> str:
         """Estimates the time left: points of a scene are assumed to last alike; scenes without a finished point are not
         counted."""
-        points, seconds = self.done.copy(), self.seconds.copy()
+        points: dict[str, float] = defaultdict(float, self.done)
+        seconds: dict[str, float] = defaultdict(float, self.seconds)
 
         def one_takes(i: int) -> float:
             """Returns the seconds of a point of this scene; NaN: not known."""

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import json
 import os
@@ -16,24 +17,24 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from ..errors import BY_CODE, InputOutputError, InternalError, SceneError
+from ..errors import BY_CODE, Error, InputOutputError, InternalError, SceneError
 from ..terminal import environment_alone, launched
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def version() -> str:
     """Returns the version of the program that the package calls."""
-    return call(["--version"]).split()[-1]
+    return info()["version"]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def path() -> str:
     """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 
     In a source tree without a build it is the script `asperity`, which makes one.
     """
     package = Path(__file__).resolve().parents[1]
-    places = [os.environ.get("ASPERITY_PROGRAM", "")]
+    places: list[str | Path] = [os.environ.get("ASPERITY_PROGRAM", "")]
     for root in package.parents[1:4]:
         places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
     for place in places:
@@ -49,14 +50,36 @@ def path() -> str:
     return found
 
 
+def told(line: str) -> dict[str, Any]:
+    """Returns what a line of the program tells a program: an object of JSON, {"text": line} of any other line."""
+    if line.startswith("{"):
+        with contextlib.suppress(ValueError):
+            found = json.loads(line)
+            if isinstance(found, dict):
+                return found
+    return {"text": line}
+
+
+def error_of(text: str, code: int) -> Error | None:
+    """Returns the error that the program told in a text; None: it told none."""
+    kind = BY_CODE.get(code, InternalError)
+    for line in text.splitlines():
+        error = told(line).get("error")
+        if error:
+            return kind.of(error["problems"]) if error["problems"] else kind(error["text"])
+    return None
+
+
 def raise_for(code: int, text: str) -> None:
-    """Throws the exception of an exit code, with the program's own message."""
+    """Throws the exception of an exit code, with the program's own message, or else with what its launcher says."""
     if code == 0:
         return
-    text = re.sub(r"\n\d+ problems?; nothing was written\s*$", "", text.strip())
-    if code < 0:
-        text += f"\nasperity was ended by signal {-code} ({signal.strsignal(-code)})"
-    raise BY_CODE.get(code, InternalError)(text.strip() or f"asperity ended with exit code {code}")
+    error = error_of(text, code)
+    if error is None:
+        by_signal = f"\nasperity was ended by signal {-code} ({signal.strsignal(-code)})" if code < 0 else ""
+        said = (text.strip() + by_signal).strip()
+        error = BY_CODE.get(code, InternalError)(said or f"asperity ended with exit code {code}")
+    raise error
 
 
 def refuse_ranks() -> None:
@@ -86,20 +109,25 @@ def sets(overrides: Iterable[str]) -> list[str]:
     return [word for one in overrides for word in ("--set", one)]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
+def info() -> dict[str, Any]:
+    """Returns what the program was built from and runs on: version, git, compiler, flags, mpi, hdf5, fftw, ranks, threads, cuda,
+    processor."""
+    return json.loads(call(["info", "--json"]))
+
+
 def mpi() -> str:
     """Returns the MPI that the program was built with: "Open MPI v4.1.4"."""
-    found = re.search(r"^ *MPI +(.*\S)", call(["info"]), re.MULTILINE)
-    return found[1] if found else ""
+    return info()["mpi"]
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def schema() -> dict[str, dict[str, Any]]:
     """Returns every key of a scene: kind, unit, default, doc, choices."""
     return json.loads(call(["defaults", "--json"]))
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def quantities() -> dict[str, dict[str, str]]:
     """Returns every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
     return json.loads(call(["defaults", "--results", "--json"]))
@@ -121,9 +149,15 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
-def surface(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map."""
-    return json.loads(call(["surface", scene, *sets(overrides), "--json"]))
+def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
+    """Returns the memory ("bytes") and time ("seconds") that a run of a scene takes, by part, and its effects."""
+    return json.loads(call(["plan", scene, *sets(overrides), "--json"]))
+
+
+def surface(scene: str, overrides: Iterable[str] = (), out: str = "") -> dict[str, Any]:
+    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map. out: a
+    directory for heights.h5."""
+    return json.loads(call(["surface", scene, *sets(overrides), "--json", *(["--out", out] if out else [])]))
 
 
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -26,22 +25,19 @@ def launcher(ranks: int) -> list[str]:
     the MPI that the program was built with, if several are installed. Raises InputOutputError if there is none."""
     if ranks == 1:
         return []
-    words, names = os.environ.get("ASPERITY_MPIRUN", "").split(), ()
+    words = os.environ.get("ASPERITY_MPIRUN", "").split()
+    names: tuple[str, ...] = ()
     if not words:
         open_mpi = "Open MPI" in program.mpi()
         names = ("mpirun.openmpi", "mpirun") if open_mpi else ("mpirun.mpich", "mpiexec.hydra", "mpirun")
         options = ["--oversubscribe"] + (["--allow-run-as-root"] if os.geteuid() == 0 else []) if open_mpi else []
-        words = [next(filter(shutil.which, names), names[-1]), *options]
+        words = [next((name for name in names if shutil.which(name)), names[-1]), *options]
     if not shutil.which(words[0]):
         raise InputOutputError(f"ranks = {ranks}", f"no launcher of {program.mpi()}, which the program was built with",
                                "looked in PATH for " + ", ".join(names) if names else
                                f"ASPERITY_MPIRUN names {words[0]}, which is not there",
                                'put the mpirun of that MPI into PATH, or name it: ASPERITY_MPIRUN="srun --mpi=pmix"')
     return [*words, "-n", str(ranks)]
-
-
-OF_PROGRESS = re.compile(r" *\d+ %  ")
-"""Lines of the program that say how far it is."""
 
 
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,
@@ -79,9 +75,9 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     with scene_file(scene, overrides=overrides) as file:
         first = Path("results") / Path(file).stem
         place = store.numbered(first, Path.exists) if out is None else store.chosen(str(out), "")
-        words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "lines" if progress_shown(progress) else "off",
+        words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "json",
                  *program.sets(assignments(overrides))]
-        said = []
+        said, shown = [], progress_shown(progress)
         try:
             child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                                      start_new_session=True, text=True, encoding="utf-8", errors="replace")
@@ -90,10 +86,11 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
                                    "check that it is installed") from None
         try:
             for line in child.stderr:
-                if OF_PROGRESS.match(line):
-                    print(line, end="", file=sys.stderr, flush=True)
-                else:
+                told = program.told(line)
+                if "text" not in told or told["text"] == line:  # an error, or what a launcher says
                     said.append(line)
+                elif shown:
+                    print(told["text"], file=sys.stderr, flush=True)
             code = child.wait()
         except KeyboardInterrupt:
             child.send_signal(signal.SIGUSR1)  # mpirun passes it on

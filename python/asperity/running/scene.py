@@ -13,14 +13,17 @@ import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Union
+from types import FrameType
+from typing import Any
 
 from ..errors import Error, SceneError
 
-SceneLike = Union[str, Path, Mapping[str, Any]]
-Overrides = Union[Mapping[str, Any], list]
+SceneLike = str | Path | Mapping[str, Any]
+Overrides = Mapping[str, Any] | list[str]
 STANDARD_INPUT = "-"
 """Name by which a command line asks for the standard input."""
+OVERRIDE = "--set "
+"""How the place of a problem of an override begins."""
 
 
 def toml_value(value: Any) -> str:
@@ -88,7 +91,7 @@ def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
 def _caller() -> str:
     """Returns file and line of the script that called the package."""
     package = str(Path(__file__).parents[1])
-    frame = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(1)
     while frame and (frame.f_code.co_filename.startswith(package) or frame.f_code.co_filename == contextlib.__file__):
         frame = frame.f_back
     return f"{os.path.basename(frame.f_code.co_filename)}:{frame.f_lineno}" if frame else "the scene"
@@ -103,26 +106,27 @@ def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None =
             yield file
     except Error as error:
         if overrides:
-            error.args = tuple(re.sub(r"(?m)^--set (?=[\w.]+=)", f"{_caller()}: ", str(a)) for a in error.args)
+            caller = _caller()
+            error.rewrite(lambda text: f"{caller}: {text[len(OVERRIDE):]}" if text.startswith(OVERRIDE) else text)
         raise
 
 
 @contextlib.contextmanager
 def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
     piped = str(scene) == STANDARD_INPUT
-    if not isinstance(scene, Mapping) and not piped:
-        yield str(scene)
-        return
-    if piped:  # once: the commands start the program several times
+    if isinstance(scene, Mapping):
+        name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})
+    elif piped:  # once: the commands start the program several times
         name, text = "stdin", sys.stdin.read()
     else:
-        name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})
+        yield str(scene)
+        return
     with tempfile.TemporaryDirectory(prefix="asperity-", dir=folder or None) as directory:
         file = Path(directory) / f"{name}.toml"
         file.write_text(text, encoding="utf-8")
         try:
             yield str(file)
         except Error as error:  # the caller has not seen this file
-            place = re.escape(str(file)) + ("" if piped else r"(:\d+)*")
-            error.args = tuple(re.sub(place, "stdin" if piped else _caller(), str(a)) for a in error.args)
+            place, caller = re.escape(str(file)) + ("" if piped else r"(:\d+)*"), "stdin" if piped else _caller()
+            error.rewrite(lambda text: re.sub(place, caller, text))
             raise

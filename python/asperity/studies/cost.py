@@ -11,7 +11,7 @@ import contextlib
 import functools
 import itertools
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -38,7 +38,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) ->
     return float(errors.max(initial=0.0)) if errors.size else NAN  # NaN if one of them is
 
 
-def pareto_front(seconds: np.ndarray, errors: np.ndarray) -> np.ndarray:
+def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarray:
     """Returns the points that no other point beats in run time and error at once; NaN is never among them."""
     s, e = np.asarray(seconds, float), np.asarray(errors, float)
     beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
@@ -110,7 +110,8 @@ class Cost:
 
     def _search(self, base: Base, target: float, every: list[tuple[float, float, Row]],
                 run: Callable[[list[Row]], bool]) -> bool:
-        left, measured = [one for one in every if one[1] <= target], []
+        left = [one for one in every if one[1] <= target]
+        measured: list[float] = []
         self.smallest = min((one[1] for one in every), default=NAN)
         while left and len(measured) < TRIES:
             _, added, row = left[0]

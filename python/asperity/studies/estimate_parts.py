@@ -10,7 +10,7 @@ base: the scene, or the quasi-static scene where its path can be followed so.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -190,7 +190,7 @@ class Part:
         if self.relative and self.base:
             value = number_of(self.base.outcome.result, q.path)
             return None if math.isnan(value) else Found(0.0, abs(self.relative * value))
-        if not self.rows or self.failed:
+        if not self.rows or self.failed or not self.base:
             return None
         base, *rows = (number_of(row.outcome.result, q.path) for row in (self.base, *self.rows))
         if math.isnan(base) or np.isnan(rows).any():
@@ -242,7 +242,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     coarse = Variation("spacing", "twice the spacing", joined(moved, spaced(scene, 2, spacing_also))) if is_coarse(scene) else None
     parts: list[Part] = []
 
-    def part(name: str, group: str, what: str, choices: list[Choice] = (), rule: Rule = limit, of: Variation | None = None,
+    def part(name: str, group: str, what: str, choices: Sequence[Choice] = (), rule: Rule = limit, of: Variation | None = None,
              ) -> None:
         of = of or base
         common = coarse.setting if of is coarse else moved if of is base else []

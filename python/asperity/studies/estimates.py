@@ -10,7 +10,7 @@ import math
 import os
 import re
 import tempfile
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -22,7 +22,7 @@ from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
 from ..running import program
-from ..running.pool import DONE, PoolOptions, refuse_jobs
+from ..running.pool import DONE, PoolOptions, in_the_way_of_run, refuse_jobs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from ..terminal import duration
 from ..units import GIGAPASCAL
@@ -141,6 +141,15 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
 """What the parts of a measured map are written to, in the folder maps."""
+OF_A_MAP = re.compile(r"(scene|finer|mirrored|quarter-\d)(,.*)?|\w+=.*")
+"""Folders of the runs of a map's estimate."""
+
+
+def require_free_runs(place: Path) -> None:
+    """Checks that no file is in the way of the runs of a map's estimate, before anything is written. Raises SceneError."""
+    folders = [one for one in sorted(place.glob("*/")) if OF_A_MAP.fullmatch(one.name) and not (one / "result.json").exists()]
+    if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
+        raise SceneError.of(problems)
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
@@ -164,14 +173,14 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
     if of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
         size = float(np.nanstd(heights)) or 1.0  # as it is, the map may be of any size
-        with tempfile.TemporaryDirectory(prefix="asperity-") as there:
-            np.save(Path(there) / "map.npy", heights / size)
-            made["surface"].update(rms=None, file=f"{there}/map.npy", file_unit="Å", file_size=edge)
+        with tempfile.TemporaryDirectory(prefix="asperity-") as folder:
+            np.save(Path(folder) / "map.npy", heights / size)
+            made["surface"].update(rms=None, file=f"{folder}/map.npy", file_unit="Å", file_size=edge)
             with scene_file(made) as file:
-                heights = heights * (of.number("surface.rms") / (size * surface_made(file).rms))
+                heights = heights * (of.needed("surface.rms") / (size * surface_made(file).rms))
 
     def scenes(name: str, pieces: list[np.ndarray], factor: float, detrend: str, spacing: float = 1.0,
-               setting: Setting = ()) -> list[Variation]:
+               setting: Sequence[str] = ()) -> list[Variation]:
         rows = []
         for i, piece in enumerate(pieces, 1):
             stem = f"{name}-{i}" if len(pieces) > 1 else name
@@ -181,7 +190,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
                                 "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
             if name == "finer":  # the surface as it was made: what was taken off it is off
                 made["surface"]["line_noise"] = "keep"
-            thickness = of.number("block.thickness")
+            thickness = of.needed("block.thickness")
             made["block"]["thickness"] = box if thickness == sites else int(thickness / spacing)
             made["output"] |= {"fields": ["relaxed"], "trajectory": "none"}
             if of.text("interface.potential") == "table":
@@ -196,7 +205,8 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
 
     parts = [Part("waves", "truncation", "")]
     if continuous:
-        with scene_file(keys | {"surface": keys["surface"] | {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}}) as file:
+        whole = {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}
+        with scene_file(keys | {"surface": keys["surface"] | whole}) as file:
             made_of_it = surface_made(file).heights
         order = 1 if spacing_also(0.5) else None  # None: that of the quantity
         parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
@@ -214,7 +224,20 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", height_map.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts), missing_waves.law_of(heights, edge, edge / sites)
+    return tuple(parts), missing_waves.law_of(_without_line_noise(heights, edge, of.text("surface.line_noise")), edge, edge / sites)
+
+
+def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
+    """Returns a map as the program treats its line noise, at its own points; with the noise, its spectrum would be that of the noise."""
+    if treatment in ("", "keep"):
+        return heights
+    n = len(heights)
+    with tempfile.TemporaryDirectory(prefix="asperity-") as there:
+        np.save(Path(there) / "map.npy", heights)
+        with scene_file({"surface": {"kind": "file", "file": f"{there}/map.npy", "file_unit": "Å", "file_size": edge, "sites": n,
+                                     "spacing": edge / n, "file_missing": "fill", "detrend": "plane", "line_noise": treatment},
+                         "block": {"thickness": 1}}) as file:
+            return surface_made(file).heights
 
 
 class SurfaceMade(NamedTuple):
@@ -228,9 +251,8 @@ class SurfaceMade(NamedTuple):
 
 def surface_made(file: str) -> SurfaceMade:
     """Returns the surface that a scene makes."""
-    made = program.surface(file)
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        program.call(["surface", file, "--out", str(Path(place) / "surface")])
+        made = program.surface(file, out=str(Path(place) / "surface"))
         heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
     return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
@@ -238,12 +260,9 @@ def surface_made(file: str) -> SurfaceMade:
 def _seconds(scene: str, sets: list[str]) -> float:
     """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
     try:
-        text = program.call(["plan", scene, *program.sets(sets)])
+        return program.plan(scene, sets)["seconds"]["altogether"]
     except Error:
         return math.nan
-    found = re.search(r"^ *altogether +[\d.]+ \w+ +((?:[\d.]+ (?:s|min|h|d) ?)+)", text, re.M)
-    units = {"s": 1, "min": 60, "h": 3600, "d": 86400}
-    return sum(float(v) * units[u] for v, u in re.findall(r"([\d.]+) (s|min|h|d)\b", found[1])) if found else math.nan
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
@@ -281,7 +300,7 @@ def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
             number.parts["rate"] = Found(number.parts["rate"].shift - others, 0.0)
     free = found.get("binding_energy")
     parted = free is not None and free.least == 0.0 and free.largest < NO_ADHESION * base.number("delta_gamma", 0.0)
-    if parted:
+    if free is not None and parted:
         free.unresolved = "no adhesion without load"
     for number in found.values():
         if parted and withheld:
@@ -303,7 +322,7 @@ class Estimating:
         keys = answer["scene"]
         varied = Variations(keys, answer.get("longest_timestep", 0.0))
         if answer["problems"]:
-            raise SceneError("\n".join(answer["problems"]))
+            raise SceneError.of(answer["problems"])
         path = keys["drive"]["path"]
         if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
@@ -320,8 +339,11 @@ class Estimating:
             self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
                              f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
                              "smaller surface.spacing")
-        of_file, map_parts, self.law = keys["surface"]["kind"] == "file", (), None
+        of_file = keys["surface"]["kind"] == "file"
+        map_parts: tuple[Part, ...] = ()
+        self.law: missing_waves.Law | None = None
         if of_file:
+            require_free_runs(self.place)
             map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
@@ -334,14 +356,14 @@ class Estimating:
                 part.rows, part.what = [], "left out: --parts"
         self.rows = [self.plan.scene]
         for part in self.plan.parts:
-            self.rows += [row for row in ([part.base, *part.rows] if part.rows else []) if row not in self.rows]
+            self.rows += [row for row in ([part.base, *part.rows] if part.rows and part.base else []) if row not in self.rows]
         self.runs = Runs(scene, overrides, self.place, options, say)
         self.jobs = self.runs.jobs(self.rows)
 
     def told(self) -> str:
         """Tells how many runs the estimate takes, and about how long."""
         once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
-        base = {(): _seconds(self.runs.scene, self.runs.common)}
+        base: dict[tuple[str, ...], float] = {(): _seconds(self.runs.scene, self.runs.common)}
         for row in once.values():
             still = "drive.mode=quasistatic" in row.setting and self.varied.dynamic
             key = ("drive.mode=quasistatic",) * still
@@ -368,7 +390,7 @@ class Estimating:
             notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
                          'a machine; drive.control="mean-height" has none.')
         for one in self.plan.parts:
-            if one.rule is edges and one.rows and not one.failed:
+            if one.rule is edges and one.rows and one.base and not one.failed:
                 here, there = (number_of(row.outcome.result, "binding_energy") for row in (one.base, one.rows[0]))
                 notes.append(f"The map in its mirror images binds by {there:.4g} in place of {here:.4g} meV/Å²: neither way to "
                              "make it periodic is right, and twice the error of the part edge is their difference.")

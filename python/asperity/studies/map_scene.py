@@ -12,7 +12,7 @@ import math
 import os
 import re
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,6 +40,13 @@ UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm")
 ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
              "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
+
+
+def _named(text: str) -> str:
+    """Returns a text with the names of arguments for the keys of the scene, which nobody has seen."""
+    for key, name in ARGUMENTS.items():
+        text = text.replace(key, name)
+    return text
 
 
 def _with_unit(name: str, value: object) -> str:
@@ -124,7 +131,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
              line_noise: str | None = None) -> MapScene:
     """Writes the scene of a map and the map beside it. Raises SceneError for what no scene can be made of, before anything is
     written."""
-    sections = {"block": {"young": _with_unit("E", young), "poisson": poisson},
+    sections: dict[str, dict[str, Any]] = {"block": {"young": _with_unit("E", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
                 "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
                               "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
@@ -134,9 +141,8 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
-        said = re.sub(r"^.*?: (?=[a-z]+\.\w+ = )", "", str(error), flags=re.M)  # the place in a scene that nobody has seen
-        raise SceneError(re.sub(r"^[a-z]+\.\w+(?= = )", lambda key: ARGUMENTS.get(key[0], key[0]), said, flags=re.M)) from None
-    if not keys.number("interface.adhesion") > 0.0:
+        raise SceneError.of([{**one, "where": "", "what": _named(one["what"])} for one in error.listed]) from None
+    if not keys.needed("interface.adhesion") > 0.0:
         raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
     points = len(heights)
@@ -144,8 +150,8 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
     n = _smooth_below(max(most, height_map.FEWEST))
     spacing = edge / n
-    stiff = keys.number("block.young") * GIGAPASCAL / (1 - keys.number("block.poisson") ** 2)  # eV/Å³
-    adhesion, asked = keys.number("interface.adhesion") / 1e3, keys.number("interface.range")
+    stiff = keys.needed("block.young") * GIGAPASCAL / (1 - keys.needed("block.poisson") ** 2)  # eV/Å³
+    adhesion, asked = keys.needed("interface.adhesion") / 1e3, keys.needed("interface.range")
 
     def resolved(spacing: float) -> float:
         """Returns the range, Å, whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""

@@ -28,13 +28,12 @@ from ..running import program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of
 from ..terminal import Progress, millijoules, table
-from ..units import MILLIJOULE
+from ..units import MEGAPASCAL, MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
 NEAR = 0.01  # of the deepest energy found: a random start that ends within it counts as ending there
 PRESS = 0.125  # of the contact modulus: how far full contact is pressed
 SAVE_EVERY = 5.0  # s
-MEGAPASCAL = 6.241509074e-6  # eV/Å³
 NUMBERS = ("binding_energy", "elastic_energy", "mean_height", "contact_fraction", "repulsive_fraction")
 UNITS = dict(zip((*NUMBERS, "barrier", "approach_less_run", "step", "innermost", "pressed_to", "start_energies"),
                  "meV/Å^2 meV/Å^2 Å 1 1 MPa meV/Å^2 Å Å MPa meV/Å^2".split()))
@@ -117,9 +116,8 @@ class Search:
         except PhysicsError as error:
             if before["force"] < 0.0:  # a state may lie before the next point
                 self.free(self._way())
-            what, *why = str(error).splitlines()
-            return self._end("the next point inwards failed: " + what + "".join(
-                f" ({line.strip().removeprefix('why: ')})" for line in why if line.strip().startswith("why: ")))
+            problem = error.listed[0]
+            return self._end("the next point inwards failed: " + problem["what"] + f" ({problem['why']})" * bool(problem["why"]))
         if before["force"] < 0.0 <= self.now["force"]:
             self.free(self._way())
         apart, push = self.case["area"] * (1.0 - self.now["contact"]), self.now["force"]
@@ -243,8 +241,8 @@ class Search:
     def save(self, out: store.Outputs) -> None:
         states = {**self.kept, "here": self.statics.copy()}
         with out.replacing(UNFINISHED) as beside, open(beside, "wb") as file:
-            numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]),
-                        **{name: state.u for name, state in states.items()})
+            arrays: dict[str, Any] = {name: state.u for name, state in states.items()}
+            numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]), **arrays)
 
     def resume(self, place: Path) -> None:
         try:
@@ -298,6 +296,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     """
     program.refuse_ranks()
     place = None if out is None else store.chosen(os.fspath(out), "")
+    written: store.Outputs | None = None
     with contextlib.ExitStack() as stack:
         if place:
             stack.enter_context(store.in_use(place))
@@ -308,18 +307,18 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         search, saved = Search(Statics(scene, relaxed), starts), time.monotonic()
         if place:
             inputs = () if isinstance(scene, Mapping) else inputs_of(str(scene), tomllib.loads(search.case["scene"]))
-            out = stack.enter_context(store.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
+            written = stack.enter_context(store.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
         if place and (place / UNFINISHED).exists():
             search.resume(place / UNFINISHED)
         while search.advance():
             if report:
                 report(f"{search.log['stage']}, {search.now['z']:.2f} Å, states: {len(search.log['states'])}")
-            if place and time.monotonic() - saved >= SAVE_EVERY:
-                search.save(out)
+            if written and time.monotonic() - saved >= SAVE_EVERY:
+                search.save(written)
                 saved = time.monotonic()
         found = search.result()
-        if place:
-            out.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
+        if place and written:
+            written.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
     return found
 

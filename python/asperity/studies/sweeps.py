@@ -10,7 +10,6 @@ a sweep that was stopped, and adds points to those that are there. A Sweep is wh
 from __future__ import annotations
 
 import contextlib
-import functools
 import math
 import os
 import time
@@ -129,7 +128,7 @@ class Sweep:
                         line[name] = {"mean": mean, **({"deviation": deviation} if count > 1 else {}), "count": count}
         if self.notes:
             found["notes"] = self.notes
-        return {**found, "run": {**self.run, **_build()}}
+        return {**found, "run": {**self.run, **{name: program.info()[name] for name in ("version", "git", "compiler", "flags")}}}
 
     def write(self) -> None:
         """Writes the tables into its directory."""
@@ -181,14 +180,6 @@ class Sweep:
         done = sum(p.get("status") == DONE for p in self.points)
         return f"<Sweep {self.name}: {len(self.points)} points over {', '.join(self.axes)}" + (
             f", {done} done>" if self.simulated else ">")
-
-
-@functools.lru_cache(maxsize=None)
-def _build() -> dict[str, str]:
-    """Returns version, git, compiler and flags of the program."""
-    lines = (line.split(None, 1) for line in program.call(["info"]).splitlines()[1:])
-    found = {line[0]: line[1].strip() for line in lines if len(line) == 2}
-    return {name: found[name] for name in ("version", "git", "compiler", "flags") if name in found}
 
 
 def load_sweep(directory: str | os.PathLike) -> Sweep:

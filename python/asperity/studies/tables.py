@@ -25,7 +25,7 @@ AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites
 """What numbers of a result are over, as program.quantity() says it."""
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def over_flat(path: str) -> bool:
     """Returns True if a number of a result is an energy with a column of its ratio to the flat reference."""
     known = program.quantity(path)
@@ -33,7 +33,7 @@ def over_flat(path: str) -> bool:
         "uncertainty" not in path
 
 
-@functools.lru_cache(maxsize=None)
+@functools.cache
 def of_area(column: str) -> bool:
     """Returns True if a column is over the nominal area, which is meaningless for a sphere, or the mean of all sites."""
     path = column.removesuffix("_ratio")
@@ -82,7 +82,7 @@ class Average(NamedTuple):
 
     mean: np.ndarray
     deviation: np.ndarray
-    count: np.ndarray
+    points: np.ndarray
 
 
 class Columns(UserDict):
@@ -126,9 +126,9 @@ class Table(Columns):
         self.groups = list(groups.values())
         columns: dict[str, Any] = {}
         for key in axes:
-            values = [p["set"].get(key) for p in points]
-            numbers = np.array([finite(v, np.nan) for v in values])
-            columns[key] = numbers if np.isfinite(numbers).all() else [shown(v) for v in values]
+            column = [p["set"].get(key) for p in points]
+            numbers = np.array([finite(v, np.nan) for v in column])
+            columns[key] = numbers if np.isfinite(numbers).all() else [shown(v) for v in column]
         results = [p.get("result", {}) for p in points] if simulated else []
         theory = [_theory_numbers(point) for point in points]
         for rows in (results, theory):  # in the order of result.json
@@ -146,10 +146,10 @@ class Table(Columns):
         """Returns a column, NaN for points that are not done; columns of the theory are whole."""
         return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
 
-    def values(self, name: str) -> np.ndarray:
+    def column(self, name: str) -> np.ndarray:
         """Returns a column, NaN for meaningless or missing values; "-name": with the other sign."""
         if name.startswith("-"):
-            return -self.values(name[1:])
+            return -self.column(name[1:])
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
         sphere = self.get("contact_radius.relaxed")
         if sphere is None or not of_area(name):
@@ -213,13 +213,14 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     axes = [key for key in table.axes if not is_seed(key)]
     cells = [(head, table.average(column), digits)
              for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
-             if np.isfinite(column := table.values(name)).any()]
+             if np.isfinite(column := table.column(name)).any()]
     rows = []
     for group, (values, places) in enumerate(table.groups):
         row = [shown(values[key]) for key in axes]
         for head, (mean, deviation, count), digits in cells:
+            seen = deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group]))
             row.append((number(float(mean[group]), digits) if count[group] else "-") +
-                       (f" ± {number(float(deviation[group]), digits)}" if deviation[group] > min(0.5 * 10.0**-digits, 5e-4 * abs(mean[group])) else "") +
+                       (f" ± {number(float(deviation[group]), digits)}" if seen else "") +
                        (f" ({millijoules(float(mean[group]))})" if head.endswith(BOTH) and count[group] else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
     meaning = ("binding energy of the state, and works of approach (in) and pull-off (out), as energies that separate the "

@@ -11,7 +11,7 @@ from __future__ import annotations
 import functools
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -143,7 +143,7 @@ class Runs:
         self.made: dict[str, Job] = {}
         self.known: dict[tuple[str, ...], Job] = {}
 
-    def jobs(self, rows: list[Variation]) -> list[Job]:
+    def jobs(self, rows: Sequence[Variation]) -> list[Job]:
         """Returns the run of each row, checked. Raises SceneError with all mistakes."""
         new = {(row.scene, *row.setting): row for row in rows if (row.scene, *row.setting) not in self.known}
         for file in dict.fromkeys(row.scene for row in new.values()):
@@ -159,7 +159,7 @@ class Runs:
                                                        Job(name, self.directory / name, place, given, point))
         return [self.known[(row.scene, *row.setting)] for row in rows]
 
-    def run(self, rows: list[Variation]) -> bool:
+    def run(self, rows: Sequence[Variation]) -> bool:
         """Runs the rows and hands them their outcomes. False: stopped before the end."""
         of_row = self.jobs(rows)
         jobs = list({id(job): job for job in of_row}.values())

@@ -24,12 +24,13 @@ from scipy.linalg.lapack import dgtsv
 from scipy.optimize import brentq
 from scipy.special import erf, j0, j1
 
+from ..units import GIGAPASCAL
+
 TOLERANCE = 1e-4  # on γ_eff/Δγ and contact: grids are halved until the last two extrapolations differ by less
 USEFUL = 1e-2  # if they differ by more in the end, there is no answer
 MOST_WORK = 1.3e8  # of a grid: shells, points, observables; two seconds
 STEPS, SPACING = 14, 0.125  # of the coarsest grid: in ln q; at the minimum, over its distance to the inflection
 STAGE = 1 - 1 / math.sqrt(2)  # of a step: each of its two stages
-GPA = 1 / 160.21766208
 TOUCHING, SIDEWAYS, TILT, STIFFENING, RINGS_FROM = range(5)
 """Columns of the observables: contact fraction, φ_tt, what tilt has cost and lateral forces have stiffened of φ so far
 (for the expected errors), then V_uu of each ring and V_Ru of each ring."""
@@ -142,7 +143,11 @@ class Flow:
             self.observed[:, SIDEWAYS] = (first + 0.5 * second * R**2) @ density
             self.observed[:, RINGS_FROM:] = np.hstack([density * (first + second * far**2), density * second * R * far])
         self.wall_bend = self._bend(self.phi)[0]
-        self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else ([], [0.0], [])
+        none: np.ndarray = np.empty(0)
+        self.q: np.ndarray
+        self.variance: np.ndarray
+        self.inside: np.ndarray
+        self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else (none, np.zeros(1), none)
 
     def _grid(self, spacing: float, last: float) -> np.ndarray:
         """Returns a grid that is even up to twice the distance from the minimum to the inflection beyond it, then wider in
@@ -270,11 +275,11 @@ def _state_of(flow: Flow, pressure: float) -> np.ndarray:
     sides = slice(steep - 1, steep + 2)
     tension = _parabola(middles[sides], slopes[sides])[1] if 0 < steep < len(u) - 2 else 0.0
     if -pressure > tension:
-        raise NoSolution(f"{-pressure / GPA:.4g} GPa exceeds the largest tension, {tension / GPA:.4g} GPa; pull less")
+        raise NoSolution(f"{-pressure / GIGAPASCAL:.4g} GPa exceeds the largest tension, {tension / GIGAPASCAL:.4g} GPa; pull less")
     energy = phi + pressure * u
     at = int(np.argmin(energy[:least + 1])) if pressure > 0 else least + int(np.argmin(energy[least:steep + 2]))
     if at == 0:
-        raise NoSolution(f"{pressure / GPA:.4g} GPa press the surfaces together to less than {u[0]:.4g} Å; press less")
+        raise NoSolution(f"{pressure / GIGAPASCAL:.4g} GPa press the surfaces together to less than {u[0]:.4g} Å; press less")
     at = min(max(at, 1), len(u) - 2)
     near = slice(at - 1, at + 2)
     place = _parabola(u[near], energy[near])[0]

@@ -18,6 +18,7 @@ import numpy as np
 from ..errors import Error
 from ..results.result import Result, Values
 from ..running import program, scene
+from ..units import GIGAPASCAL
 
 COMPARED_SLOPE = 0.6
 """The steepest roughness at which the renormalised theory was held against simulations."""
@@ -44,7 +45,7 @@ def _renormalised(rough: dict[str, Any], quick: bool) -> dict[str, Any]:
     numbers = {"gamma_eff": depth * found.ratio, "gamma_eff_ratio": found.ratio, "contact_fraction": found.contact}
     if found.ratio > 1e-9 or rough["pressure"] > 0:  # below, the potential is rounding, and its minimum anywhere
         numbers["separation"] = found.separation
-    numbers |= {"tension": found.tension / theory.GPA, "gamma_eff_error": depth * found.ratio_error,
+    numbers |= {"tension": found.tension / GIGAPASCAL, "gamma_eff_error": depth * found.ratio_error,
                 "contact_fraction_error": found.contact_error}
     if quick:
         return numbers
@@ -66,15 +67,15 @@ def _spheres(point: Values) -> tuple[Any, float, Any, float]:
     if nothing binds. In eV and Å."""
     from .sphere import Sphere
 
-    keys, gpa = point.part("scene"), 1 / 160.21766208
-    modulus = keys.number("block.young", 0.0) * gpa / (1 - keys.number("block.poisson", 0.0) ** 2)
+    keys = point.part("scene")
+    modulus = keys.number("block.young", 0.0) * GIGAPASCAL / (1 - keys.number("block.poisson", 0.0) ** 2)
     edge = keys.number("surface.sites", 0.0) * keys.number("surface.spacing", 0.0)
     smooth = Sphere(keys.number("surface.radius", 0.0), modulus, point.number("delta_gamma", 0.0) / 1e3, edge,
                     point.number("flat.separation", 0.0))
     law = point.part("theory.renormalised")
-    tension, gamma = law.number("tension", 0.0) * gpa, law.number("gamma_eff", 0.0) / 1e3
+    tension, gamma = law.number("tension", 0.0) * GIGAPASCAL, law.number("gamma_eff", 0.0) / 1e3
     rough = smooth._replace(work=gamma, separation=law.number("separation", smooth.separation))
-    return smooth, point.number("flat.tension", 0.0) * gpa, rough if gamma > 0 and tension > 0 else None, tension
+    return smooth, point.number("flat.tension", 0.0) * GIGAPASCAL, rough if gamma > 0 and tension > 0 else None, tension
 
 
 def _sphere(point: Values) -> dict[str, Any]:

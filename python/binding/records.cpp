@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "binding.hpp"
+
+#include "engine/units.hpp"
+
+namespace asperity::binding {
+
+namespace {
+
+/// Returns one of the maps of a state, copied.
+template <class T>
+py::array copied(const InterfaceMaps& maps, const std::vector<T>& values) {
+    return py::array_t<T>({maps.ny, maps.nx}, values.data());
+}
+
+} // namespace
+
+void bind_records(py::module_& m) {
+    py::class_<StepRecord>(m, "Energies", "Energies in eV, since the start of the path.")
+        .def_readonly("elastic", &StepRecord::elastic_energy, "elastic energy of the block, eV")
+        .def_readonly("interface", &StepRecord::interface_energy,
+                      "energy of the interface, eV; negative if it binds")
+        .def_readonly("kinetic", &StepRecord::kinetic_energy, "kinetic energy of the block, eV")
+        .def_readonly(
+            "work", &StepRecord::work,
+            "work done on the solids since they were at rest apart, eV: by the top plane, "
+            "the damping medium, an external field, and values written to u and v")
+        .def_readonly("damped", &StepRecord::damped,
+                      "energy lost to the damping medium, less the heat of the noise, eV")
+        .def_readonly("balance_error", &StepRecord::residual,
+                      "work - energies - damped, over the largest energy or work so far")
+        .def("__repr__", shown);
+
+    py::class_<BothWays>(
+        m, "BothWays",
+        "Numbers of the approach and of the pull-off, meV/Å²; None until the segment has ended.")
+        .def_readonly("approach", &BothWays::approach, "number of the approach, meV/Å²")
+        .def_readonly("pull_off", &BothWays::pull_off, "number of the pull-off, meV/Å²")
+        .def("__repr__", shown);
+
+    py::class_<InterfaceMaps>(m, "SiteMaps", "Maps of the sites, [y, x].")
+        .def_property_readonly(
+            "gap", [](const InterfaceMaps& of) { return copied(of, of.gap); },
+            "height above the substrate below, Å")
+        .def_property_readonly(
+            "contact",
+            [](const InterfaceMaps& of) { return copied(of, of.contact).attr("astype")("bool"); },
+            "True if the nearest atom is in contact")
+        .def_property_readonly(
+            "pressure", [](const InterfaceMaps& of) { return copied(of, of.pressure); },
+            "normal force on a site over its area, GPa; positive pushes apart")
+        .def("__repr__", [](const InterfaceMaps& of) {
+            return py::str("<SiteMaps: gap, contact, pressure of {} x {} sites>")
+                .format(of.ny, of.nx);
+        });
+
+    py::class_<RestState>(
+        m, "RestState",
+        "State of force balance, returned by Simulation.relax() and Statics.free().")
+        .def_readonly("binding_energy", &RestState::binding_energy,
+                      "minimum work needed to separate the solids from this state, meV/Å²")
+        .def_readonly("elastic_energy", &RestState::elastic, "elastic energy, meV/Å²")
+        .def_readonly("contact_fraction", &RestState::contact_fraction,
+                      "fraction of the sites in contact")
+        .def_readonly("repulsive_fraction", &RestState::repulsive_fraction,
+                      "fraction of the sites whose net normal force is repulsive")
+        .def_readonly("mean_height", &RestState::mean_height,
+                      "mean height of the lowest layer above the substrate's zero, Å")
+        .def_readonly("residual", &RestState::residual, "largest force left on a site, eV/Å")
+        .def_readonly("iterations", &RestState::iterations, "iterations of the relaxation")
+        .def_readonly("maps", &RestState::maps, "SiteMaps of the state: gap, contact, pressure")
+        .def("__repr__", shown);
+
+    using Point = LedPath::Point;
+    py::class_<Point>(m, "Point",
+                      "Point of a quasi-static path: force balance at the held quantity.")
+        .def_readonly(
+            "top", &Point::top,
+            "displacement of the top plane since the start, Å; 0 if the mean height is held")
+        .def_readonly("mean_height", &Point::mean_height,
+                      "mean height of the lowest layer above the substrate's zero, Å")
+        .def_readonly(
+            "force", &Point::force,
+            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+        .def_property_readonly("energy", &Point::energy,
+                               "elastic energy and that of the interface, eV")
+        .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
+        .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
+        .def_readonly("work", &Point::work,
+                      "work of the holder of the block since the path began, eV")
+        .def_readonly("dissipated", &Point::damped,
+                      "energy dissipated at instabilities, since the path began, eV")
+        .def_readonly("dissipated_in_block", &Point::relaxed,
+                      "energy dissipated by relaxing in the block, beside dissipated, eV")
+        .def_readonly("branch_energy", &Point::branch_energy,
+                      "part of elastic_energy in the branches of a block that relaxes, eV")
+        .def_property_readonly(
+            "time", [](const Point& p) { return p.time / units::picosecond; },
+            "time of the path, for a block that relaxes, ps")
+        .def_readonly("instabilities", &Point::instabilities,
+                      "number of points of the path with an instability")
+        .def_readonly("contact", &Point::contact_fraction,
+                      "fraction of the sites whose nearest atom is in contact")
+        .def_readonly("repulsive_fraction", &Point::repulsive_fraction,
+                      "fraction of the sites whose net normal force is repulsive")
+        .def_readonly("number", &Point::step, "number of points since the path began")
+        .def("__repr__", shown);
+}
+
+} // namespace asperity::binding
