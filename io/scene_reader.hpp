@@ -151,7 +151,7 @@ public:
         std::string section{};
         /// Returns true if writing the key back would change the meaning; empty: always written.
         std::function<bool()> omitted{};
-        /// What the key needs; the first that is not met counts.
+        /// States of other keys that the key needs; the first that is not met counts.
         std::vector<Need> needs{};
 
         std::string path() const { return section + "." + name; }

@@ -23,7 +23,7 @@ struct DriveOptions {
     /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
     /// a warm block, whose force fluctuates.
     double average_over = 0.0;
-    Control control = Control::top; ///< of a quasi-static path
+    Control control = Control::top; ///< quantity that a quasi-static path moves
     /// Largest displacement from point to point of a quasi-static path, Å
     double displacement_step = 0.25;
     /// Number of steps or points after which the run stops; empty: no limit

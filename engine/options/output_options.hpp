@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-/// What a run writes, and when.
+/// Contents of the output of a run, and their times.
 struct OutputOptions {
     std::optional<long long> trajectory; ///< steps between frames; empty: none
     bool velocities = false;             ///< velocities in the frames too
