@@ -3,9 +3,8 @@
 #include "decomposition/aligned_array.hpp"
 
 #include <algorithm>
-#include <mutex>
+#include <iterator>
 #include <new>
-#include <vector>
 
 namespace asperity {
 
@@ -16,89 +15,66 @@ constexpr std::size_t smallest_kept = 1 << 16, largest_kept = 128 << 20;
 
 bool may_be_kept(std::size_t bytes) { return bytes >= smallest_kept && bytes <= largest_kept; }
 
-struct Kept {
-    void* array;
-    std::size_t bytes;
-};
+void free_aligned(void* array) { ::operator delete(array, cache_line); }
 
-/// The arrays in use and the kept arrays together never exceed the largest use since the last
-/// clear().
-class Store {
-public:
-    Store() { kept_.reserve(256); }
-    /// Returns a kept array of this size, nullptr if there is none.
-    void* take(std::size_t bytes) {
+} // namespace
+
+void* new_aligned(std::size_t bytes) { return ::operator new(bytes, cache_line); }
+
+void FreeAligned::operator()(void* array) const {
+    if (home)
+        home->give_back(array, bytes);
+    else
+        free_aligned(array);
+}
+
+void* Workspace::take(std::size_t bytes) {
+    if (may_be_kept(bytes)) {
         const std::lock_guard lock(mutex_);
         in_use_ += bytes;
         most_ = std::max(most_, in_use_);
         const auto same = std::find_if(kept_.rbegin(), kept_.rend(),
-                                       [&](const Kept& k) { return k.bytes == bytes; });
-        if (same == kept_.rend()) {
-            shrink_to(most_ - in_use_);
-            return nullptr;
+                                       [&](const Array& a) { return a.bytes == bytes; });
+        if (same != kept_.rend()) {
+            void* const array = same->data;
+            kept_.erase(std::next(same).base());
+            size_ -= bytes;
+            return array;
         }
-        void* const array = same->array;
-        kept_.erase(std::next(same).base());
-        size_ -= bytes;
-        return array;
-    }
-    void give_back(void* array, std::size_t bytes) {
-        const std::lock_guard lock(mutex_);
-        in_use_ -= bytes;
-        if (kept_.size() == kept_.capacity()) shrink_to(size_ - kept_.front().bytes);
-        kept_.push_back({array, bytes}); // within the capacity: it does not throw
-        size_ += bytes;
         shrink_to(most_ - in_use_);
     }
-    void clear() {
-        const std::lock_guard lock(mutex_);
-        shrink_to(0);
-        most_ = in_use_;
-    }
-    std::size_t size() {
-        const std::lock_guard lock(mutex_);
-        return size_;
-    }
-
-private:
-    /// Frees arrays until this size is left; those unused for the longest time go first.
-    void shrink_to(std::size_t size) {
-        auto first = kept_.begin();
-        for (; size_ > size; ++first) {
-            ::operator delete(first->array, cache_line);
-            size_ -= first->bytes;
-        }
-        kept_.erase(kept_.begin(), first);
-    }
-
-    std::mutex mutex_;
-    std::vector<Kept> kept_;
-    std::size_t size_ = 0, in_use_ = 0, most_ = 0; ///< bytes
-};
-
-/// Returns the store, which is never destroyed: arrays may be freed after main().
-Store& store() {
-    static Store& only = *new Store;
-    return only;
+    return new_aligned(bytes);
 }
 
-} // namespace
-
-void* new_aligned(std::size_t bytes) {
-    if (may_be_kept(bytes))
-        if (void* const kept = store().take(bytes)) return kept;
-    return ::operator new(bytes, cache_line);
+void Workspace::give_back(void* array, std::size_t bytes) {
+    if (!may_be_kept(bytes)) return free_aligned(array);
+    const std::lock_guard lock(mutex_);
+    in_use_ -= bytes;
+    if (kept_.size() == kept_.capacity()) shrink_to(size_ - kept_.front().bytes);
+    kept_.push_back({array, bytes}); // within the capacity: it does not throw
+    size_ += bytes;
+    shrink_to(most_ - in_use_);
 }
 
-void free_aligned(void* array, std::size_t bytes) {
-    if (may_be_kept(bytes))
-        store().give_back(array, bytes);
-    else
-        ::operator delete(array, cache_line);
+void Workspace::free_kept() {
+    const std::lock_guard lock(mutex_);
+    shrink_to(0);
+    most_ = in_use_;
 }
 
-void free_kept_arrays() { store().clear(); }
+std::size_t Workspace::kept() const {
+    const std::lock_guard lock(mutex_);
+    return size_;
+}
 
-std::size_t kept_arrays() { return store().size(); }
+/// Frees arrays until this size is left; those unused for the longest time go first.
+void Workspace::shrink_to(std::size_t size) {
+    auto first = kept_.begin();
+    for (; size_ > size; ++first) {
+        free_aligned(first->data);
+        size_ -= first->bytes;
+    }
+    kept_.erase(kept_.begin(), first);
+}
 
 } // namespace asperity

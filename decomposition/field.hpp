@@ -39,8 +39,8 @@ public:
     Field() = default;
 
     /// Makes a field of zeros. halo: width of the frame of nodes around the tile, at least
-    /// halo_width.
-    Field(const Tile& tile, int planes, int halo = halo_width)
+    /// halo_width. home: workspace that its memory comes from; null: none.
+    Field(const Tile& tile, int planes, int halo = halo_width, Workspace* home = nullptr)
         : size_(size(tile, planes, halo)), halo_(halo) {
         const std::ptrdiff_t left = round_up(halo);
         view_.row = row_length(tile, halo);
@@ -48,7 +48,7 @@ public:
         view_.nx = tile.nx;
         view_.ny = tile.ny;
         view_.nz = planes;
-        data_ = aligned_array<T>(size_);
+        data_ = aligned_array<T>(size_, home);
         prefer_large_pages(data_.get(), size_ * sizeof(T));
         view_.origin = data_.get() + halo * view_.row + left;
         T* const data = data_.get();
@@ -105,8 +105,8 @@ struct VectorField {
     Field<T> x, y, z;
 
     VectorField() = default;
-    VectorField(const Tile& tile, int planes, int halo = halo_width)
-        : x(tile, planes, halo), y(tile, planes, halo), z(tile, planes, halo) {}
+    VectorField(const Tile& tile, int planes, int halo = halo_width, Workspace* home = nullptr)
+        : x(tile, planes, halo, home), y(tile, planes, halo, home), z(tile, planes, halo, home) {}
 
     VectorVolume<T> view() { return {x.view(), y.view(), z.view()}; }
     VectorVolume<const T> view() const { return {x.view(), y.view(), z.view()}; }

@@ -38,10 +38,10 @@ namespace asperity {
 template <class T>
 using SiteField = std::vector<Field<T>>;
 template <class T>
-SiteField<T> site_field(const Slab& slab, int components) {
+SiteField<T> site_field(const Slab& slab, int components, Workspace* home = nullptr) {
     SiteField<T> field;
     for (int c = 0; c < components; ++c)
-        field.emplace_back(slab.tile(), 1, 0);
+        field.emplace_back(slab.tile(), 1, 0, home);
     return field;
 }
 

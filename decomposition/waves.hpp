@@ -75,9 +75,9 @@ struct Slab {
 template <class T>
 class Waves {
 public:
-    Waves(const Slab& slab, int components)
+    Waves(const Slab& slab, int components, Workspace* home = nullptr)
         : slab_(slab), components_(components),
-          data_(aligned_array<T>(static_cast<std::size_t>(blocks()) * length())) {
+          data_(aligned_array<T>(static_cast<std::size_t>(blocks()) * length(), home)) {
         clear();
     }
     void clear() {

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
         swaps.push_back({{"bytes", bytes}, {"seconds", swap}});
         pings.push_back({{"bytes", bytes}, {"seconds", 0.5 * ping}});
     }
-    // The nine exact sums of a step, in one reduction (Simulation::update_energy_balance).
+    // The nine exact sums of a step, in one reduction (Simulation::enter_in_ledger).
     std::vector<double> bins(9 * ExactSum::bins, 0.0);
     const double sum = least(ranks, [&] { ranks.sum(bins); });
     const nlohmann::json result = {{"ping", pings}, {"swap", swaps}, {"sum", sum}};

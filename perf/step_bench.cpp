@@ -54,20 +54,22 @@ nlohmann::json measure(const Communicator& ranks, bool contact, double seconds,
     const ProcessGrid grid(ranks.size(), ranks.rank(), scene.surface.sites,
                            static_cast<int>(setup.levels.size()));
     Simulation simulation(setup.simulation, surface, ranks, grid);
-    simulation.start(contact ? setup.flat.separation : simulation.interface().start_height() + 1.0);
+    const TopMotion down{.z = -setup.simulation.drive.velocity};
+    simulation.start(contact ? setup.flat.separation : simulation.interface().start_height() + 1.0,
+                     down.z);
 
     // Every rank takes the slowest rank's time, so all agree on what is the fastest.
     const auto stretch = [&](int steps) {
         ranks.barrier();
         const auto start = Clock::now();
         for (int n = 0; n < steps; ++n)
-            simulation.step(false);
+            simulation.step(down, false);
         const std::chrono::duration<double> took = Clock::now() - start;
         return ranks.max(took.count()) / steps;
     };
     stretch(2);
     const double about = stretch(3);
-    const StepRecord seen = simulation.step(true); // the sixth, whatever the clock says
+    const StepRecord seen = simulation.step(down, true); // the sixth, whatever the clock says
     const int steps = std::clamp(static_cast<int>(0.02 / about), 1, 200);
     const int stretches = std::clamp(static_cast<int>(seconds / (about * steps)), 3, 5000);
     double best = 1e300;

@@ -55,12 +55,11 @@ std::size_t Drive::segment() const {
     return std::min(at_, options_.path.empty() ? 0 : options_.path.size() - 1);
 }
 
-double Drive::velocity(double t) const {
-    return by_hand_ ? *by_hand_ : normal_.at(t - begun_, options_.ramp);
-}
-
-double Drive::slide_velocity(int axis, double t) const {
-    return by_hand_ ? 0.0 : slide_[static_cast<std::size_t>(axis)].at(t - begun_, options_.ramp);
+TopMotion Drive::motion(double t) const {
+    const auto at = [&](const VelocityProfile& profile) {
+        return profile.at(t - begun_, options_.ramp);
+    };
+    return {at(normal_), {at(slide_[0]), at(slide_[1])}};
 }
 
 void AveragedForce::look(double force, double time, double over) {
@@ -78,7 +77,7 @@ bool Drive::observe(const Observation& now) {
         average_.look(now.force, now.time, options_.average_over);
         step.force = average_.mean();
     }
-    if (by_hand_ || at_ == options_.path.size() || !ended(step)) return false;
+    if (at_ == options_.path.size() || !ended(step)) return false;
     ++at_;
     if (at_ < options_.path.size()) begin(step);
     return true;

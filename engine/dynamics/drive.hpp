@@ -15,6 +15,7 @@
 // else in the frame of the block and of the damping medium that moves with it.
 #pragma once
 
+#include "engine/dynamics/top.hpp"
 #include "engine/options/drive_options.hpp"
 #include "engine/scene/segment_rule.hpp"
 
@@ -76,6 +77,7 @@ struct AveragedForce {
     }
 };
 
+/// The machine, which is rigid: it moves the top plane along the segments of a path.
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
@@ -85,11 +87,9 @@ public:
     /// Returns the number of the current segment, from 0; the last one when the path is done.
     std::size_t segment() const;
     const Segment& now() const { return options_.path[segment()]; }
-    bool done() const { return at_ == options_.path.size() && !by_hand_; }
-    /// Returns the velocity of the top plane along z at time t, Å/fs.
-    double velocity(double t) const;
-    /// Returns the velocity of the block over the substrate along an axis at time t, Å/fs.
-    double slide_velocity(int axis, double t) const;
+    bool done() const { return at_ == options_.path.size(); }
+    /// Returns the motion of the top plane at time t, fs.
+    TopMotion motion(double t) const;
 
     /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
     /// displacement of the top plane (Å), and the result of beyond_range().
@@ -106,12 +106,6 @@ public:
     /// true if it did. Throws io::PhysicsError if a segment demands a stronger pull than the
     /// attraction.
     bool observe(const Observation& step);
-
-    /// Moves the top plane at this velocity, Å/fs, by hand: nothing slides, and no segment ends.
-    /// Without a velocity the current segment goes on; a height, a hold or a slide ends at its
-    /// planned time, wherever the top plane is. Not part of checkpoints.
-    void set_velocity(std::optional<double> velocity) { by_hand_ = velocity; }
-    const std::optional<double>& by_hand() const { return by_hand_; }
 
     /// Passes the state of the machine to a visitor, for checkpoints.
     template <class Visitor>
@@ -139,7 +133,6 @@ private:
     AveragedForce average_;
     VelocityProfile normal_;
     std::array<VelocityProfile, 2> slide_;
-    std::optional<double> by_hand_;
 };
 
 } // namespace asperity

@@ -9,11 +9,12 @@
 
 namespace asperity {
 
-InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components, double difference)
-    : sites_(tile.sites), difference_(difference), force_(tile, 1, 0) {
+InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components, double difference,
+                                       Workspace* home)
+    : sites_(tile.sites), difference_(difference), force_(tile, 1, 0, home) {
     for (int e = 0; e < (components == 1 ? 1 : 6); ++e)
-        map_.emplace_back(tile, 1, 0);
-    if (components > 1) displaced_ = VectorField<double>(tile, 1, 0);
+        map_.emplace_back(tile, 1, 0, home);
+    if (components > 1) displaced_ = VectorField<double>(tile, 1, 0, home);
 }
 
 double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<const double>& u,

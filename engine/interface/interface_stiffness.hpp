@@ -22,7 +22,9 @@ namespace asperity {
 class InterfaceStiffness {
 public:
     /// Allocates the map. components: three, or one: the normal. difference: the displacement, Å.
-    InterfaceStiffness(const Tile& tile, int components, double difference);
+    /// home: workspace that its memory comes from; null: none.
+    InterfaceStiffness(const Tile& tile, int components, double difference,
+                       Workspace* home = nullptr);
 
     /// Measures the stiffness at these displacements, at which the force is given.
     void measure(const Interface& interface, const VectorPlane<const double>& u,

@@ -103,19 +103,22 @@ private:
 
 } // namespace
 
-std::vector<StateArray> state_of(Block& block) {
+std::vector<StateArray> state_of(const Block& block) {
     std::vector<StateArray> list;
     for (const Block::Level& level : block.levels()) {
-        const int n = level.shape.level, planes = level.shape.cells;
-        const Block::Fields fields = block.fields(level);
-        add_arrays(n, "u", fields.u, planes, list);
-        add_arrays(n, "v", fields.v, planes, list);
+        add_arrays(level.shape.level, "u", level.u, level.shape.cells, list);
+        add_arrays(level.shape.level, "v", level.v, level.shape.cells, list);
     }
     return list;
 }
 
-std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more) {
-    list.insert(list.end(), more.begin(), more.end());
+std::vector<RestoredArray> state_to_restore(Block& block) {
+    std::vector<RestoredArray> list;
+    for (const Block::Level& level : block.levels()) {
+        const Block::Fields fields = block.fields(level);
+        add_arrays(level.shape.level, "u", fields.u, level.shape.cells, list);
+        add_arrays(level.shape.level, "v", fields.v, level.shape.cells, list);
+    }
     return list;
 }
 
@@ -136,8 +139,7 @@ void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                                        {static_cast<std::uint64_t>(array.planes), sites, sites});
         });
         for (int z = 0; z < array.planes; ++z) {
-            const auto dense =
-                gather_plane(ranks, grid, array.level, std::as_const(*array.field).plane(z));
+            const auto dense = gather_plane(ranks, grid, array.level, array.field->plane(z));
             ranks.on_root([&] {
                 file->write_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
                                          {1, sites, sites}, std::span<const double>(dense));
@@ -202,7 +204,7 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
     });
     lists.broadcast(ranks);
     StateNumbers numbers = lists.by_name();
-    for (const StateArray& array : arrays(numbers)) {
+    for (const RestoredArray& array : arrays(numbers)) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
             std::vector<double> dense;
@@ -217,7 +219,7 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
     return numbers;
 }
 
-void Snapshot::take(Path& path) {
+void Snapshot::take(const Path& path) {
     fields_.take(path.arrays());
     CollectNumbers collect;
     path.collect(collect);
@@ -225,9 +227,9 @@ void Snapshot::take(Path& path) {
 }
 
 void Snapshot::restore(Path& path) const {
-    fields_.restore(path.arrays());
     RestoreNumbers restore(numbers_);
     path.restore(restore);
+    fields_.restore(path.arrays_to_restore()); // the numbers decide which ones
     path.restored();
 }
 

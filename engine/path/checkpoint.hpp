@@ -29,7 +29,7 @@ class Path;
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint);
-using ArraysOf = std::function<std::vector<StateArray>(const StateNumbers&)>;
+using ArraysOf = std::function<std::vector<RestoredArray>(const StateNumbers&)>;
 /// Reads the arrays and returns the numbers; the caller fills halos. arrays: returns the arrays to
 /// be read, which may depend on the numbers. Collective. Throws io::FileError if the file is
 /// damaged or cannot be read, io::SceneError if another scene wrote it.
@@ -40,15 +40,21 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
 StateNumbers read_checkpoint_numbers(const io::FilePlace& place);
 
 /// Returns the displacements and half-step velocities of each level.
-std::vector<StateArray> state_of(Block& block);
+std::vector<StateArray> state_of(const Block& block);
+/// Returns the same to be written to; then call exchange().
+std::vector<RestoredArray> state_to_restore(Block& block);
 /// Returns one list behind another.
-std::vector<StateArray> joined(std::vector<StateArray> list, const std::vector<StateArray>& more);
+template <class Array>
+std::vector<Array> joined(std::vector<Array> list, const std::vector<Array>& more) {
+    list.insert(list.end(), more.begin(), more.end());
+    return list;
+}
 
 /// The last good state, in memory, to be written when a guard stops the run.
 class Snapshot {
 public:
     /// Copies the state of the path.
-    void take(Path& path);
+    void take(const Path& path);
     bool empty() const { return fields_.empty(); }
     /// Puts the path back to the copied state.
     void restore(Path& path) const;

@@ -3,9 +3,7 @@
 #include "engine/path/guard.hpp"
 
 #include "decomposition/global_largest.hpp"
-#include "engine/path/path.hpp"
 #include "engine/units.hpp"
-#include "io/error.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
@@ -49,21 +47,15 @@ std::string fastest_site(const Simulation& simulation) {
                        fastest.value / units::metre_per_second);
 }
 
-void guard(const Path& path, const std::function<std::string()>& kept) {
-    const Case& c = path.scene_case();
-    const StepRecord now = path.now();
-    double lowest = path.surface().statistics.lowest - reach_of(c.simulation.interface);
+std::optional<std::string> violation(const StepRecord& now, const Case& c, const Surface& surface) {
+    double lowest = surface.statistics.lowest - reach_of(c.simulation.interface);
     // A wall gives way: the mean gap is no less than that of flat surfaces under the same force.
     if (const auto& wall = c.simulation.interface.wall) {
         const auto depth = [&](const auto& law) { return law.depth_under(now.force / c.sites()); };
         lowest -= 2.0 * std::visit(depth, *wall);
     }
-    const auto wrong =
-        violation(now, lowest, fmt::format("{} {}", c.effects.dynamic ? "step" : "point", now.step));
-    if (!wrong) return;
-    Path::Remedy remedy = path.remedy();
-    if (kept) remedy.fix += "; " + kept(); // may put the path back
-    throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
+    return violation(now, lowest,
+                     fmt::format("{} {}", c.effects.dynamic ? "step" : "point", now.step));
 }
 
 } // namespace asperity

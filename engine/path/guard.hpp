@@ -4,15 +4,13 @@
 // The guard: conditions under which no path goes on, dynamic or quasi-static.
 #pragma once
 
+#include "engine/case/case.hpp"
 #include "engine/dynamics/simulation.hpp"
 
-#include <functional>
 #include <optional>
 #include <string>
 
 namespace asperity {
-
-class Path;
 
 /// Largest relative error of the energy balance that counts as physics.
 inline constexpr double largest_energy_error = 0.02;
@@ -23,9 +21,8 @@ inline constexpr double largest_energy_error = 0.02;
 std::optional<std::string> violation(const StepRecord& now, double lowest_height,
                                      const std::string& place);
 
-/// Throws io::PhysicsError if path.now() has such an error. kept: describes the state to resume
-/// from. Collective.
-void guard(const Path& path, const std::function<std::string()>& kept = {});
+/// Returns the error of a step or point of a case with this surface, or nothing.
+std::optional<std::string> violation(const StepRecord& now, const Case& c, const Surface& surface);
 
 /// Returns "site (3, 7) moves at 1e+05 m/s" for the site of the lowest layer with the largest
 /// velocity, which may be infinite or not a number. Collective.

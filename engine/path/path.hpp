@@ -2,23 +2,27 @@
 // SPDX-License-Identifier: MIT
 //
 // The path of a scene (drive.path): its segments one after the other, as time steps (time_path.hpp)
-// or as points in force balance (static_path.hpp). A run (engine/run/run.cpp) or a script drives
-// it:
+// or as points in force balance (static_path.hpp). A run (engine/run/run.cpp), a script and a
+// rehearsal follow it in one way:
 //
-//     for (;;) {
-//         if (path.ended()) {
-//             ... path.find_state(), if the scene calls for it ...
-//             path.conclude();
-//         } else if (path.done()) {
-//             break;
-//         } else {
-//             path.advance(wish);
-//             ... path.now(), path.layer() ...
-//         }
+//     while (path.status() != Path::Status::done) {
+//         ... a checkpoint ...
+//         if (!path.advance(wish)) break;
+//         ... path.status(), path.now(), path.layer() ...
 //     }
 //
-// A dynamic segment is concluded after the step behind its last one, so that a guard has seen the
-// energy balance of its end; a quasi-static segment is concluded at once.
+// advance() has the rule of a path:
+//
+//     beginning, under_way      makes the next step or point of the segment
+//     at_end                    a dynamic path makes the step behind the last one of the segment,
+//     so
+//                               that a guard has seen the energy balance of its end
+//     behind_end                comes to a relaxation if the segment ends in a state of force
+//                               balance: an approach, or "relax"; otherwise concludes the segment
+//     relaxing                  finds the state
+//     at_rest                   concludes the segment: its works and losses are in results()
+//
+// A quasi-static path goes from at_end or already_at_end to what follows behind_end.
 //
 // All member functions are collective.
 #pragma once
@@ -54,8 +58,27 @@ public:
 
     // Course of the path.
 
-    /// Returns true if the last segment has been concluded.
-    virtual bool done() const = 0;
+    /// Place of a path in its course, which the last advance() has come to.
+    enum class Status {
+        beginning,      ///< a segment begins
+        under_way,      ///< the last step or point belongs to the segment, which goes on
+        at_end,         ///< the last step or point has ended the segment
+        already_at_end, ///< the segment has ended where it began, without a step or point
+        behind_end,     ///< the step behind the last one of the segment has been made
+        relaxing,       ///< the next advance() finds the state of force balance
+        at_rest,        ///< state() has been found
+        done            ///< all segments have been concluded
+    };
+    Status status() const { return status_; }
+    /// Returns true if the last advance() has made a step or point, which now() has.
+    bool has_stepped() const {
+        return status_ == Status::under_way || status_ == Status::at_end ||
+               status_ == Status::behind_end;
+    }
+    /// Returns the number of segments that have been concluded: the number of the one under way or
+    /// at its end.
+    std::size_t concluded() const { return concluded_; }
+
     /// Data that observers need of the next step; a point always has all of them.
     struct Wish {
         bool energies = false;   ///< energies and contacts in now(): an observed step
@@ -67,25 +90,12 @@ public:
             velocities |= more.velocities;
         }
     };
-    /// Outcome of advance(). nothing: the segment ends where it began; interrupted: the watch
-    /// stopped a relaxation, and the path is at its last point.
-    enum class Made { step, nothing, interrupted };
-    /// Makes the next step or point. Throws io::PhysicsError if there is no next point, or if a
-    /// segment demands a stronger pull than the attraction.
-    virtual Made advance(const Wish& wish) = 0;
-    /// Returns the segment that has ended and must be concluded before the next advance().
-    virtual std::optional<std::size_t> ended() const = 0;
-    /// Returns true if the last step or point has ended segment().
-    virtual bool at_end() const = 0;
-    /// Returns true if the next step concludes a segment: it is observed, and a run does not end
-    /// before it.
-    virtual bool about_to_conclude() const { return false; }
-    /// Finds the state of force balance under the load of the segment that has ended, with the top
-    /// plane free, and adds it to results(). Returns nothing if the watch stopped the relaxation.
-    virtual std::optional<LayerAtRest> find_state() = 0;
-    /// Adds works and losses of the segment that has ended to results(), and begins the next
-    /// segment.
-    virtual void conclude() = 0;
+    /// Goes on by one step, point, state or conclusion. Returns false if the watch has stopped a
+    /// relaxation: the same call goes on. Throws io::PhysicsError if there is no next point or
+    /// state, or if a segment demands a stronger pull than the attraction.
+    bool advance(const Wish& wish);
+    /// Returns the state of force balance that was found, with its layer; at_rest only.
+    const LayerAtRest& state() const { return *state_; }
     /// Called during relaxations with the iteration and the largest residual force, eV/Å. Returns
     /// true to stop the relaxation.
     using Watch = std::function<bool(long long iteration, double residual)>;
@@ -102,9 +112,6 @@ public:
         const Watching until_here(*this);
         return work();
     }
-    /// Returns true during a relaxation that can be checkpointed before it has converged.
-    virtual bool relaxes_freely() const { return false; }
-
     // State of the path.
 
     virtual const StepRecord& now() const = 0;
@@ -120,7 +127,6 @@ public:
     virtual VectorPlane<const double> velocities() const { return {}; }
     /// Returns the interface as it was at now().
     virtual const Interface& interface() const = 0;
-    virtual Interface& interface() = 0;
     /// Returns the height of the undisplaced lowest layer above the substrate's zero, Å.
     virtual double reference_height() const = 0;
     const Case& scene_case() const { return case_; }
@@ -136,23 +142,49 @@ public:
     virtual const Phases* phases() const { return nullptr; }
     /// Returns the memory of the block and the interface on this rank, bytes.
     virtual std::size_t bytes() const = 0;
+    /// Frees the memory that the path keeps for its next relaxation, before work that needs memory
+    /// of another kind.
+    virtual void free_workspace() const {}
     /// Likely reason of an error found by a guard at now(), and its remedy.
     struct Remedy {
         std::string why, fix;
     };
     virtual Remedy remedy() const = 0;
-    /// Describes the state to resume from.
-    using Kept = std::function<std::string()>;
 
-    // Checkpoints: numbers, and arrays of whole planes. The reader of a checkpoint restores the
-    // numbers, reads the arrays, and calls restored(); the path then goes on bitwise identically.
+    // Checkpoints: numbers, and arrays of whole planes, at any status. The reader of a checkpoint
+    // restores the numbers, reads the arrays, and calls restored(); the path then goes on bitwise
+    // identically, and begins a relaxation of a copy again.
 
-    virtual void collect(CollectNumbers& numbers) = 0;
+    virtual void collect(CollectNumbers& numbers) const = 0;
+    virtual std::vector<StateArray> arrays() const = 0;
     virtual void restore(RestoreNumbers& numbers) = 0;
-    virtual std::vector<StateArray> arrays() = 0;
+    virtual std::vector<RestoredArray> arrays_to_restore() = 0;
     virtual void restored() = 0;
 
 protected:
+    /// Makes the next step or point of the segment, or comes to its relaxation. Returns the status
+    /// then; nothing if the watch stopped a relaxation.
+    virtual std::optional<Status> make_next(const Wish& wish) = 0;
+    /// Makes the step behind the end of a segment. Returns false if a path has none.
+    virtual bool make_behind_end(const Wish&) { return false; }
+    /// Finds the state of force balance at the end of the segment. Returns nothing if the watch
+    /// stopped the relaxation.
+    virtual std::optional<LayerAtRest> find_state() = 0;
+    /// Adds works and losses of the segment to results().
+    virtual void conclude() = 0;
+
+    /// Passes the members to a visitor, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("status", status_);
+        v("concluded", concluded_);
+        v("ledger", ledger_);
+        v("results", results_);
+    }
+    /// Sets the status after a step that advance() has not made.
+    void come_to(Status status) { status_ = status; }
+    /// Returns the segment that is under way or at its end.
+    const Segment& segment_to_conclude() const { return case_.path()[concluded_]; }
     bool told(long long iteration, double residual) const {
         return watch_ && watch_(iteration, residual);
     }
@@ -163,24 +195,35 @@ protected:
     Ledger ledger_{case_, results_};
 
 private:
+    bool ends_in_state() const;
+
     Watch watch_;
+    Status status_ = Status::beginning;
+    std::size_t concluded_ = 0;
+    std::optional<LayerAtRest> state_;
 };
 
-/// An observer of a path during a run: the guard, the records, the maps, the line of progress. It
-/// does not change the path.
+/// An observer of a path during a run: the records, the maps, the line of progress. Observers only
+/// look; their order does not matter.
 class Observer {
 public:
     virtual ~Observer() = default;
     /// Returns the data that the observer needs of the next step.
     virtual Path::Wish wish(const Path&) const { return {}; }
-    /// Looks at the path after each step or point.
-    virtual void look(Path& path) = 0;
-    /// Looks at the path, after look(), if the step or point has ended a segment: path.at_end().
-    virtual void look_at_end(Path&) {}
-    /// Looks at a state of force balance that find_state() has found.
-    virtual void look_at_state(Path&, const LayerAtRest&) {}
+    /// Looks at the path after advance(): calls those of the following that its status calls for.
+    void look(const Path& path);
     /// Ends the observation with the run, whether or not the path has come to its end.
-    virtual void finish(Path&) {}
+    virtual void finish(const Path&) {}
+
+protected:
+    /// Looks at a step or point.
+    virtual void look_at_step(const Path&) {}
+    /// Looks at the end of a segment, after look_at_step() if a step or point has ended it.
+    virtual void look_at_end(const Path&) {}
+    /// Looks at path.state().
+    virtual void look_at_state(const Path&) {}
+    /// Looks at the beginning of a segment after another: path.concluded() is its number.
+    virtual void look_at_beginning(const Path&) {}
 };
 
 /// Copies the owned sites of a layer.

@@ -107,6 +107,12 @@ public:
         NumberVisitor::operator()(name, const_cast<T&>(value));
     }
 
+    /// Collects the members of an object, without a name before theirs.
+    template <class T>
+    void members_of(const T& object) {
+        const_cast<T&>(object).visit(*this); // writes to none of them
+    }
+
     /// Adds a number. Throws std::logic_error if the name is taken.
     void number(const std::string& name, double& value) { put(name, value); }
     /// Adds an integer. Throws std::logic_error if the name is taken.

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/time_path.hpp"
 
-#include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/units.hpp"
 
@@ -14,17 +13,49 @@
 namespace asperity {
 
 TimePath::TimePath(const Case& c, const Surface& surface, const Communicator& ranks)
-    : Path(c, surface), simulation_(c.simulation, surface, ranks, c.grid(ranks.rank())) {
+    : Path(c, surface), simulation_(c.simulation, surface, ranks, c.grid(ranks.rank())),
+      drive_(c.simulation.drive) {
     start_.height = simulation_.interface().start_height();
     if (!c.effects.temperature)
         start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
-    simulation_.start(start_.height);
+    drive_.begin_at(start_.height);
+    simulation_.start(start_.height, drive_.motion(0.0).z);
 }
 
-Path::Made TimePath::advance(const Wish& wish) {
+namespace {
+
+/// Returns the wish for a step that is observed in any case.
+Path::Wish observed(Path::Wish wish) {
+    wish.energies = true;
+    return wish;
+}
+
+} // namespace
+
+std::optional<Path::Status> TimePath::make_next(const Wish& wish) {
+    make_step(drive_.motion(simulation_.middle_of_step()), wish);
+    return tell_drive(now()) ? Status::at_end : Status::under_way;
+}
+
+bool TimePath::make_behind_end(const Wish& wish) {
+    make_step(drive_.motion(simulation_.middle_of_step()), observed(wish));
+    return true;
+}
+
+void TimePath::step(const TopMotion& motion, const Wish& wish) {
+    if (status() == Status::at_end) {
+        make_step(motion, observed(wish));
+        come_to(Status::behind_end);
+    } else {
+        make_step(motion, wish);
+        results_.record_force(case_.path()[segment_], now());
+    }
+}
+
+void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
     keep(wish);
-    segment_ = simulation_.drive().segment();
-    const StepRecord& now = simulation_.step(wish.energies || about_to_conclude());
+    segment_ = drive_.segment();
+    const StepRecord& now = simulation_.step(motion, wish.energies);
     if (wish.velocities) {
         const VectorPlane<const double> after =
             std::as_const(simulation_).block().levels().front().v.view()[0];
@@ -40,19 +71,13 @@ Path::Made TimePath::advance(const Wish& wish) {
         const double v = case_.simulation.drive.velocity;
         // The energy of a block that starts at full speed is that of the first step, unless noise
         // is part of it.
-        const bool as_seen =
-            simulation_.drive().velocity(0.0) != 0.0 && !case_.effects.temperature;
+        const bool as_seen = drive_.motion(0.0).z != 0.0 && !case_.effects.temperature;
         kinetic_at_full_speed_ =
             as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
         // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
     }
-    if (ended_)
-        concluding_ = std::exchange(ended_, std::nullopt);
-    else
-        ended_ = tell_drive(now);
-    return Made::step;
 }
 
 /// Copies layers before a step: after it the block is at the next step, while the interface and the
@@ -70,47 +95,41 @@ void TimePath::keep(const Wish& wish) {
     }
 }
 
-/// Returns the segment that ended with this step, if one did.
-std::optional<std::size_t> TimePath::tell_drive(const StepRecord& now) {
-    Drive& drive = simulation_.drive();
-    if (drive.done()) return std::nullopt;
-    const std::size_t number = drive.segment();
-    const Segment& segment = case_.path()[number];
+/// Returns true if the segment has ended with this step.
+bool TimePath::tell_drive(const StepRecord& now) {
+    const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
-    if (drive.by_hand()) return std::nullopt;
     const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
-    if (!drive.observe({now.time, now.force, now.top, apart})) return std::nullopt;
+    if (!drive_.observe({now.time, now.force, now.top, apart})) return false;
     end_ = now;
     scatter_.reset();
-    if (const auto average = drive.averaged())
+    if (const auto average = drive_.averaged())
         end_.force = average->mean(), scatter_ = average->scatter();
     interface_work_ = simulation_.balance().interface;
     if (segment.kind == Segment::approach) results_.contact_made = now.time;
-    return number;
+    return true;
 }
 
 std::optional<LayerAtRest> TimePath::find_state() {
-    LayerAtRest found = state_at(now().slide);
-    if (!found.numbers) return std::nullopt;
-    results_.zero_load = found.numbers;
+    std::optional<LayerAtRest> found = state_at(now().slide);
+    if (found) results_.zero_load = found->numbers;
     return found;
 }
 
-LayerAtRest TimePath::state_from_here() {
-    const std::array<double, 2> place = simulation_.place(); // the present place of the sites
-    simulation_.interface().slide_to(place[0], place[1]);
-    return state_at(place);
+std::optional<LayerAtRest> TimePath::state_from_here() {
+    return state_at(simulation_.top().place); // the present place of the sites
 }
 
-LayerAtRest TimePath::state_at(const std::array<double, 2>& place) {
-    return bring_to_rest(
+std::optional<LayerAtRest> TimePath::state_at(const std::array<double, 2>& place) {
+    LayerAtRest found = bring_to_rest(
         std::as_const(simulation_).block(), surface_, reference_height(), case_,
         [this](long long iteration, double residual) { return told(iteration, residual); }, place);
+    if (!found.numbers) return std::nullopt;
+    return found;
 }
 
 void TimePath::conclude() {
-    const std::size_t number = *std::exchange(concluding_, std::nullopt);
-    const Segment& segment = case_.path()[number];
+    const Segment& segment = segment_to_conclude();
     const StepRecord& now = simulation_.now();
     const double energy = now.energy();
     Works end = so_far();
@@ -127,7 +146,7 @@ void TimePath::conclude() {
             energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
     }
     end_.in_contact = now.in_contact; // counted a step later, where it is observed
-    ledger_.conclude(number, end_, end - segment_start_, kinetic);
+    ledger_.conclude(concluded(), end_, end - segment_start_, kinetic);
     results_.segments.back().scatter = scatter_;
     segment_start_ = end;
 }
@@ -154,16 +173,11 @@ Works TimePath::at_rest_apart(Works works, double bound, double moving) {
 
 /// Returns the kinetic energy of a block moving with the top plane at that time, eV.
 double TimePath::kinetic_as_top(double time) const {
-    const double part = simulation_.drive().velocity(time) / case_.simulation.drive.velocity;
+    const double part = drive_.motion(time).z / case_.simulation.drive.velocity;
     return kinetic_at_full_speed_ * part * part;
 }
 
 std::string TimePath::position() const { return fmt::format("step {}", steps()); }
-
-/// Returns a list for reading and writing: written values count after restored().
-std::vector<StateArray> TimePath::arrays() {
-    return state_of(const_cast<Block&>(std::as_const(simulation_).block()));
-}
 
 Path::Remedy TimePath::remedy() const {
     const double set = case_.simulation.dt, limit = case_.longest_timestep;

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/plan/rehearsal.hpp"
 
-#include "decomposition/aligned_array.hpp"
 #include "engine/dynamics/simulation.hpp"
 #include "engine/path/checkpoint.hpp"
+#include "engine/path/static_path.hpp"
 #include "engine/run/recorder.hpp"
-#include "engine/statics/quasistatic.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "io/error.hpp"
 
@@ -14,6 +13,7 @@
 #include <cmath>
 #include <ctime>
 #include <optional>
+#include <utility>
 
 #include <malloc.h>
 #include <omp.h>
@@ -47,16 +47,18 @@ double shortest(const auto& work) {
 
 /// Returns the bytes that this process has allocated and not freed.
 double allocated() {
-    const auto kept = static_cast<double>(kept_arrays());
     if (__sanitizer_get_current_allocated_bytes)
-        return static_cast<double>(__sanitizer_get_current_allocated_bytes()) - kept;
+        return static_cast<double>(__sanitizer_get_current_allocated_bytes());
     const struct mallinfo2 all = ::mallinfo2();
-    return static_cast<double>(all.uordblks + all.hblkhd) - kept;
+    return static_cast<double>(all.uordblks + all.hblkhd);
 }
 
-/// Returns the case on fewer sites, on one rank and on the processor.
-Case piece_of(const Case& c, int sites) {
+/// Returns the case on fewer sites, on one rank and on the processor. timed: with the whole path;
+/// otherwise a quasi-static one is a relaxation.
+Case piece_of(const Case& c, int sites, bool timed) {
     Case piece = c;
+    if (!c.effects.dynamic && !timed)
+        piece.path() = piece.simulation.drive.path = {{Segment::relax}};
     piece.ranks = 1;
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
@@ -102,21 +104,12 @@ Surface stand_in(Case piece, double rms, int atoms) {
     return surface_from_atoms(s, std::move(at));
 }
 
-/// Follows all segments of a quasi-static path, as a run does. relax: leads to the state under a
-/// load. Returns true if the path came to its end.
-bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto& stop) {
-    for (std::size_t n = 0; n < c.path().size(); ++n) {
-        if (c.path()[n].kind == Segment::relax) {
-            if (!relax(c.simulation.drive.load_force)) return false;
-            path.start_here({});
-            continue;
-        }
-        if (n == 0) path.start();
-        path.begin(c.path()[n], n);
-        while (!stop() && path.advance() == QuasistaticPath::Outcome::point)
-            if (path.now().step == c.simulation.drive.max_steps) return true;
-        if (stop() || (c.path()[n].kind == Segment::approach && !relax(0.0))) return false;
-        path.put_back();
+/// Follows a path as a run does. Returns true if it came to its end.
+bool follow(Path& path, const auto& stop) {
+    const auto& most = path.scene_case().simulation.drive.max_steps;
+    while (path.status() != Path::Status::done) {
+        if (most && path.status() == Path::Status::under_way && path.steps() >= *most) break;
+        if (stop() || !path.advance({})) return false;
     }
     return true;
 }
@@ -124,8 +117,8 @@ bool follow(const Case& c, QuasistaticPath& path, const auto& relax, const auto&
 } // namespace
 
 Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file, double atoms) {
-    const Case piece = piece_of(c, sites);
     const bool timed = seconds > 0.0;
+    const Case piece = piece_of(c, sites, timed);
     Piece done;
     double most = 0.0; // allocated during a relaxation
     const auto part = [&](Piece::Part which, const auto& work) {
@@ -169,53 +162,44 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         most = std::max(most, allocated());
         return timed ? now() > limit : iteration > 0;
     };
-    std::optional<QuasistaticPath> path;
+    std::optional<StaticPath> path;
     std::optional<Simulation> simulation;
     StateCopy kept;
-    const auto relax = [&](double load) {
-        if (piece.starts_with(Segment::relax)) waves->set_uniform(height - start);
-        return find_zero_load(*waves, *below, start, load, piece, stop).has_value();
-    };
     const auto come_to_rest = [&] {
-        if (piece.effects.dynamic)
-            return bring_to_rest(simulation->block(), heights, height, piece, stop, {})
-                .numbers.has_value();
-        if (path && timed) return follow(piece, *path, relax, stop);
-        return relax(piece.simulation.drive.load_force);
+        if (path) return follow(*path, stop);
+        return bring_to_rest(std::as_const(*simulation).block(), heights, height, piece, stop, {})
+            .numbers.has_value();
     };
+    waves.reset();
     if (piece.effects.dynamic) {
-        waves.reset();
+        const TopMotion down{.z = -piece.simulation.drive.velocity};
         part(Piece::block, [&] {
             simulation.emplace(piece.simulation, heights, Communicator(), grid);
-            simulation->start(start);
-            simulation->step(true);
+            simulation->start(start, down.z);
+            simulation->step(down, true);
         });
         // The block has an interface of its own
         done.bytes[Piece::block] -= done.bytes[Piece::interface];
-        const auto step = [&] { simulation->step(false); };
+        const auto step = [&] { simulation->step(down, false); };
         if (timed) done.far_step = shortest(step);
-        simulation->start(height);
+        simulation->start(height, down.z);
         if (timed) done.near_step = shortest(step);
-        if (piece.effects.observation)
-            part(Piece::kept, [&] { kept.take(state_of(simulation->block_to_write())); });
+    } else {
+        path.emplace(piece, heights, Communicator());
+        path->watch(stop);
     }
-    double begun = now();
+    if (piece.effects.observation)
+        part(Piece::kept, [&] {
+            kept.take(path ? path->arrays() : state_of(std::as_const(*simulation).block()));
+        });
+    const double begun = now();
     try {
-        if (!piece.effects.dynamic && piece.effects.observation)
-            part(Piece::kept, [&] {
-                path.emplace(*waves, *below, path_options(piece, *below, stop));
-                path->start();
-                path->advance();
-                most = 0.0; // the memory of a point belongs to Piece::rest
-            });
-        begun = now();
         if (piece.effects.relaxation) part(Piece::rest, [&] { done.ended = come_to_rest(); });
     } catch (const io::PhysicsError&) { // for the run to tell
     }
     done.resting = now() - begun;
-    const VectorPlane<const double> layer = piece.effects.dynamic
-                                                ? std::as_const(*simulation).block().lowest_layer()
-                                                : waves->lowest_layer();
+    const VectorPlane<const double> layer =
+        path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
     std::optional<io::PayloadWriter> record;
     if (piece.effects.maps)
         part(Piece::maps, [&] {

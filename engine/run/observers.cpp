@@ -3,57 +3,17 @@
 #include "engine/run/observers.hpp"
 
 #include "engine/path/expected_path.hpp"
-#include "engine/path/guard.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/run/summary.hpp"
-#include "io/result_directory.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
 
-#include <utility>
-
 namespace asperity {
-
-namespace {
-
-/// Observed steps between two states kept in memory for the guard.
-constexpr std::uint64_t rows_between_snapshots = 10;
-
-} // namespace
-
-void LastGood::look(Path& path) {
-    const bool kept = path.scene_case().effects.dynamic && path.now().observed;
-    if (!kept || session_.recorder().rows() % rows_between_snapshots != 1) return;
-    const auto t = session_.phases().time(Phase::output);
-    snapshot_.take(path);
-    of_session_ = {};
-    session_.collect(of_session_);
-}
-
-std::string LastGood::write(Path& path) {
-    if (snapshot_.empty()) return "no earlier state was kept";
-    snapshot_.restore(path);
-    const char* file = io::run_file::last_good;
-    try {
-        session_.write_state(session_.file(file), path, of_session_);
-        return fmt::format("the last good state, {}, is in {}", path.position(), file);
-    } catch (const std::exception&) { // a full disk must not hide what happened
-        return "the last good state could not be written";
-    }
-}
-
-void Guard::look(Path& path) {
-    failed_ = path.now();
-    Path::Kept kept;
-    if (path.scene_case().effects.dynamic) kept = [&] { return last_good_.write(path); };
-    guard(path, kept);
-    failed_.reset();
-}
 
 bool row_is_due(const Path& path) {
     const Case& c = path.scene_case();
-    if (!c.effects.dynamic || path.about_to_conclude()) return true;
+    if (!c.effects.dynamic || path.status() == Path::Status::at_end) return true;
     return path.steps() % c.output.series == 0;
 }
 
@@ -61,7 +21,7 @@ Path::Wish Rows::wish(const Path& path) const {
     return row_is_due(path) ? session_.recorder().wish_of_row() : Path::Wish{};
 }
 
-void Rows::look(Path& path) {
+void Rows::look_at_step(const Path& path) {
     if (!path.now().observed) return;
     const auto t = session_.phases().time(Phase::output);
     session_.recorder().row(path);
@@ -77,22 +37,24 @@ Path::Wish Trajectory::wish(const Path& path) const {
     return {.layer = due, .velocities = due && session_.scene_case().output.velocities};
 }
 
-void Trajectory::look(Path& path) {
+void Trajectory::look_at_step(const Path& path) {
     if (!is_due(path.now().step)) return;
     const auto t = session_.phases().time(Phase::output);
     session_.recorder().frame(path, session_.scene_case().output.velocities);
 }
 
-void ProgressLine::look(Path& path) {
-    io::Progress& progress = session_.progress();
-    if (progress.due()) look_within(path, 0, 0.0);
+void ProgressLine::look_at_step(const Path& path) { look_within(path, 0, 0.0); }
+
+void ProgressLine::look_at_beginning(const Path& path) {
+    session_.progress().say(path.scene_case().path()[path.concluded()].text + " begins");
 }
 
 void ProgressLine::look_within(const Path& path, long long iteration, double residual) {
+    io::Progress& progress = session_.progress();
+    if (!progress.due()) return;
     const Case& c = path.scene_case();
     const StepRecord& now = path.now();
-    io::Progress& progress = session_.progress();
-    if (path.ended()) {
+    if (path.status() == Path::Status::relaxing) {
         progress.update(
             {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
         return;

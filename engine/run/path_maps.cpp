@@ -33,7 +33,7 @@ Path::Wish PathMaps::wish(const Path& path) const {
                      is_due(path.steps()) || delayed_is_due(path, next)};
 }
 
-void PathMaps::look(Path& path) {
+void PathMaps::look_at_step(const Path& path) {
     const StepRecord& now = path.now();
     const Segment::Kind kind = path.scene_case().path()[path.segment()].kind;
     if (is_due(now.step)) write(path, fmt::format("step-{}", now.step), path.layer());
@@ -50,37 +50,60 @@ void PathMaps::look(Path& path) {
     copy_layer(path.layer(), layer_.plane(0));
 }
 
-void PathMaps::look_at_end(Path& path) {
+void PathMaps::look_at_end(const Path& path) {
     if (times_.segments) write(path, fmt::format("segment-{}", path.segment()), path.layer());
 }
 
-void PathMaps::look_at_state(Path& path, const LayerAtRest& state) {
-    if (times_.relaxed) write(path, "relaxed", state.layer.view()[0]);
+void PathMaps::look_at_state(const Path& path) {
+    if (times_.relaxed) write(path, "relaxed", path.state().layer.view()[0]);
 }
 
-void PathMaps::finish(Path& path) {
-    if (path.done())
+void PathMaps::finish(const Path& path) {
+    if (path.status() == Path::Status::done)
         for (std::size_t i = delayed_written_; i < times_.after_approach.size(); ++i)
             session_.progress().say(
                 fmt::format("the maps \"{}\" were not written: the path ended before",
                             times_.after_approach[i].second));
     if (!std::exchange(kept_, false)) return;
-    path.interface().slide_to(place_[0], place_[1]);
-    session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
-                               path.interface(), reference_height_);
+    path.free_workspace();
+    const auto write_over = [&](const Interface& interface) {
+        session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
+                                   interface, reference_height_);
+    };
+    if (place_ == path.interface().place()) return write_over(path.interface());
+    // The block has slid since.
+    const Interface& now = path.interface();
+    Interface then(path.surface(), now.tile(), path.scene_case().simulation.block.spacing,
+                   now.options());
+    then.slide_to(place_[0], place_[1]);
+    write_over(then);
 }
 
-void PathMaps::write(Path& path, const std::string& state, const VectorPlane<const double>& layer) {
+void PathMaps::write(const Path& path, const std::string& state,
+                     const VectorPlane<const double>& layer) {
     const auto t = session_.phases().time(Phase::output);
+    path.free_workspace();
     session_.recorder().fields(state, layer, path.grid(), path.interface(),
                                path.reference_height());
 }
 
-std::vector<StateArray> PathMaps::arrays() {
-    if (layer_.empty()) return {};
-    return {{"/pull-off/x", 0, &layer_.x, 1},
-            {"/pull-off/y", 0, &layer_.y, 1},
-            {"/pull-off/z", 0, &layer_.z, 1}};
+namespace {
+
+/// Returns the arrays of a kept layer, none if it is empty.
+template <class Array>
+std::vector<Array> arrays_of(auto& layer) {
+    if (layer.empty()) return {};
+    return {{"/pull-off/x", 0, &layer.x, 1},
+            {"/pull-off/y", 0, &layer.y, 1},
+            {"/pull-off/z", 0, &layer.z, 1}};
+}
+
+} // namespace
+
+std::vector<StateArray> PathMaps::arrays() const { return arrays_of<StateArray>(layer_); }
+
+std::vector<RestoredArray> PathMaps::arrays_to_restore() {
+    return arrays_of<RestoredArray>(layer_);
 }
 
 } // namespace asperity

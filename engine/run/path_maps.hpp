@@ -24,10 +24,7 @@ public:
     explicit PathMaps(RunSession& session);
 
     Path::Wish wish(const Path& path) const override;
-    void look(Path& path) override;
-    void look_at_end(Path& path) override;
-    void look_at_state(Path& path, const LayerAtRest& state) override;
-    void finish(Path& path) override;
+    void finish(const Path& path) override;
 
     /// Passes the numbers to a visitor, for checkpoints; arrays() lists the kept layer.
     template <class Visitor>
@@ -38,12 +35,18 @@ public:
         v("kept", kept_);
         v("delayed_written", delayed_written_);
     }
-    std::vector<StateArray> arrays();
+    std::vector<StateArray> arrays() const;
+    std::vector<RestoredArray> arrays_to_restore();
+
+protected:
+    void look_at_step(const Path& path) override;
+    void look_at_end(const Path& path) override;
+    void look_at_state(const Path& path) override;
 
 private:
     bool is_due(long long step) const;
     bool delayed_is_due(const Path& path, double time) const;
-    void write(Path& path, const std::string& state, const VectorPlane<const double>& layer);
+    void write(const Path& path, const std::string& state, const VectorPlane<const double>& layer);
 
     RunSession& session_;
     const MapTimes& times_;

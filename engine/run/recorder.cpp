@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/recorder.hpp"
 
-#include "decomposition/aligned_array.hpp"
 #include "io/machine.hpp"
 #include "io/result_directory.hpp"
 #include "io/run_h5.hpp"
@@ -213,7 +212,6 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface, double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    free_kept_arrays(); // arrays of relaxations: the following needs as much again
     const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
     io::PayloadWriter record;
     ranks.on_root([&] {
@@ -343,7 +341,6 @@ void Recorder::write_if_cheap() {
 /// Writes run.h5 anew, from all records. Root only.
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
-    free_kept_arrays();
     io::Hdf5File file({directory_, io::run_file::series}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_session.hpp"
 
-#include "engine/path/checkpoint.hpp"
+#include "engine/path/guard.hpp"
 #include "engine/run/curve.hpp"
 #include "engine/run/run_result.hpp"
 #include "engine/run/summary.hpp"
@@ -22,6 +22,9 @@
 namespace asperity {
 
 namespace {
+
+/// Observed steps between two states kept in memory for the guard.
+constexpr std::uint64_t rows_between_snapshots = 10;
 
 /// Prints. A standard output that was closed, or is full, is no reason to end a run: its numbers
 /// are in its files.
@@ -52,8 +55,7 @@ void RunSession::print_notes() {
         print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
 }
 
-int RunSession::carry_out(Path& path, const std::function<void()>& work,
-                          const AddToResult& add_to) {
+int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
     interruptions_.checkpoint_written();
     try {
         if (ranks_.root())
@@ -63,23 +65,24 @@ int RunSession::carry_out(Path& path, const std::function<void()>& work,
             });
         work();
         const auto t = phases_.time(Phase::output);
+        path.free_workspace();
         recorder_->write();
     } catch (const io::Error& error) {
         progress_.finish();
-        write_failure(path, {error.code(), error.what()}, add_to);
+        write_failure(path, {error.code(), error.what()});
         throw;
     } catch (const std::bad_alloc&) {
         progress_.finish();
-        write_failure(path, {io::exit_code::scene, "out of memory"}, add_to);
+        write_failure(path, {io::exit_code::scene, "out of memory"});
         throw;
     } catch (const std::exception& error) {
         progress_.finish();
-        write_failure(path, {io::exit_code::internal, error.what()}, add_to);
+        write_failure(path, {io::exit_code::internal, error.what()});
         throw;
     }
     progress_.finish();
     ranks_.on_root([&] {
-        const io::Result result = write_result(path, nullptr, add_to);
+        const io::Result result = write_result(path, nullptr);
         storage_.require_in_place();
         print_unless_closed([&] {
             print_summary(stdout, case_, result, path.results(), storage_.path());
@@ -113,9 +116,13 @@ Interruption RunSession::ask() {
     return now;
 }
 
-bool RunSession::stop_here(Path& path) {
+bool RunSession::stop_here(const Path& path) {
+    using Status = Path::Status;
+    const Status status = path.status();
+    const bool goes_on = status == Status::beginning || status == Status::under_way;
+    if (!goes_on && status != Status::at_end) return false;
     const auto& most = case_.simulation.drive.max_steps;
-    if (most > 0 && path.steps() >= most && !path.about_to_conclude()) {
+    if (goes_on && most && path.steps() >= *most) {
         stopped_ = Stopped::max_steps;
         save_if_on(path);
         return true;
@@ -131,7 +138,7 @@ bool RunSession::stop_here(Path& path) {
     return false;
 }
 
-void RunSession::stop_now(Path& path) {
+void RunSession::stop_now(const Path& path) {
     save(path);
     if (ranks_.root())
         progress_.say(fmt::format(
@@ -139,13 +146,60 @@ void RunSession::stop_now(Path& path) {
             path.position(), storage_.path()));
 }
 
-bool RunSession::stop_within(Path& path) {
+bool RunSession::stop_within(const Path& path) {
     const Interruption now = ask();
-    if (now == Interruption::checkpoint && path.relaxes_freely()) save(path);
+    if (now == Interruption::checkpoint && path.status() == Path::Status::relaxing) save(path);
     return now > Interruption::checkpoint;
 }
 
-void RunSession::save(Path& path) {
+bool RunSession::advance(Path& path, const Path::Wish& wish) {
+    if (path.status() == Path::Status::relaxing) {
+        if (case_.path()[path.concluded()].kind == Segment::approach) {
+            save_if_on(path);
+            progress_.say("contact is made; relaxing its lowest layer under no load");
+        }
+        const auto t = phases_.time(Phase::relax);
+        return path.advance(wish);
+    }
+    if (!path.advance(wish)) return false;
+    if (path.has_stepped()) require_physical(path);
+    return true;
+}
+
+/// Throws io::PhysicsError if the last step or point is no longer physical.
+void RunSession::require_physical(Path& path) {
+    const std::optional<std::string> wrong = violation(path.now(), case_, surface_);
+    if (!wrong) return;
+    failed_ = path.now();
+    Path::Remedy remedy = path.remedy();
+    if (case_.effects.dynamic) remedy.fix += "; " + put_back(path);
+    throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
+}
+
+void RunSession::keep(const Path& path) {
+    const bool kept = case_.effects.dynamic && path.has_stepped() && path.now().observed;
+    if (!kept || recorder().rows() % rows_between_snapshots != 1) return;
+    const auto t = phases_.time(Phase::output);
+    last_good_.take(path);
+    session_at_last_good_ = {};
+    collect(session_at_last_good_);
+}
+
+/// Puts the path back to its last good state and writes it. Returns a sentence on the state to
+/// resume from.
+std::string RunSession::put_back(Path& path) {
+    if (last_good_.empty()) return "no earlier state was kept";
+    last_good_.restore(path);
+    const char* name = io::run_file::last_good;
+    try {
+        write_state(file(name), path, session_at_last_good_);
+        return fmt::format("the last good state, {}, is in {}", path.position(), name);
+    } catch (const std::exception&) { // a full disk must not hide what happened
+        return "the last good state could not be written";
+    }
+}
+
+void RunSession::save(const Path& path) {
     const auto t = phases_.time(Phase::checkpoint);
     recorder_->synchronize();
     storage_.save([&](const io::FilePlace& place) {
@@ -153,22 +207,26 @@ void RunSession::save(Path& path) {
         collect(numbers);
         write_state(place, path, numbers);
     });
+    path.free_workspace();
     recorder_->write_if_cheap();
     interruptions_.checkpoint_written();
 }
 
-void RunSession::write_state(const io::FilePlace& place, Path& path,
-                             const CollectNumbers& of_session) {
+/// Writes path, maps and these numbers. Throws io::FileError.
+void RunSession::write_state(const io::FilePlace& place, const Path& path,
+                             const CollectNumbers& of_session) const {
     CollectNumbers numbers = of_session;
     path.collect(numbers);
     write_checkpoint(place, ranks_, grid_, joined(path.arrays(), maps_.arrays()), numbers.numbers,
                      fingerprint_);
 }
 
-void RunSession::save_if_on(Path& path) {
+/// Writes a checkpoint before a long part of the run, only if the scene has checkpoints.
+void RunSession::save_if_on(const Path& path) {
     if (case_.effects.checkpoints) save(path);
 }
 
+/// Returns the place of a file in the result directory.
 io::FilePlace RunSession::file(const std::string& name) const {
     return ranks_.root() ? storage_.file(name) : io::FilePlace(name);
 }
@@ -181,7 +239,7 @@ void RunSession::begin(Path& path) {
             RestoreNumbers numbers(all);
             path.restore(numbers);
             restore(numbers);
-            return joined(path.arrays(), maps_.arrays());
+            return joined(path.arrays_to_restore(), maps_.arrays_to_restore());
         };
         read_checkpoint(*place, ranks_, grid_, arrays, fingerprint_);
         path.restored();
@@ -201,6 +259,7 @@ void RunSession::open_recorder() {
                       std::move(columns), resumed_at_, add);
 }
 
+/// Collects the numbers of the session (records, maps) as "run.*".
 void RunSession::collect(CollectNumbers& numbers) {
     Recorder::Position records = recorder_->position();
     double processor = processor_seconds();
@@ -226,8 +285,7 @@ double RunSession::processor_seconds() const {
     return processor_before_ + seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-void RunSession::write_failure(const Path& path, const Failure& failure,
-                               const AddToResult& add_to) {
+void RunSession::write_failure(const Path& path, const Failure& failure) {
     if (!ranks_.root()) return;
     // A run that could not begin to record leaves its directory as it was.
     if (!recorder_ && failure.code != io::exit_code::physics) return;
@@ -236,15 +294,14 @@ void RunSession::write_failure(const Path& path, const Failure& failure,
     } catch (const std::exception&) { // the earlier run.h5 must do
     }
     try {
-        write_result(path, &failure, add_to);
+        write_result(path, &failure);
     } catch (const std::exception&) { // the first error is the one to report
     }
 }
 
-io::Result RunSession::write_result(const Path& path, const Failure* failure,
-                                    const AddToResult& add_to) {
+io::Result RunSession::write_result(const Path& path, const Failure* failure) {
     io::Result result = run_result(case_, surface_, path.results());
-    add_to(result);
+    add_steps(path, failed_, result);
     result.set("run.wall_seconds", interruptions_.seconds());
     result.set("run.processor_seconds", processor_seconds());
     add_phases(phases_, result);

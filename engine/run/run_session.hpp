@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The session of a run beside its path: the surface, the result directory (run_storage.hpp) and its
-// records (recorder.hpp), checkpoints, reasons to stop (interruptions.hpp), and the result.
+// records (recorder.hpp), checkpoints, the last good state, reasons to stop (interruptions.hpp),
+// and the result.
 #pragma once
 
 #include "decomposition/communicator.hpp"
 #include "decomposition/process_grid.hpp"
+#include "engine/path/checkpoint.hpp"
 #include "engine/path/path.hpp"
 #include "engine/run/interruptions.hpp"
 #include "engine/run/path_maps.hpp"
@@ -40,42 +42,45 @@ public:
 
     // Run as a whole.
 
-    /// Adds steps and energies to the result. Called on the root.
-    using AddToResult = std::function<void(io::Result&)>;
     /// Prints the opening, calls work(), writes the result (also of a failure, which is rethrown)
     /// and prints the summary. Returns the exit code.
-    int carry_out(Path& path, const std::function<void()>& work, const AddToResult& add_to);
+    int carry_out(const Path& path, const std::function<void()>& work);
     /// Resumes from a checkpoint before the first step, if one was asked for and is there.
     void begin(Path& path);
+    /// Advances the path. Before a relaxation at the end of an approach a checkpoint is written:
+    /// a run that is stopped in the relaxation begins it again. Returns false if the watch has
+    /// stopped a relaxation. Throws io::PhysicsError if the energy balance or a coordinate of a
+    /// step or point is no longer physical (guard.hpp); a dynamic path is then put back to its last
+    /// good state, which is written to last-good.h5.
+    bool advance(Path& path, const Path::Wish& wish);
+    /// Keeps a copy of the state of a dynamic path now and then, after the observers have looked.
+    void keep(const Path& path);
 
     // Reasons to stop.
 
     /// Writes a checkpoint between two steps or points if it is time or the run must end. Returns
-    /// true if the run must end. Throws io::FileError if the result directory was moved or removed.
-    bool stop_here(Path& path);
+    /// true if the run must end; a run does not end by drive.max_steps before a segment that has
+    /// ended is concluded. Throws io::FileError if the result directory was moved or removed.
+    bool stop_here(const Path& path);
     /// Returns true between two iterations if the relaxation must end, and after it, by stop_now(),
     /// the run. Writes a checkpoint that is due if the path can be resumed within the relaxation.
-    bool stop_within(Path& path);
+    bool stop_within(const Path& path);
     /// Writes a checkpoint for a run that ends.
-    void stop_now(Path& path);
-
-    // Checkpoints.
-
-    /// Writes a checkpoint before a long part of the run, only if the scene has checkpoints.
-    void save_if_on(Path& path);
-    /// Collects the numbers of the session (records, maps) as "run.*".
-    void collect(CollectNumbers& numbers);
-    /// Writes path, maps and these numbers. Throws io::FileError.
-    void write_state(const io::FilePlace& place, Path& path, const CollectNumbers& of_session);
-    /// Returns the place of a file in the result directory.
-    io::FilePlace file(const std::string& name) const;
+    void stop_now(const Path& path);
 
 private:
     /// Reason of an early end of the run.
     enum class Stopped { no, max_steps, wall_limit, signal };
     static const char* name(Stopped stopped);
     Interruption ask();
-    void save(Path& path);
+    void save(const Path& path);
+    void save_if_on(const Path& path);
+    void require_physical(Path& path);
+    std::string put_back(Path& path);
+    void collect(CollectNumbers& numbers);
+    void write_state(const io::FilePlace& place, const Path& path,
+                     const CollectNumbers& of_session) const;
+    io::FilePlace file(const std::string& name) const;
     void restore(RestoreNumbers& numbers);
     void open_recorder();
     /// Returns the processor time of this rank with all its threads, from the first start of the
@@ -86,9 +91,9 @@ private:
         int code;
         std::string reason;
     };
-    void write_failure(const Path& path, const Failure& failure, const AddToResult& add_to);
+    void write_failure(const Path& path, const Failure& failure);
     /// Writes the result on the root and returns it. failure: why the run failed, or null.
-    io::Result write_result(const Path& path, const Failure* failure, const AddToResult& add_to);
+    io::Result write_result(const Path& path, const Failure* failure);
 
     const Case& case_;
     const RunOptions& options_;
@@ -105,6 +110,11 @@ private:
     std::optional<Recorder> recorder_;
     std::optional<Recorder::Position> resumed_at_;
     Stopped stopped_ = Stopped::no;
+    /// Last good state of a dynamic path, and the numbers of the session there.
+    Snapshot last_good_;
+    CollectNumbers session_at_last_good_;
+    /// The step or point that ended the run, if one did: the path may have been put back.
+    std::optional<StepRecord> failed_;
     /// Processor time before the checkpoint that the run was resumed from, s
     double processor_before_ = 0.0;
 };

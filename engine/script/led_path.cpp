@@ -3,22 +3,22 @@
 #include "engine/script/led_path.hpp"
 
 #include "engine/path/guard.hpp"
+#include "engine/path/state_numbers.hpp"
+#include "engine/path/static_path.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/script/refuse.hpp"
 #include "engine/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace asperity {
 
 namespace {
-
-[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix) {
-    throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
-}
 
 void require_number(double value) {
     if (!std::isfinite(value))
@@ -50,9 +50,11 @@ Surface checked_surface(const Case& c) {
 } // namespace
 
 LedPath::LedPath(const Case& c)
-    : case_(quasistatic(c)), surface_(checked_surface(case_)),
-      path_(case_, surface_, Communicator()) {
-    before_.mean_height = path_.reference_height();
+    : case_(quasistatic(c)), surface_(checked_surface(case_)), grid_(case_.grid(0)),
+      interface_(surface_, grid_.tile(0), case_.simulation.block.spacing,
+                 case_.simulation.interface),
+      block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
+    before_.mean_height = reference_height();
 }
 
 void LedPath::set_mean_height(double z) { go_to(Held::mean_height, z); }
@@ -61,7 +63,7 @@ void LedPath::set_top(double z) { go_to(Held::top, z); }
 void LedPath::go_to(Held held, double at) {
     require_number(at);
     hold(held);
-    target_ = {.at = held == Held::top ? at : at - path_.reference_height()};
+    target_ = {.at = held == Held::top ? at : at - reference_height()};
 }
 
 void LedPath::set_load(double pressure) {
@@ -83,71 +85,118 @@ void LedPath::set_hold(double time) {
     target_ = {.hold = time * units::picosecond};
 }
 
-/// Calls work, gives up when look throws, and then rethrows: the path is at its last point.
-template <class Work>
-auto LedPath::while_looking(const Look& look, const Work& work) {
-    LookNowAndThen now_and_then(look);
-    std::exception_ptr thrown;
-    const auto told = [&](long long, double) {
-        try {
-            now_and_then();
-        } catch (...) {
-            thrown = std::current_exception();
-        }
-        return thrown != nullptr;
-    };
-    auto done = path_.while_watched(told, work);
-    if (!done) std::rethrow_exception(thrown);
-    return done;
-}
+namespace {
+
+/// Installs a watch of relaxations as long as it lives, which calls a Look now and then, and stops
+/// the relaxation if the Look throws.
+class Looking {
+public:
+    Looking(std::function<bool(long long, double)>& watch, const Look& look)
+        : watch_(watch), now_and_then_(look) {
+        watch_ = [this](long long, double) {
+            try {
+                now_and_then_();
+            } catch (...) {
+                thrown_ = std::current_exception();
+            }
+            return thrown_ != nullptr;
+        };
+    }
+    ~Looking() { watch_ = {}; }
+    Looking(const Looking&) = delete;
+    Looking& operator=(const Looking&) = delete;
+    /// Throws the exception of the Look again: the state is the last whole one.
+    [[noreturn]] void rethrow() const { std::rethrow_exception(thrown_); }
+
+private:
+    std::function<bool(long long, double)>& watch_;
+    LookNowAndThen now_and_then_;
+    std::exception_ptr thrown_;
+};
+
+/// The last point of a path, to come back to.
+class KeptPoint {
+public:
+    explicit KeptPoint(const QuasistaticPath& points) {
+        fields_.take(points.states());
+        numbers_.members_of(points);
+    }
+    void restore(QuasistaticPath& points) const {
+        fields_.restore(points.states_to_restore());
+        RestoreNumbers restore(numbers_.numbers);
+        points.visit(restore);
+        points.resume();
+    }
+
+private:
+    StateCopy fields_;
+    CollectNumbers numbers_;
+};
+
+} // namespace
 
 LedPath::Point LedPath::relax(const Look& look) {
     begin();
     if (!target_.at && !target_.load && !target_.hold) return now();
-    const double until = path_.now().time + target_.hold.value_or(0.0);
-    const auto at_point = [&] {
-        if (target_.hold) target_.hold = until - path_.now().time;
-        guard(path_);
-    };
-    const StaticPath::KeptPoint from = path_.keep_point();
+    const KeptPoint from(*points_);
     try { // a target is kept where look throws
-        while_looking(look, [&] {
-            if (target_.at) return path_.lead_to(*target_.at, at_point);
-            if (target_.hold) return path_.lead({Segment::hold, *target_.hold}, at_point);
-            return path_.lead({Segment::load, *target_.load}, at_point);
-        });
+        lead_to_goal(look);
     } catch (const io::PhysicsError&) { // the target cannot be reached: the last point is restored
         target_ = {};
-        path_.back_to(from);
+        from.restore(*points_);
         throw;
     }
     target_ = {};
     return now();
 }
 
+/// Leads the block to the goal, point by point.
+void LedPath::lead_to_goal(const Look& look) {
+    const double until = points_->now().time + target_.hold.value_or(0.0);
+    if (target_.at)
+        points_->begin_to(*target_.at);
+    else if (target_.hold)
+        points_->begin({Segment::hold, *target_.hold});
+    else
+        points_->begin({Segment::load, *target_.load});
+    const Looking looking(watch_, look);
+    using Outcome = QuasistaticPath::Outcome;
+    for (auto outcome = Outcome::point; outcome == Outcome::point;) {
+        outcome = points_->advance();
+        if (outcome == Outcome::interrupted) looking.rethrow();
+        if (target_.hold) target_.hold = until - points_->now().time;
+        if (const auto wrong = violation(points_->now(), case_, surface_)) {
+            const Path::Remedy remedy = StaticPath::remedy_of_points();
+            throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
+        }
+    }
+}
+
 LedPath::Point LedPath::now() const {
-    const QuasistaticPath* points = path_.points();
-    if (!points) return before_;
-    Point p{points->now()};
+    if (!points_) return before_;
+    Point p{points_->now()};
     if (*held_ != Held::top) p.top = 0.0;
     const double edge = case_.simulation.block.sites, sites = edge * edge;
-    p.instabilities = points->dissipation().events;
+    p.instabilities = points_->dissipation().events;
     p.contact_fraction = static_cast<double>(p.in_contact) / sites;
     p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
     return p;
 }
 
 InterfaceMaps LedPath::maps() const {
-    return path_.interface().maps(path_.layer(), path_.reference_height());
+    block_.workspace()->free_kept();
+    return interface_.maps(block_.lowest_layer(), reference_height());
 }
 
 RestState LedPath::release(const Look& look) {
     const State from = copy();
     try {
-        const std::optional<ZeroLoad> found = while_looking(look, [&] {
-            return path_.state_from_here(case_.simulation.drive.load_force,
-                                         !path_.points() && !remembers_);
-        });
+        if (!points_ && !remembers_) place_for_relaxation(block_, interface_, surface_, case_);
+        const Looking looking(watch_, look);
+        const std::optional<ZeroLoad> found =
+            find_zero_load(block_, interface_, reference_height(),
+                           case_.simulation.drive.load_force, case_, watch_);
+        if (!found) looking.rethrow();
         State there = copy();
         there.branches.clear();
         place(there);
@@ -159,15 +208,15 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{case_.simulation.block.sites, {}, path_.block().top()};
+    State state{case_.simulation.block.sites, {}, block_.top()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
     };
-    const VectorPlane<const double> layer = path_.layer();
+    const VectorPlane<const double> layer = block_.lowest_layer();
     for (const auto& plane : {layer.x, layer.y, layer.z})
         keep(plane, state.u);
-    if (const auto* memory = path_.block().memory())
+    if (const auto* memory = block_.memory())
         for (const SiteField<double>& branch : *memory)
             for (const Field<double>& component : branch)
                 keep(component.plane(0), state.branches);
@@ -180,7 +229,7 @@ void LedPath::restore(const State& state) {
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
                fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
     std::size_t extensions = 0;
-    if (const auto* memory = path_.block().memory())
+    if (const auto* memory = block_.memory())
         for (const SiteField<double>& branch : *memory)
             extensions += branch.size() * state.u.size() / 3;
     if (!state.branches.empty() && state.branches.size() != extensions)
@@ -196,16 +245,16 @@ void LedPath::restore(const State& state) {
 /// Puts the block into a state; a new path is to begin.
 void LedPath::place(const State& state) {
     before_ = now();
-    path_.end_points();
+    points_.reset();
     target_ = {};
     remembers_ = !state.branches.empty();
-    const VectorPlane<double> layer = path_.block().layer().plane(0);
+    const VectorPlane<double> layer = block_.layer().plane(0);
     auto from = state.u.begin();
     for (const auto& plane : {layer.x, layer.y, layer.z})
         for (int y = 0; y < plane.ny; ++y, from += plane.nx)
             std::copy_n(from, plane.nx, plane.line(y));
     auto extension = state.branches.begin();
-    if (auto* memory = path_.block().memory())
+    if (auto* memory = block_.memory())
         for (SiteField<double>& branch : *memory)
             for (Field<double>& component : branch) {
                 const PlaneView<double> plane = component.plane(0);
@@ -213,7 +262,7 @@ void LedPath::place(const State& state) {
                     for (int x = 0; x < plane.nx; ++x)
                         plane(x, y) = state.branches.empty() ? 0.0 : *extension++;
             }
-    path_.block().hold(Constraint::top(state.top));
+    block_.hold(Constraint::top(state.top));
 }
 
 void LedPath::hold(Held held) {
@@ -226,10 +275,22 @@ void LedPath::hold(Held held) {
 
 /// Begins the path unless it has begun.
 void LedPath::begin() {
-    if (path_.points()) return;
+    if (points_) return;
     hold(held_.value_or(case_.simulation.drive.control == Control::top ? Held::top
                                                                        : Held::mean_height));
-    path_.begin_by_hand(*held_, remembers_);
+    PathOptions options =
+        path_options(case_, interface_, [this](long long iteration, double residual) {
+            return watch_ && watch_(iteration, residual);
+        });
+    options.along = *held_;
+    points_.emplace(block_, interface_, std::move(options));
+    if (!remembers_) return points_->start();
+    try {
+        points_->start_here({.remembers = *remembers_});
+    } catch (const io::PhysicsError&) {
+        points_.reset();
+        throw;
+    }
 }
 
 } // namespace asperity

@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A quasi-static path (engine/path/static_path.hpp) led by hand (asperity.Statics of Python): the
-// caller leads the solids, which are in force balance. The state found depends on the way there, as
-// on the path of a run; energy lost on the way is counted. The path starts beyond the interaction
-// range.
+// A quasi-static path led by hand (asperity.Statics of Python): the caller, in place of the scene's
+// segments, leads the solids, which are in force balance. The state found depends on the way there,
+// as on the path of a run; energy lost on the way is counted. The path starts beyond the
+// interaction range.
 //
 // The mean height is held, or the top plane: the first one that is set decides; a load holds the
 // quantity of drive.control. A dynamic scene is treated as if drive.mode were "quasistatic".
 #pragma once
 
-#include "engine/path/static_path.hpp"
 #include "engine/script/stepped_path.hpp"
+#include "engine/statics/quasistatic.hpp"
 
-#include <exception>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -78,16 +78,21 @@ private:
     void hold(Held held);
     void begin();
     void place(const State& state);
-    template <class Work>
-    auto while_looking(const Look& look, const Work& work);
+    void lead_to_goal(const Look& look);
+    double reference_height() const { return interface_.start_height(); }
 
     const Case case_;
     const Surface surface_;
-    StaticPath path_;
+    const ProcessGrid grid_;
+    Interface interface_;
+    SpectralBlock block_;
+    std::optional<QuasistaticPath> points_; ///< empty until a path begins
     std::optional<Held> held_;
     /// Beginning of the next path: with the memory of the branches (true), relaxed in place
     /// (false), or beyond the interaction range (empty).
     std::optional<bool> remembers_;
+    /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
+    std::function<bool(long long, double)> watch_;
     Point before_; ///< last point of the path before
     struct Goal {
         std::optional<double> at{}, load{}, hold{}; ///< Å, eV/Å, fs

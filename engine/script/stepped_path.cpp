@@ -2,29 +2,20 @@
 // SPDX-License-Identifier: MIT
 #include "engine/script/stepped_path.hpp"
 
-#include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/plan/plan.hpp"
+#include "engine/script/refuse.hpp"
 #include "engine/units.hpp"
-#include "io/hdf5_file.hpp"
-#include "io/json.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 
 namespace asperity {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-[[noreturn]] void refuse(const char* where, std::string what, std::string why, std::string fix) {
-    throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});
-}
 
 void require_number(const char* what, double value) {
     if (!std::isfinite(value))
@@ -51,43 +42,10 @@ Surface checked_surface(const Case& c, const Communicator& ranks) {
     return surface_of(c, ranks);
 }
 
-/// Returns the scene in a file that save() wrote.
-SceneText saved_scene(const std::string& file) {
-    const io::Hdf5File saved(io::FilePlace(file), io::Hdf5File::Mode::read);
-    const std::optional<std::string> text = saved.text_attribute("/", "scene");
-    const io::Json all = text ? io::parse_json(*text, file) : io::Json();
-    const io::Json* scene = io::find(all, "simulation");
-    if (!scene)
-        throw io::FileError(
-            file, text ? "holds a run, not a simulation that was saved" : "holds no simulation",
-            "Simulation.resume goes on from what save() wrote",
-            "a run's own checkpoint is for `asperity run --resume`");
-    return {(*scene)["text"].get<std::string>(), (*scene)["file"].get<std::string>(),
-            (*scene)["overrides"].get<std::vector<std::string>>()};
-}
-
-/// Refuses to write over anything but a file of save(). A link is not followed.
-void require_own_place(const std::string& file) {
-    std::error_code error;
-    const fs::file_type type = fs::symlink_status(file, error).type();
-    if (type == fs::file_type::not_found) return;
-    std::string what = "cannot be looked at", why = error.message();
-    if (type == fs::file_type::symlink) {
-        what = "is a symbolic link", why = "what it points to is not replaced";
-    } else if (type == fs::file_type::directory) {
-        what = "is a directory", why = "a simulation is saved in one file";
-    } else if (type == fs::file_type::regular) {
-        try {
-            saved_scene(file);
-            return;
-        } catch (const io::Error&) {
-            what = "is there already, and is no file of Simulation.save()";
-            why = "only such a file is replaced";
-        }
-    } else if (type != fs::file_type::none) {
-        what = "is no regular file", why = "a device, a pipe or a socket is not replaced";
-    }
-    refuse(file.c_str(), what, why, "name another file");
+/// Returns the same case without states of force balance at the ends of its segments.
+Case without_states(Case c) {
+    c.effects.relaxation = {false, "the script relaxes when it asks for it"};
+    return c;
 }
 
 } // namespace
@@ -110,17 +68,9 @@ void LayerCopy::take(const VectorPlane<const double>& layer) {
 }
 
 SteppedPath::SteppedPath(Case c, SceneText source, const Communicator& ranks)
-    : case_(std::move(c)), source_(std::move(source)), ranks_(ranks),
-      surface_(checked_surface(case_, ranks)), path_(case_, surface_, ranks) {}
-
-std::shared_ptr<SteppedPath> SteppedPath::resume(const std::string& file,
-                                                 const Communicator& ranks) {
-    SceneText source = saved_scene(file);
-    Case c = source.read(ranks.size());
-    // The path starts as a new one: a file has only the path's numbers, without its start height.
-    auto path = std::make_shared<SteppedPath>(std::move(c), std::move(source), ranks);
-    path->restore(file);
-    return path;
+    : case_(without_states(std::move(c))), source_(std::move(source)), ranks_(ranks),
+      surface_(checked_surface(case_, ranks)), path_(case_, surface_, ranks) {
+    path_.simulation().push(&pushing_);
 }
 
 long long SteppedPath::step(long long n, const Look& look) {
@@ -141,7 +91,7 @@ long long SteppedPath::step(long long n, const Look& look) {
     LookNowAndThen now_and_then(look);
     long long taken = 0;
     try {
-        while (taken < n && !path_.done()) {
+        while (taken < n && !done()) {
             const bool last = taken + 1 == n;
             one_step(last);
             ++taken;
@@ -162,9 +112,13 @@ void SteppedPath::one_step(bool last) {
     const bool due = number % case_.output.series == 0;
     try {
         moved_ = true;
-        path_.advance({.energies = due || observed || last});
-        guard(path_, [] { return "or resume the last state that was saved"; });
-        if (path_.ended()) path_.conclude();
+        const Path::Wish wish{.energies = due || observed || last};
+        if (hand_)
+            path_.step(*hand_, wish);
+        else
+            path_.advance(wish);
+        require_physical();
+        if (path_.status() == Path::Status::behind_end) path_.advance({}); // concludes the segment
     } catch (const std::exception& error) {
         failure_ = error.what();
         throw;
@@ -180,6 +134,15 @@ void SteppedPath::one_step(bool last) {
     take_in_writes();
 }
 
+/// Throws io::PhysicsError if the last step is no longer physical.
+void SteppedPath::require_physical() const {
+    const std::optional<std::string> wrong = violation(path_.now(), case_, surface_);
+    if (!wrong) return;
+    const Path::Remedy remedy = path_.remedy();
+    throw io::PhysicsError(*wrong, remedy.why,
+                           remedy.fix + "; or resume the last state that was saved");
+}
+
 void SteppedPath::every(long long n, std::function<void()> f) {
     if (n < 1)
         refuse("every", fmt::format("{} steps", n), "an observer is called each so many steps",
@@ -187,39 +150,35 @@ void SteppedPath::every(long long n, std::function<void()> f) {
     observers_.push_back({n, std::move(f)});
 }
 
-std::string SteppedPath::segment() const {
-    return done() ? "done" : simulation().drive().now().text;
-}
+std::string SteppedPath::segment() const { return done() ? "done" : drive().now().text; }
 
-int SteppedPath::segment_number() const {
-    return simulation().drive().by_hand() ? -1 : static_cast<int>(path_.segment());
-}
+int SteppedPath::segment_number() const { return hand_ ? -1 : static_cast<int>(path_.segment()); }
 
 void SteppedPath::set_top_position(double z) {
     require_number("top.position", z);
-    path_.simulation().block_to_write().set_top(z);
+    path_.simulation().set_top(z);
 }
 
 double SteppedPath::top_velocity() const {
-    const double middle = simulation().time() + 0.5 * simulation().options().dt;
-    return simulation().drive().velocity(middle) / units::metre_per_second;
+    const TopMotion next = hand_.value_or(drive().motion(simulation().middle_of_step()));
+    return next.z / units::metre_per_second;
 }
 
 void SteppedPath::set_top_velocity(std::optional<double> v) {
     if (v) require_number("top.velocity", *v);
-    path_.simulation().drive().set_velocity(v ? std::optional(*v * units::metre_per_second)
-                                              : std::nullopt);
+    hand_.reset();
+    if (v) hand_ = TopMotion{.z = *v * units::metre_per_second};
 }
 
-SteppedPath::View SteppedPath::view_to_write(VectorField<double> Block::Level::*field) {
+Block::Fields SteppedPath::fields_to_write() {
     if (!viewed_) take_copies(); // copies of the device's fields, if they are newer
     viewed_ = true;
-    return const_cast<VectorField<double>&>(lowest_level().*field).plane(0);
+    return path_.simulation().fields_to_view();
 }
 
 SteppedPath::View SteppedPath::f() {
     require_processor("f");
-    return const_cast<VectorField<double>&>(lowest_level().transferred).plane(0);
+    return path_.simulation().fields_to_view().transferred.plane(0);
 }
 
 std::shared_ptr<const void> SteppedPath::lease() {
@@ -229,12 +188,16 @@ std::shared_ptr<const void> SteppedPath::lease() {
     return held;
 }
 
-/// Returns maps. Positions are those of the next step: so is the place of the block over the
-/// substrate.
+/// Returns the interface at the place of the sites, which is that of the next step.
+const Interface& SteppedPath::interface_here() {
+    const std::array<double, 2>& place = simulation().top().place;
+    Interface& interface = path_.simulation().interface();
+    interface.slide_to(place[0], place[1]);
+    return interface;
+}
+
 InterfaceMaps SteppedPath::maps() {
-    const std::array<double, 2>& place = simulation().place();
-    path_.interface().slide_to(place[0], place[1]);
-    return path_.interface().maps(simulation().block().lowest_layer(), path_.reference_height());
+    return interface_here().maps(simulation().block().lowest_layer(), path_.reference_height());
 }
 
 void SteppedPath::set_external(const VectorPlane<const double>& field) {
@@ -252,11 +215,11 @@ void SteppedPath::set_external(const VectorPlane<const double>& field) {
          {std::pair{&field.x, &to.x}, {&field.y, &to.y}, {&field.z, &to.z}})
         for (int y = 0; y < tile.ny; ++y)
             std::copy_n(from->line(y), tile.nx, here->line(y));
-    path_.simulation().push(external_.get());
+    pushing_.set(external_.get());
 }
 
 void SteppedPath::clear_external() {
-    path_.simulation().push(nullptr);
+    pushing_.set(nullptr);
     if (external_) dropped_.push_back(std::move(external_));
 }
 
@@ -277,9 +240,10 @@ RestState SteppedPath::relax(const Look& look) {
         now_and_then();
         return false;
     };
-    const LayerAtRest found = path_.while_watched(told, [this] { return path_.state_from_here(); });
-    return {*found.numbers,
-            path_.interface().maps(found.layer.view()[0], path_.reference_height())};
+    const std::optional<LayerAtRest> found =
+        path_.while_watched(told, [this] { return path_.state_from_here(); });
+    return {*found->numbers,
+            interface_here().maps(found->layer.view()[0], path_.reference_height())};
 }
 
 void SteppedPath::require_whole() const {
@@ -334,82 +298,6 @@ void SteppedPath::take_in_writes() {
         if (viewed_) take_copies();
     }
     if (lease_.expired()) viewed_ = false;
-}
-
-// ---- Files.
-
-/// All that a file has beside the numbers of the path.
-struct SteppedPath::Saved {
-    SteppedPath& all;
-    struct ExternalWork {
-        Simulation& simulation;
-        template <class Visitor>
-        void visit(Visitor& v) {
-            simulation.visit_external(v);
-        }
-    };
-    template <class Visitor>
-    void visit(Visitor& v) {
-        Simulation& simulation = all.path_.simulation();
-        Drive& drive = simulation.drive();
-        bool by_hand = drive.by_hand().has_value();
-        double velocity = drive.by_hand().value_or(0.0);
-        v("top.by_hand", by_hand);
-        v("top.velocity", velocity);
-        if constexpr (Visitor::restores)
-            drive.set_velocity(by_hand ? std::optional(velocity) : std::nullopt);
-        ExternalWork work{simulation};
-        v("external", work);
-        bool pushed = all.external_ != nullptr;
-        v("external.acts", pushed);
-        if (pushed && !all.external_) {
-            all.external_ = std::make_unique<VectorField<double>>(all.tile(), 1);
-            simulation.push(all.external_.get());
-        }
-    }
-};
-
-std::vector<StateArray> SteppedPath::own_arrays() {
-    std::vector<StateArray> list;
-    add_arrays(0, "force", const_cast<VectorField<double>&>(lowest_level().transferred), 1, list);
-    if (external_) add_arrays(0, "external", *external_, 1, list);
-    return list;
-}
-
-/// Returns the scene that the numbers of a file belong to, as it was given, and the contents of its
-/// files.
-std::string SteppedPath::description() const {
-    io::Json scene = {{"text", source_.text},
-                      {"file", fs::absolute(source_.file).string()},
-                      {"overrides", source_.overrides}};
-    if (surface_.file_digest) scene["content_of_surface.file"] = *surface_.file_digest;
-    if (case_.table_digest) scene["content_of_tables"] = *case_.table_digest;
-    return io::json_text(io::Json{{"simulation", scene}});
-}
-
-void SteppedPath::save(const std::string& file) {
-    require_whole();
-    take_in_writes();
-    ranks_.on_root([&] { require_own_place(file); });
-    CollectNumbers numbers;
-    path_.collect(numbers);
-    Saved saved{*this};
-    numbers("program", saved);
-    write_checkpoint(io::FilePlace(file), ranks_, path_.grid(),
-                     joined(path_.arrays(), own_arrays()), numbers.numbers, description());
-}
-
-void SteppedPath::restore(const std::string& file) {
-    const auto arrays = [this](const StateNumbers& all) {
-        RestoreNumbers numbers(all);
-        path_.restore(numbers);
-        Saved saved{*this};
-        numbers("program", saved); // decides if there is a field to be read
-        return joined(path_.arrays(), own_arrays());
-    };
-    read_checkpoint(io::FilePlace(file), ranks_, path_.grid(), arrays, description());
-    path_.restored();
-    take_copies();
 }
 
 } // namespace asperity

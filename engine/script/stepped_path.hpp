@@ -3,7 +3,7 @@
 //
 // A dynamic path (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
 // Python): it is stepped, observed, led by hand, pushed and saved. It is the same path as that of a
-// run.
+// run, but for the state after an approach, which is found when the caller asks for it.
 //
 // All ranks of the communicator make the same calls with the same arguments; each writes to the
 // sites of its own tile.
@@ -81,13 +81,14 @@ public:
     /// write between two steps, as the program may, but not step.
     void every(long long n, std::function<void()> f);
     /// Returns true if the path has come to its end; never while the top is led by hand.
-    bool done() const { return path_.done(); }
+    bool done() const { return !hand_ && path_.status() == Path::Status::done; }
     std::string segment() const; ///< returns the segment as the scene has it; "done" after the last
     /// Returns the number of the last step's segment, from 0; -1 while the top is led by hand.
     int segment_number() const;
 
     const Case& scene_case() const { return case_; }
     const Simulation& simulation() const { return path_.simulation(); }
+    const Drive& drive() const { return path_.drive(); }
     const Surface& surface() const { return surface_; }
     const PathResults& results() const { return path_.results(); }
     /// Returns the record of the last step; zeros before the first one.
@@ -95,10 +96,12 @@ public:
 
     // The top plane: displacement since the start, Å, and velocity in the next step, m/s.
 
-    double top_position() const { return simulation().block().top(); }
+    double top_position() const { return simulation().top().z; }
     void set_top_position(double z);
     double top_velocity() const;
-    /// Sets the velocity of the top plane, m/s; without a value the scene's drive resumes.
+    /// Leads the top plane by hand, at this velocity, m/s: nothing slides, and no segment ends.
+    /// Without a value the scene's drive resumes: a height, a hold or a slide ends at its planned
+    /// time, wherever the top plane is.
     void set_top_velocity(std::optional<double> v);
 
     // Fields of the lowest layer, not copied, current until the next step and again after step().
@@ -106,8 +109,8 @@ public:
     // holder of a view keeps its lease, which keeps this object.
 
     using View = VectorPlane<double>;
-    View u() { return view_to_write(&Block::Level::u); }
-    View v() { return view_to_write(&Block::Level::v); }
+    View u() { return fields_to_write().u.plane(0); }
+    View v() { return fields_to_write().v.plane(0); }
     /// Returns the forces of the last step, for reading. Not available on a device.
     View f();
     std::shared_ptr<const void> lease();
@@ -136,12 +139,15 @@ private:
     void require_whole() const;
     void require_processor(const char* what) const;
     void one_step(bool last);
-    View view_to_write(VectorField<double> Block::Level::*field);
+    void require_physical() const;
+    Block::Fields fields_to_write();
+    const Interface& interface_here();
     const Block::Level& lowest_level() const { return simulation().block().levels().front(); }
     void take_copies();
     void bring_up_views();
     void take_in_writes();
-    std::vector<StateArray> own_arrays();
+    std::vector<StateArray> own_arrays() const;
+    std::vector<RestoredArray> own_arrays_to_restore();
     std::string description() const;
     void restore(const std::string& file);
 
@@ -150,6 +156,8 @@ private:
     const Communicator ranks_;
     const Surface surface_;
     TimePath path_;
+    std::optional<TopMotion> hand_; ///< motion of a top plane that is led by hand
+    ExternalForces pushing_;        ///< forces of external_
     std::vector<Observer> observers_;
     bool stepping_ = false;
     std::string failure_; ///< reason why no step can follow; empty: one can

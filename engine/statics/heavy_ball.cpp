@@ -11,7 +11,7 @@
 namespace asperity {
 
 HeavyBall::HeavyBall(Response& block)
-    : block_(block), momentum_(block.new_field<float>()), step_sizes_(block.tile(), 1, 0) {
+    : block_(block), momentum_(block.new_field<float>()), step_sizes_(block.new_map<float>()) {
     const PlaneView<float> step_size = step_sizes_.plane(0);
     for (int y = 0; y < step_size.ny; ++y)
         std::fill(step_size.line(y), step_size.line(y) + step_size.nx, 1.0f);

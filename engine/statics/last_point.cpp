@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace asperity {
 
 double LastPoint::lead(Along along) {
@@ -35,14 +37,14 @@ void LastPoint::accept(double at) {
 }
 
 void LastPoint::put_back() {
-    state_.restore(state_of(block_));
+    state_.restore(state_to_restore(block_));
     block_.hold(constraint(at_));
     place_block(at_);
 }
 
 RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
                                  const ForceWindow& window) {
-    state_.restore(state_of(block_));
+    state_.restore(state_to_restore(block_));
     block_.constrain(constraint(at_));
     block_.begin_step(dt, last_dt_);
     dt_ = dt;
@@ -82,18 +84,33 @@ double LastPoint::all_moves() const {
     return global_sum(block_.communicator(), sum);
 }
 
-std::vector<StateArray> LastPoint::states() {
-    const auto arrays = state_of(block_);
-    if (state_.empty()) state_.take(arrays);
-    std::vector<StateArray> list = state_.arrays(arrays);
-    const auto add = [&](const char* name, std::vector<SiteField<double>>* fields) {
+namespace {
+
+/// Adds the memory of a block's branches to a list of arrays.
+void add_memory(auto& block, auto& list) {
+    const auto add = [&](const char* name, auto* fields) {
         for (std::size_t k = 0; fields && k < fields->size(); ++k)
             for (std::size_t c = 0; c < (*fields)[k].size(); ++c)
                 list.push_back(
                     {fmt::format("/level0/{}{}_{}", name, k, c), 0, &(*fields)[k][c], 1});
     };
-    add("branch", block_.memory());
-    add("history", block_.history());
+    add("branch", block.memory());
+    add("history", block.history());
+}
+
+} // namespace
+
+std::vector<StateArray> LastPoint::states() const {
+    std::vector<StateArray> list = state_.arrays(state_of(block_));
+    add_memory(std::as_const(block_), list);
+    return list;
+}
+
+std::vector<RestoredArray> LastPoint::states_to_restore() {
+    const std::vector<StateArray> arrays = state_of(block_);
+    if (state_.empty()) state_.take(arrays);
+    std::vector<RestoredArray> list = state_.arrays_to_restore(arrays);
+    add_memory(block_, list);
     return list;
 }
 

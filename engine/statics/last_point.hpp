@@ -72,8 +72,8 @@ public:
         return global_largest(block_.communicator(), interface_.tile(), moves());
     }
 
-    /// Passes the numbers to a visitor, for checkpoints; states() lists the arrays, to be read
-    /// before put_back().
+    /// Passes the numbers to a visitor, for checkpoints; states() lists the arrays, and
+    /// states_to_restore() those to be read before put_back().
     template <class Visitor>
     void visit(Visitor& v) {
         v("at", at_);
@@ -85,7 +85,8 @@ public:
         v("balance", balance_);
         v("last_dt", last_dt_);
     }
-    std::vector<StateArray> states();
+    std::vector<StateArray> states() const;
+    std::vector<RestoredArray> states_to_restore();
 
 private:
     /// Returns the constraint along z with the coordinate at this value.

@@ -10,7 +10,8 @@ namespace asperity {
 
 Newton::Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales)
     : block_(block), preconditioner_(preconditioner),
-      stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length),
+      stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length,
+                 block.workspace()),
       r_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
 
 bool Newton::direction(const Interface& interface, double reference_height, double forcing,

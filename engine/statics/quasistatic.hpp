@@ -123,11 +123,12 @@ public:
     void put_back() { last_.put_back(); }
 
     /// Passes all numbers of the path to v, for checkpoints; states() has the displacements at its
-    /// last point. A path that has read both and is resumed makes points bitwise identical to those
-    /// of a path that never stopped.
+    /// last point, states_to_restore() those to be read. A path that has read both and is resumed
+    /// makes points bitwise identical to those of a path that never stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    std::vector<StateArray> states() { return last_.states(); }
+    std::vector<StateArray> states() const { return last_.states(); }
+    std::vector<RestoredArray> states_to_restore() { return last_.states_to_restore(); }
     void resume();
 
 private:

@@ -14,21 +14,27 @@
 namespace asperity {
 
 /// One component of a field of one level; its first `planes` planes are the state.
-struct StateArray {
+template <class Values>
+struct ArrayOf {
     std::string name; ///< name of its data set in a checkpoint
     int level = 0;
-    Field<double>* field = nullptr;
+    Values* field = nullptr;
     int planes = 0;
 };
+using StateArray = ArrayOf<const Field<double>>; ///< array to be copied or written to a checkpoint
+using RestoredArray = ArrayOf<Field<double>>;    ///< array to be restored
 
 /// Adds the components of a field of a level to a list, in the order x, y, z, named
 /// "/level2/<what>_x".
-void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
+void add_arrays(int level, const char* what, const VectorField<double>& field, int planes,
                 std::vector<StateArray>& list);
+void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
+                std::vector<RestoredArray>& list);
 
-/// Returns the displacements of a block's lowest layer: its whole state. After writing to them call
-/// apply_constraint().
-std::vector<StateArray> state_of(SpectralBlock& block);
+/// Returns the displacements of a block's lowest layer: its whole state.
+std::vector<StateArray> state_of(const SpectralBlock& block);
+/// Returns the same to be written to; then call apply_constraint().
+std::vector<RestoredArray> state_to_restore(SpectralBlock& block);
 
 /// A copy of all arrays of a list, to go back to.
 class StateCopy {
@@ -36,10 +42,11 @@ public:
     /// Copies the arrays.
     void take(const std::vector<StateArray>& arrays);
     /// Copies the values back, bit for bit, halos included.
-    void restore(const std::vector<StateArray>& arrays) const;
-    /// Returns the copies as a list like the copied one, to be written to a checkpoint or read from
-    /// one (halos are then not current).
-    std::vector<StateArray> arrays(const std::vector<StateArray>& like);
+    void restore(const std::vector<RestoredArray>& arrays) const;
+    /// Returns the copies as a list like the copied one, to be written to a checkpoint.
+    std::vector<StateArray> arrays(const std::vector<StateArray>& like) const;
+    /// Returns the same to be read from a checkpoint; halos are then not current.
+    std::vector<RestoredArray> arrays_to_restore(const std::vector<StateArray>& like);
     bool empty() const { return copies_.empty(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }
 

@@ -21,8 +21,8 @@ WallMinimiser::WallMinimiser(Response& block, const Interface& interface, double
                              const RelaxOptions& options, Phases& phases)
     : block_(block), interface_(interface), height_(reference_height), options_(options),
       phases_(phases), waves_(block.new_waves<double>()), field_(block.new_field<double>()),
-      single_field_(block.new_field<float>()), next_(block.tile(), 1, 0),
-      step_(block.tile(), 1, 0) {
+      single_field_(block.new_field<float>()), next_(block.new_map<double>()),
+      step_(block.new_map<float>()) {
     spring_ = block.stiffest_wave();
     estimate_ = spring_ * options.scales.length;
     mean_ = block.mean_height();

@@ -21,8 +21,9 @@ public:
             const Constraint& constraint)
         : block_(block), u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
           sites_(static_cast<double>(block.options().sites) * block.options().sites),
-          product_(block.new_field<float>()), h_(block.tile(), 1, 0), weight_(block.tile(), 1, 0),
-          r_(block.tile(), 1, 0), p_(block.tile(), 1, 0), d_(block.tile(), 1, 0) {
+          product_(block.new_field<float>()), h_(block.new_map<double>()),
+          weight_(block.new_map<double>()), r_(block.new_map<double>()),
+          p_(block.new_map<double>()), d_(block.new_map<double>()) {
         block.apply_constraint(); // the waves of the equilibrium
         const double mean = block.mean_height();
         block.constrain(constraint);

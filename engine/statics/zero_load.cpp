@@ -30,6 +30,14 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     }
 }
 
+void place_for_relaxation(SpectralBlock& block, const Interface& interface, const Surface& surface,
+                          const Case& c) {
+    const double height =
+        height_of_strongest_attraction(block, interface, surface.statistics.lowest, c.scales.length,
+                                       c.tolerance * surface.sites * surface.sites);
+    block.set_uniform(height - interface.start_height());
+}
+
 std::string rounding_note(const Case& c, double height) {
     const double floor = rounding_of_forces(c.scales, c.simulation.block, height);
     if (c.tolerance >= floor) return {};

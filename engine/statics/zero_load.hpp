@@ -52,6 +52,11 @@ struct ZeroLoad {
 double height_of_strongest_attraction(SpectralBlock& block, const Interface& interface,
                                       double lowest_atom, double range, double negligible = 0.0);
 
+/// Displaces the undeformed block to that height, from which the state of a slow approach is found.
+/// Collective.
+void place_for_relaxation(SpectralBlock& block, const Interface& interface, const Surface& surface,
+                          const Case& c);
+
 /// Returns a note if rounding may keep a relaxation from the tolerance with sites at this height
 /// (Å); otherwise an empty text.
 std::string rounding_note(const Case& c, double height);

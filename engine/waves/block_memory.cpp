@@ -114,8 +114,10 @@ void combine(double a, const SiteField<double>& x, double b, const SiteField<dou
 
 } // namespace
 
-BlockMemory::BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components)
-    : branches_(branches), slab_(slab), components_(components), w_(new_field()) {
+BlockMemory::BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components,
+                         Workspace& workspace)
+    : branches_(branches), slab_(slab), components_(components), workspace_(workspace),
+      w_(new_field()) {
     for (std::size_t k = 0; k < branches.size(); ++k)
         h_.push_back(new_field());
     for (int i = 0; i < 2; ++i)

@@ -45,7 +45,9 @@ struct BranchEnergies {
 
 class BlockMemory {
 public:
-    BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components);
+    /// Keeps a reference to the workspace.
+    BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components,
+                Workspace& workspace);
 
     /// Begins a step of dt (fs) from the displacements w. An infinite dt leaves nothing of what is
     /// remembered. last: length of the step that this one continues, fs; infinite: it continues
@@ -67,10 +69,13 @@ public:
     const std::vector<SiteField<double>>& extensions() const { return h_; }
     /// Returns d0 and c0 of the last step, Å: the memory is these and the extensions.
     std::vector<SiteField<double>>& history() { return history_; }
+    const std::vector<SiteField<double>>& history() const { return history_; }
     std::size_t bytes() const;
 
 private:
-    SiteField<double> new_field() const { return site_field<double>(slab_, components_); }
+    SiteField<double> new_field() const {
+        return site_field<double>(slab_, components_, &workspace_);
+    }
     /// Returns the weight p; 0 for a step that continues none.
     double weight() const;
     /// Returns rho, the length of this step over that of the last.
@@ -81,6 +86,7 @@ private:
     std::vector<Branch> branches_;
     Slab slab_;
     int components_;
+    Workspace& workspace_;
     std::vector<SiteField<double>> h_;
     std::vector<SiteField<double>> history_; ///< d0, c0
     SiteField<double> w_;

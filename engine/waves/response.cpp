@@ -17,7 +17,7 @@ Response::Response(const BlockOptions& options, const Communicator& communicator
       table_(options, slab_, frictionless), layer_(tile(), 1, 0), force_(tile(), 1, 0),
       waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
     if (options.branches.empty()) return;
-    memory_.emplace(options.branches, slab_, components_);
+    memory_.emplace(options.branches, slab_, components_, *workspace_);
     known_.emplace(slab_, components_);
 }
 

@@ -40,6 +40,7 @@
 #include "engine/waves/constraint.hpp"
 #include "engine/waves/stiffness_table.hpp"
 
+#include <memory>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -77,12 +78,20 @@ public:
     const Constraint& constraint() const { return constraint_; }
     template <class T>
     Waves<T> new_waves() const {
-        return Waves<T>(slab_, components_);
+        return Waves<T>(slab_, components_, workspace());
     }
     template <class T>
     SiteField<T> new_field() const {
-        return site_field<T>(slab_, components_);
+        return site_field<T>(slab_, components_, workspace());
     }
+    /// Returns one number for each site, zeros at first.
+    template <class T>
+    Field<T> new_map() const {
+        return Field<T>(tile(), 1, 0, workspace());
+    }
+    /// Returns the memory from which the functions above, and relaxations, make their arrays. The
+    /// arrays must not outlive the block.
+    Workspace* workspace() const { return workspace_.get(); }
     template <class T>
     const SurfaceTransform<T>& transform() const {
         if constexpr (std::is_same_v<T, double>)
@@ -166,6 +175,7 @@ protected:
         return planes;
     }
 
+    std::unique_ptr<Workspace> workspace_ = std::make_unique<Workspace>();
     BlockOptions options_;
     Slab slab_;
     int components_;

@@ -23,6 +23,7 @@ public:
     /// Returns the displacement at the sites, Å, to be written; the waves follow in
     /// apply_constraint().
     VectorField<double>& layer() { return layer_; }
+    const VectorField<double>& layer() const { return layer_; }
     /// Displaces the whole block by (0, 0, z), Å.
     void set_uniform(double z);
     /// Sets what is held from now on; apply_constraint() brings the block there.
@@ -52,6 +53,9 @@ public:
     /// Returns what the next step needs of the last one, Å, to be kept and restored; null without
     /// branches.
     std::vector<SiteField<double>>* history() { return memory_ ? &memory_->history() : nullptr; }
+    const std::vector<SiteField<double>>* history() const {
+        return memory_ ? &memory_->history() : nullptr;
+    }
 
     /// Returns the bytes of the table of stiffness, which each rank has whole, and of all.
     std::size_t table_bytes() const { return table_.bytes(); }

@@ -63,7 +63,7 @@ void add(io::AtomsFile& atoms, double x, double y, double z) {
 
 /// Force, energies and heights of every step of a fast approach that turns on contact.
 std::vector<double> path_over(const Case& c, const Surface& surface) {
-    Simulation s(c.simulation, surface, Communicator(), c.grid(0));
+    test::Driven s(c.simulation, surface, Communicator(), c.grid(0));
     s.start(9.0);
     std::vector<double> numbers;
     for (int n = 0; n < 900; ++n) {

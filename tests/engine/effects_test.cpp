@@ -1,11 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Effects are switched by the keys of the scene; one that is off makes no call.
+// Effects are switched by the keys of the scene, which they name; one that is off makes no call.
 #include "engine/case/case.hpp"
+#include "support/atoms.hpp"
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
 
 using namespace asperity;
 
@@ -14,7 +18,10 @@ namespace {
 using Keys = std::vector<std::string>;
 
 Case case_with(const Keys& keys) {
-    return read_case_text("[surface]\nsites = 16\nrms = 1.0\n", "test.toml", keys);
+    std::string text = "[surface]\nsites = 16\nrms = 1.0\n";
+    if (std::find(keys.begin(), keys.end(), "surface.kind=atoms") != keys.end())
+        text = "[surface]\nsites = 16\n";
+    return read_case_text(text, "test.toml", keys);
 }
 
 /// What an effect leaves in a result: a phase of its steps, a data set, or a number.
@@ -34,43 +41,62 @@ bool leaves(const test::Written& run, const std::string& what) {
 
 } // namespace
 
-TEST(Effects, EachIsSwitchedByItsKey) {
+TEST(Effects, WhatAKeySwitchesNamesIt) {
+    // Every effect is switched by a key of this list, and then says so.
+    const io::Scratch scratch;
+    io::AtomsFile layer{{"Au"}, {}, 41.6, 41.6, {}, {}, {}};
+    for (int i = 0; i < 256; ++i) {
+        layer.type.push_back(0);
+        layer.x.push_back(2.6 * (i % 16));
+        layer.y.push_back(2.6 * (i / 16));
+        layer.z.push_back(0.0);
+    }
+    const std::string atoms = write_atoms(scratch / "atoms.h5", layer);
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
                         "output.checkpoint=none", "block.thickness=16"};
     const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"};
     struct Row {
-        Effect Effects::*effect;
         const Keys& with;
-        const char *on, *off;
+        const char* key;
     };
-    for (const Row& row :
-         {Row{&Effects::dynamic, plain, "", "drive.path=relax"},
-          {&Effects::lateral, rest, "", "interface.frictionless=true"},
-          {&Effects::damping, plain, "", "drive.damping=0"},
-          {&Effects::temperature, plain, "drive.temperature=100", ""},
-          {&Effects::finite_strain, plain, "block.strain=finite", ""},
-          {&Effects::coarse_levels, plain, "block.model=multiscale", ""},
-          {&Effects::skipping, rest, "", "interface.kind=wall"},
-          {&Effects::sliding, plain, "drive.path=[\"approach\", \"slide x 1 Å\"]", ""},
-          {&Effects::tail, plain, "interface.tail=true", ""},
-          {&Effects::curvature, plain, "surface.radius=200", ""},
-          {&Effects::branches, relaxing, "block.prony=[[2.0, \"1 ns\"]]", ""},
-          {&Effects::layers, relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]", ""},
-          {&Effects::surface_stress, relaxing, "block.surface_stress=0.1", ""},
-          {&Effects::relaxation, plain, "", "block.strain=finite"},
-          {&Effects::observation, plain, "", "drive.path=relax"},
-          {&Effects::maps, plain, "output.fields=[\"pull-off\"]", ""},
-          {&Effects::maps, plain, "output.fields=[\"after-approach:3\"]", ""},
-          {&Effects::trajectory, plain, "output.trajectory=10", ""},
-          {&Effects::checkpoints, plain, "output.checkpoint=1", ""}}) {
-        for (const bool on : {true, false}) {
-            Keys keys = row.with;
-            if (const char* key = on ? row.on : row.off; *key) keys.emplace_back(key);
-            const Effect effect = case_with(keys).effects.*row.effect;
-            EXPECT_EQ(effect.on, on) << row.on << row.off;
-            EXPECT_FALSE(effect.why.empty()) << row.on << row.off;
+    std::set<std::string> switched;
+    for (const Row& row : {Row{plain, "drive.path=relax"},
+                           {plain, "drive.damping=0"},
+                           {plain, "drive.temperature=100"},
+                           {plain, "block.strain=finite"},
+                           {plain, "block.model=multiscale"},
+                           {plain, "drive.path=[\"approach\", \"slide x 1 Å\"]"},
+                           {plain, "interface.tail=true"},
+                           {plain, "surface.radius=200"},
+                           {plain, "output.fields=[\"pull-off\"]"},
+                           {plain, "output.fields=[\"after-approach:3\"]"},
+                           {plain, "output.trajectory=10"},
+                           {plain, "output.checkpoint=1"},
+                           {plain, "numerics.device=emulated"},
+                           {rest, "interface.frictionless=true"},
+                           {rest, "interface.kind=wall"},
+                           {relaxing, "block.prony=[[2.0, \"1 ns\"]]"},
+                           {relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]"},
+                           {relaxing, "block.surface_stress=0.1"}}) {
+        Keys keys = row.with;
+        keys.emplace_back(row.key);
+        const std::string text = row.key, key = text.substr(0, text.find('='));
+        const auto without = case_with(row.with).effects.list(),
+                   with = case_with(keys).effects.list();
+        for (std::size_t i = 0; i < with.size(); ++i) {
+            const auto& [name, effect] = with[i];
+            EXPECT_FALSE(effect.why.empty()) << name;
+            if (effect.on == without[i].second.on) continue;
+            switched.insert(name);
+            EXPECT_NE(effect.why.find(key), std::string::npos)
+                << text << " switches " << name << ", and it says: " << effect.why;
         }
     }
+    for (const auto& [name, effect] : case_with({}).effects.list())
+        EXPECT_TRUE(switched.contains(name) || std::string(name) == "theory") << name;
+    const Effect theory = case_with({"surface.kind=atoms", "surface.file=" + atoms}).effects.theory;
+    EXPECT_FALSE(theory.on);
+    EXPECT_NE(theory.why.find("surface.kind"), std::string::npos);
 }
 
 TEST(Effects, OffMakesNoCall) {

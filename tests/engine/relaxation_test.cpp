@@ -79,7 +79,7 @@ TEST(Relaxation, GivesUpWhereNothingGetsBetter) {
 
 TEST(Relaxation, WhatIsNoNumberIsNoEquilibrium) {
     Contact c;
-    state_of(c.block)[2].field->view()(3, 3, 0) = std::numeric_limits<double>::quiet_NaN();
+    state_to_restore(c.block)[2].field->view()(3, 3, 0) = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(c.relax_with(1e-2).converged);
 }
 

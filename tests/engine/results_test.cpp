@@ -257,8 +257,10 @@ TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
         const io::Scratch scratch;
         Recorder recorder(io::Directory(scratch / ""), surface, Communicator(), {&sites, &step}, {},
                           [](io::Hdf5File&) {});
-        for (int n = 0; n < 400 && !path->ended(); ++n)
-            if (path->advance(recorder.wish_of_row()) == Path::Made::step) recorder.row(*path);
+        for (int n = 0; n < 400 && path->concluded() == 0; ++n) {
+            path->advance(recorder.wish_of_row());
+            if (path->has_stepped()) recorder.row(*path);
+        }
         recorder.write();
         auto series = recorder.series();
         ASSERT_GT(recorder.rows(), 20u);

@@ -45,7 +45,7 @@ TEST(Drive, AnApproachEndsWhereTheForceComesToItsLoad) {
             options.load_force = c.load;
             Drive drive(options);
             EXPECT_EQ(drive.now().kind, Segment::approach);
-            EXPECT_EQ(drive.velocity(0.0), -5e-5);
+            EXPECT_EQ(drive.motion(0.0).z, -5e-5);
             double time = 0.0;
             for (const double& force : c.forces)
                 EXPECT_EQ(drive.observe({time++, force, 0.0, out}), &force == &c.forces.back())
@@ -67,15 +67,15 @@ TEST(Drive, TurnsSmoothly) {
     Drive drive(both_ways());
     drive.observe({100.0, -1.0, 0.0, false});
     drive.observe({200.0, 1.0, 0.0, false});
-    EXPECT_NEAR(drive.velocity(200.0), -5e-5, 1e-18);
-    EXPECT_NEAR(drive.velocity(700.0), 0.0, 1e-18) << "half way through the ramp";
-    EXPECT_EQ(drive.velocity(1200.0), 5e-5);
-    EXPECT_EQ(drive.velocity(1e9), 5e-5);
+    EXPECT_NEAR(drive.motion(200.0).z, -5e-5, 1e-18);
+    EXPECT_NEAR(drive.motion(700.0).z, 0.0, 1e-18) << "half way through the ramp";
+    EXPECT_EQ(drive.motion(1200.0).z, 5e-5);
+    EXPECT_EQ(drive.motion(1e9).z, 5e-5);
     // Monotonic, and its steepest change is that of a half cosine, pi/2 times the mean: no sudden
     // kick.
-    double before = drive.velocity(200.0);
+    double before = drive.motion(200.0).z;
     for (double t = 201.0; t <= 1200.0; t += 1.0) {
-        const double now = drive.velocity(t);
+        const double now = drive.motion(t).z;
         EXPECT_GE(now, before);
         EXPECT_LE(now - before, 1.0001 * 1e-4 / 1000.0 * 1.5707963268);
         before = now;
@@ -83,8 +83,8 @@ TEST(Drive, TurnsSmoothly) {
     // It starts and ends without acceleration: a hundredth of the ramp changes the velocity by
     // sin^2(pi / 200) of the whole change.
     const double little = 1e-4 * std::pow(std::sin(std::numbers::pi / 200.0), 2);
-    EXPECT_NEAR(drive.velocity(210.0) - drive.velocity(200.0), little, 1e-4 * little);
-    EXPECT_NEAR(drive.velocity(1200.0) - drive.velocity(1190.0), little, 1e-4 * little);
+    EXPECT_NEAR(drive.motion(210.0).z - drive.motion(200.0).z, little, 1e-4 * little);
+    EXPECT_NEAR(drive.motion(1200.0).z - drive.motion(1190.0).z, little, 1e-4 * little);
 }
 
 TEST(Drive, PullOffEndsOutOfReach) {
@@ -116,15 +116,15 @@ TEST(Drive, SegmentsThatWereNotAskedForAreLeftOut) {
     options.path = {Segment{Segment::pull_off}};
     Drive out(options);
     EXPECT_EQ(out.now().kind, Segment::pull_off);
-    EXPECT_EQ(out.velocity(0.0), 0.0) << "from rest";
-    EXPECT_NEAR(out.velocity(500.0), 2.5e-5, 1e-18);
-    EXPECT_EQ(out.velocity(1000.0), 5e-5);
+    EXPECT_EQ(out.motion(0.0).z, 0.0) << "from rest";
+    EXPECT_NEAR(out.motion(500.0).z, 2.5e-5, 1e-18);
+    EXPECT_EQ(out.motion(1000.0).z, 5e-5);
 }
 
 TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
     // First step, nothing displaced yet: N^2 times the force of one site over a flat substrate.
     const SimulationOptions options = test::free_contact(10.0, 0);
-    Simulation simulation = test::simulation(options, test::flat_surface(8));
+    test::Driven simulation = test::simulation(options, test::flat_surface(8));
     for (double gap : {3.0, 3.6, 5.0, 13.0}) {
         simulation.start(gap);
         const StepRecord& now = simulation.step(true);
@@ -144,17 +144,17 @@ TEST(Simulation, ASecondStartLeavesNothingOfTheFirst) {
     options.damping = 1e-3;
     options.interface.slides = true;
     options.temperature = 100.0;
-    const auto numbers = [](const Simulation& simulation) {
+    const auto numbers = [](const test::Driven& simulation) {
         CollectNumbers collect;
         collect("simulation", simulation);
         return collect.numbers;
     };
-    const auto steps = [](Simulation& simulation, int count) {
+    const auto steps = [](test::Driven& simulation, int count) {
         for (int n = 0; n < count; ++n)
             simulation.step(n % 7 == 0);
     };
-    Simulation again = test::simulation(options, test::flat_surface(8)),
-               once = test::simulation(options, test::flat_surface(8));
+    test::Driven again = test::simulation(options, test::flat_surface(8)),
+                 once = test::simulation(options, test::flat_surface(8));
     again.start(5.0);
     steps(again, 300);
     const StateNumbers before = numbers(again);
@@ -162,7 +162,7 @@ TEST(Simulation, ASecondStartLeavesNothingOfTheFirst) {
     again.start(3.5);
     once.start(3.5);
     EXPECT_EQ(numbers(again), numbers(once));
-    for (Simulation* simulation : {&again, &once})
+    for (test::Driven* simulation : {&again, &once})
         steps(*simulation, 50);
     EXPECT_EQ(numbers(again), numbers(once));
     EXPECT_NE(once.now().work, 0.0);
@@ -173,7 +173,7 @@ TEST(Simulation, NothingHappensOutOfReach) {
     SimulationOptions options = test::free_contact(10.0);
     options.drive = both_ways();
     options.damping = 1e-3; // against a medium that moves along: no drag
-    Simulation simulation = test::simulation(options, test::flat_surface(8));
+    test::Driven simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(20.0);
     for (int n = 0; n < 1000; ++n)
         simulation.step(true);
@@ -192,7 +192,7 @@ TEST(Simulation, TheTopMovesByTheIntegralOfItsVelocity) {
     options.drive = both_ways();
     options.drive.path = {Segment{Segment::pull_off}};
     options.drive.ramp = 40 * options.dt;
-    Simulation simulation = test::simulation(options, test::flat_surface(8));
+    test::Driven simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(20.0);
     const double v = options.drive.velocity;
     for (int n = 0; n < 41; ++n)

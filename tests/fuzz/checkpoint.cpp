@@ -28,7 +28,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
         const ProcessGrid grid(1, 0, 4, 1);
         Field<double> field(grid.tile(0), 2);
         const auto arrays = [&](const StateNumbers&) {
-            return std::vector<StateArray>{{"/level0/u_x", 0, &field, 2}};
+            return std::vector<RestoredArray>{{"/level0/u_x", 0, &field, 2}};
         };
         read_checkpoint(file.name(), Communicator(), grid, arrays, "scene");
     });

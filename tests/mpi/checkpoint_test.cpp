@@ -39,19 +39,19 @@ SimulationOptions options() {
     return o;
 }
 
-Simulation make(const Communicator& ranks) {
-    return Simulation(options(), test::reference_surface("c3_N32_T32_rms1.5"), ranks,
-                      test::grid_for(options().block, ranks));
+test::Driven make(const Communicator& ranks) {
+    return test::Driven(options(), test::reference_surface("c3_N32_T32_rms1.5"), ranks,
+                        test::grid_for(options().block, ranks));
 }
 
-void advance(Simulation& s, int steps) { test::Trace().follow(s, steps); }
+void advance(test::Driven& s, int steps) { test::Trace().follow(s, steps); }
 
 /// All that must not depend on the interruption, as one number.
-std::uint64_t trace(Simulation& s) {
+std::uint64_t trace(test::Driven& s) {
     std::uint64_t hash = test::fingerprint(s.block());
     hash = test::mix(test::mix(hash, s.step(true)), s.balance());
-    for (double value : {static_cast<double>(s.drive().now().kind), s.drive().velocity(s.time()),
-                         s.drive().slide_velocity(1, s.time())})
+    for (double value : {static_cast<double>(s.drive().now().kind), s.drive().motion(s.time()).z,
+                         s.drive().motion(s.time()).slide[1]})
         hash = test::mix(hash, value);
     return hash;
 }
@@ -60,11 +60,11 @@ constexpr int first_part = 170, second_part = 80; // cut while the drive turns r
 
 std::uint64_t uninterrupted() {
     return test::from_root([] {
-        Simulation s = make(Communicator());
+        test::Driven s = make(Communicator());
         s.start(start_height);
         advance(s, first_part);
         EXPECT_EQ(s.drive().now().kind, Segment::slide);
-        EXPECT_LT(std::abs(s.drive().velocity(s.time())), options().drive.velocity)
+        EXPECT_LT(std::abs(s.drive().motion(s.time()).z), options().drive.velocity)
             << "in the turn";
         advance(s, second_part);
         EXPECT_GT(s.now().in_contact, 0);
@@ -77,7 +77,7 @@ std::uint64_t uninterrupted() {
 TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
     const std::uint64_t expected = uninterrupted();
     const test::SharedScratch scratch("many_to_one");
-    Simulation before = make(world());
+    test::Driven before = make(world());
     before.start(start_height);
     advance(before, first_part);
     CollectNumbers more;
@@ -89,7 +89,7 @@ TEST(Checkpoint, WrittenByAllRanksAndTakenUpByOne) {
     test::write_checkpoint(scratch.file, before, more, "scene A");
     world().barrier();
     if (world().root()) {
-        Simulation after = make(Communicator());
+        test::Driven after = make(Communicator());
         const StateNumbers numbers = test::read_checkpoint(scratch.file, after, "scene A");
         EXPECT_EQ(std::get<std::int64_t>(numbers.at("rows")), rows);
         EXPECT_EQ(std::get<double>(numbers.at("binding")), binding);
@@ -108,13 +108,13 @@ TEST(Checkpoint, WrittenByOneAndTakenUpByAllRanks) {
     const std::uint64_t expected = uninterrupted();
     const test::SharedScratch scratch("one_to_many");
     if (world().root()) {
-        Simulation before = make(Communicator());
+        test::Driven before = make(Communicator());
         before.start(start_height);
         advance(before, first_part);
         test::write_checkpoint(scratch.file, before, {}, "scene A");
     }
     world().barrier();
-    Simulation after = make(world());
+    test::Driven after = make(world());
     advance(after, 3); // whatever it did before must be forgotten
     EXPECT_FALSE(test::read_checkpoint(scratch.file, after, "scene A").contains("rows"));
     EXPECT_EQ(after.steps(), first_part);
@@ -128,15 +128,15 @@ namespace {
 void goes_on(const SimulationOptions& o, const char* name) {
     const test::SharedScratch scratch(name);
     const auto made = [&] {
-        return Simulation(o, test::reference_surface("c3_N32_T32_rms1.5"), world(),
-                          test::grid_for(o.block, world()));
+        return test::Driven(o, test::reference_surface("c3_N32_T32_rms1.5"), world(),
+                            test::grid_for(o.block, world()));
     };
-    Simulation before = made();
+    test::Driven before = made();
     before.start(start_height);
     advance(before, first_part);
     test::write_checkpoint(scratch.file, before, {}, "scene A");
     world().barrier();
-    Simulation after = made();
+    test::Driven after = made();
     test::read_checkpoint(scratch.file, after, "scene A");
     advance(before, second_part);
     advance(after, second_part);
@@ -154,7 +154,7 @@ TEST(Checkpoint, AtFiniteStrain) {
 
 TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {
     const test::SharedScratch scratch("other_scene");
-    Simulation s = make(world());
+    test::Driven s = make(world());
     s.start(start_height);
     test::write_checkpoint(scratch.file, s, {},
                            R"({"surface":{"rms":1,"seed":1},"drive":{"dt":10,"load":1}})");
@@ -173,7 +173,7 @@ TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {
 
 TEST(Checkpoint, WhatIsNoneIsRefused) {
     const test::SharedScratch scratch("no_checkpoint");
-    Simulation s = make(world());
+    test::Driven s = make(world());
     const auto read = [&] { test::read_checkpoint(scratch.file, s, "scene A"); };
     for (const char* content : {"", "not HDF5"}) {
         if (world().root() && *content) std::ofstream(scratch.file) << content;

@@ -68,17 +68,17 @@ SimulationOptions options_of(const Variant& c, bool on_device) {
     return options;
 }
 
-Simulation make(const Variant& c, const Communicator& ranks, bool on_device) {
+test::Driven make(const Variant& c, const Communicator& ranks, bool on_device) {
     const SimulationOptions options = options_of(c, on_device);
-    return Simulation(options, test::reference_surface("c3_N32_T32_rms1.5"), ranks,
-                      test::grid_for(options.block, ranks));
+    return test::Driven(options, test::reference_surface("c3_N32_T32_rms1.5"), ranks,
+                        test::grid_for(options.block, ranks));
 }
 
 constexpr double height = 6.0;
 constexpr int steps = 200;
 
 Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count = steps) {
-    Simulation s = make(c, ranks, on_device);
+    test::Driven s = make(c, ranks, on_device);
     s.start(height);
     Trace trace;
     trace.follow(s, count);
@@ -128,14 +128,14 @@ TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
         const test::SharedScratch scratch("device_test");
         Trace trace;
         {
-            Simulation s = make(c, world(), device_first);
+            test::Driven s = make(c, world(), device_first);
             s.start(height);
             trace.follow(s, steps / 2);
             test::write_checkpoint(scratch.file, s, {}, "");
             Trace beyond; // the state goes on after it has been read
             beyond.follow(s, 10);
         }
-        Simulation s = make(c, world(), !device_first);
+        test::Driven s = make(c, world(), !device_first);
         test::read_checkpoint(scratch.file, s, "");
         trace.follow(s, steps - steps / 2);
         trace.conclude(s);
@@ -146,7 +146,7 @@ TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
 TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
     std::array<Trace, 2> traces;
     for (const bool on_device : {false, true}) {
-        Simulation s = make(cases[0], world(), on_device);
+        test::Driven s = make(cases[0], world(), on_device);
         Trace& trace = traces[on_device];
         s.start(height);
         trace.follow(s, 15);
@@ -177,7 +177,7 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
         EXPECT_NE(text.find("the allocation of its memory failed"), std::string::npos) << text;
         EXPECT_NE(text.find("out of memory"), std::string::npos) << text;
     }
-    Simulation s = make(cases[0], world(), true);
+    test::Driven s = make(cases[0], world(), true);
     s.start(height);
     Trace trace;
     trace.follow(s, 5);
@@ -190,7 +190,7 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
 TEST_F(OneDevice, NeverTouchesTheFieldsOfTheHost) {
     if (world().size() > 1) return;
     const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
-        Simulation s = make(c, Communicator(), true);
+        test::Driven s = make(c, Communicator(), true);
         s.start(height);
         Trace trace;
         trace.follow(s, 1);

@@ -105,7 +105,7 @@ struct Contact {
     }
     void read(const std::string& file, const Communicator& ranks) {
         const StateNumbers numbers = read_checkpoint(
-            file, ranks, grid, [&](const auto&) { return path.states(); }, "it");
+            file, ranks, grid, [&](const auto&) { return path.states_to_restore(); }, "it");
         RestoreNumbers restore(numbers);
         restore("path", path);
         path.resume();

@@ -91,7 +91,7 @@ SimulationOptions options_of(const Stack& stack) {
 Trace run(const Stack& stack, const Communicator& ranks) {
     const SimulationOptions options = options_of(stack);
     const Surface surface = surface_of(stack, "c3_N32_T32_rms1.5");
-    Simulation s(options, surface, ranks, test::grid_for(options.block, ranks));
+    test::Driven s(options, surface, ranks, test::grid_for(options.block, ranks));
     s.start(7.0);
     Trace trace;
     trace.follow(s, stack.slides ? 500 : 300);

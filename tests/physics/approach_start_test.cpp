@@ -86,7 +86,7 @@ TEST(ApproachStart, WorksAreThoseOfThePathFromOutOfReach) {
     const io::Scratch scratch;
     Solids c(rough + "[drive]\nvelocity = 10\ndamping = 0.2\ntimestep = 20\n");
     const io::Json result = test::run_scene(c.setup, scratch / "run");
-    Simulation s(c.setup.simulation, c.surface, c.ranks, c.grid);
+    test::Driven s(c.setup.simulation, c.surface, c.ranks, c.grid);
     s.start(c.interface.start_height());
     double turn = 0.0; // eV
     test::lead(s, [&](const StepRecord&, std::size_t segment, bool over) {

@@ -21,13 +21,13 @@ using namespace asperity;
 namespace {
 
 /// A small rough contact with its top held, released from a strained state.
-Simulation released(const SimulationOptions& options, double height = 4.5) {
-    Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
+test::Driven released(const SimulationOptions& options, double height = 4.5) {
+    test::Driven s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
     s.start(height);
     return s;
 }
 /// Energy at the whole step, eV.
-double energy_of_step(Simulation& s) {
+double energy_of_step(test::Driven& s) {
     const StepRecord& now = s.step(true);
     return now.interface_energy + now.elastic_energy + now.kinetic_energy;
 }
@@ -36,7 +36,7 @@ double energy_of_step(Simulation& s) {
 double energy_ripple(double dt, double duration, bool finite_strain) {
     SimulationOptions options = test::free_contact(dt);
     options.block.finite_strain = finite_strain;
-    Simulation s = released(options);
+    test::Driven s = released(options);
     double least = 1e300, most = -1e300;
     for (int n = 0; n * dt < duration; ++n) {
         const double energy = energy_of_step(s);
@@ -90,7 +90,7 @@ TEST(Verlet, ReversedVelocitiesRetraceThePath) {
                 SimulationOptions options = test::free_contact(10.0, layers);
                 options.block.finite_strain = finite;
                 options.interface.mixed = mixed;
-                Simulation s = released(options);
+                test::Driven s = released(options);
                 Block& block = s.block_to_write();
                 const auto positions = [&] {
                     std::vector<double> all;
@@ -131,7 +131,7 @@ TEST(EnergyBalance, ADrivenDampedRunBalances) {
         SimulationOptions options = test::free_contact(dt);
         options.drive.velocity = 5e-4; // 50 m/s
         options.damping = 2e-3;
-        Simulation s = released(options, 8.0);
+        test::Driven s = released(options, 8.0);
         double worst = 0.0;
         while (s.time() < 12000.0)
             worst = std::max(worst, std::abs(s.step(true).residual));
@@ -152,7 +152,7 @@ TEST(EnergyBalance, DampingAloneTakesWhatTheDissipationSays) {
     const auto error = [](double dt) {
         SimulationOptions options = test::free_contact(dt);
         options.damping = 1e-3;
-        Simulation s = released(options);
+        test::Driven s = released(options);
         const double before = energy_of_step(s);
         double after = before;
         while (s.time() < 15000.0)
@@ -178,7 +178,7 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     SimulationOptions options = test::free_contact(20.0);
     options.damping = 5e-3; // 1/fs: memory of 0.2 ps
     options.temperature = 300.0;
-    Simulation simulation = test::simulation(options, test::flat_surface(8));
+    test::Driven simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(30.0);
     const auto& levels = simulation.block().levels();
     ASSERT_EQ(levels.size(), 2u);
@@ -273,7 +273,7 @@ SimulationOptions warm_block(double dt, double damping, double from, double temp
 }
 
 /// The largest error of the energy balance over some steps.
-double largest_error(Simulation& s, int steps) {
+double largest_error(test::Driven& s, int steps) {
     double worst = 0.0;
     for (int n = 0; n < steps; ++n)
         worst = std::max(worst, std::abs(s.step(true).residual));
@@ -294,7 +294,7 @@ TEST(Temperature, TheBalanceOfSpringsIsExactFromTheFirstStep) {
                     options.drive.velocity = 5e-4;
                     options.drive.path = {{Segment::pull_off, 0.0, 0, "pull-off"}};
                     options.drive.ramp = 500.0;
-                    Simulation s = test::simulation(options, test::flat_surface(8));
+                    test::Driven s = test::simulation(options, test::flat_surface(8));
                     s.start(30.0);
                     EXPECT_LT(largest_error(s, 200), 1e-10)
                         << dt << " fs, " << damping << " / fs from " << from;
@@ -307,11 +307,11 @@ TEST(Temperature, InContactTheBalanceErrsAsTheSquareOfTheStep) {
     // block that is as warm and has no damping errs as much.
     const auto errors = [](double dt) {
         SimulationOptions options = warm_block(dt, 1e-3, 0.0, 300.0, 1.5, 1.0);
-        Simulation warm = test::simulation(options, test::flat_surface(8));
+        test::Driven warm = test::simulation(options, test::flat_surface(8));
         warm.start(3.2);
         const double with = largest_error(warm, static_cast<int>(8000.0 / dt));
         options.temperature = options.damping = 0.0;
-        Simulation alone = test::simulation(options, test::flat_surface(8));
+        test::Driven alone = test::simulation(options, test::flat_surface(8));
         alone.start(3.2);
         Block& to = alone.block_to_write();
         test::each_node(warm.block(), [&](const Block::Level& level, int x, int y, int z) {
@@ -334,7 +334,7 @@ TEST(Temperature, InContactTheBalanceErrsAsTheSquareOfTheStep) {
 TEST(Temperature, AtRestNoHeatIsLostOnAverage) {
     // In contact and in equilibrium the net heat fluctuates with the energy and does not grow: its
     // rate vanishes within its error, and the error is a small part of what goes to and fro.
-    Simulation s =
+    test::Driven s =
         test::simulation(warm_block(10.0, 1e-3, 0.0, 300.0, 1.0, 1.0), test::flat_surface(8));
     s.start(3.2);
     for (int n = 0; n < 2000; ++n)
@@ -361,7 +361,7 @@ TEST(Temperature, OnlyTheDampedDepthIsDriven) {
     options.damping = 2e-3;
     options.damping_from = 0.5;
     options.temperature = 300.0;
-    Simulation simulation = test::simulation(options, test::flat_surface(8));
+    test::Driven simulation = test::simulation(options, test::flat_surface(8));
     simulation.start(30.0);
     simulation.step(false);
     test::each_node(simulation.block(), [](const Block::Level& l, int x, int y, int z) {
@@ -377,7 +377,7 @@ TEST(Temperature, AnotherSeedIsAnotherNoise) {
         options.damping = 2e-3;
         options.temperature = 300.0;
         options.seed = seed;
-        Simulation s = released(options);
+        test::Driven s = released(options);
         for (int n = 0; n < 3; ++n)
             s.step(false);
         return s.balance().heat;
@@ -393,8 +393,8 @@ TEST(Damping, ActsOnTheLayersItIsGivenAlone) {
     SimulationOptions with = without;
     with.damping = 5e-3;
     with.damping_from = 0.5;
-    Simulation plain = released(without), damped = released(with);
-    for (Simulation* s : {&plain, &damped}) {
+    test::Driven plain = released(without), damped = released(with);
+    for (test::Driven* s : {&plain, &damped}) {
         Block& block = s->block_to_write();
         auto& v = block.fields(block.levels().front()).v; // faster than the medium
         for (int z = 0; z < 8; ++z)
@@ -427,7 +427,7 @@ Approach approach_slowly(int layers, const Surface& surface) {
     options.drive.velocity = 1e-4;
     options.drive.path = {Segment{Segment::approach}};
     options.damping = 2e-3;
-    Simulation s = test::simulation(options, surface);
+    test::Driven s = test::simulation(options, surface);
     s.start(surface.statistics.highest + cutoff_of(options.interface.potential));
     test::lead(s, [](const StepRecord&, std::size_t, bool) {});
     const double area = std::pow(options.block.sites * options.block.spacing, 2);

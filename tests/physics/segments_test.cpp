@@ -243,7 +243,7 @@ TEST(SegmentsInTime, EndWhereTheyShouldAndCloseTheBalance) {
                     {Segment::hold, 300.0}, {Segment::slide, -0.7, 1}, {Segment::height, 30.0},
                     {Segment::pull_off}};
     const Surface surface = rough();
-    Simulation s(o, surface, Communicator(), test::serial_grid(o.block));
+    test::Driven s(o, surface, Communicator(), test::serial_grid(o.block));
     s.start(s.interface().start_height());
     double held_at = 0.0;
     std::size_t ended = 0;
@@ -259,7 +259,7 @@ TEST(SegmentsInTime, EndWhereTheyShouldAndCloseTheBalance) {
             break;
         case 2: // the step that ends it stands a step further than what it saw
             EXPECT_NEAR(now.slide[0], 1.5, 1e-6);
-            EXPECT_EQ(s.drive().velocity(now.time + 1e5), 0.0);
+            EXPECT_EQ(s.drive().motion(now.time + 1e5).z, 0.0);
             break;
         case 3:
             EXPECT_NEAR(now.time, held_at + 300.0, 2.0 * o.dt);
@@ -290,7 +290,7 @@ TEST(SegmentsInTime, LoadsFromOutOfReachAreReachedThroughAttraction) {
     for (double pressure : {-200.0, 0.0, 100.0, -1e5}) {
         const double load = pressure * units::megapascal * area;
         o.drive.path = {{Segment::approach}, {Segment::height, 30.0}, {Segment::load, load}};
-        Simulation s(o, surface, Communicator(), test::serial_grid(o.block));
+        test::Driven s(o, surface, Communicator(), test::serial_grid(o.block));
         s.start(s.interface().start_height());
         double strongest = 0.0;
         const auto lead = [&] {
@@ -341,7 +341,7 @@ TEST(SegmentsInTime, ASlowSlideFollowsTheEquilibria) {
                         {Segment::height, pressed},
                         {Segment::hold, 15000.0},
                         {Segment::slide, 0.5, 0}};
-        Simulation s(o, c.surface, Communicator(), c.grid);
+        test::Driven s(o, c.surface, Communicator(), c.grid);
         s.start(c.interface.start_height());
         double largest = 0.0;
         test::lead(

@@ -86,7 +86,7 @@ std::vector<double> path(const Block16& block, const InterfaceOptions& interface
     options.interface = interface;
     options.drive.velocity = 1e-3;
     options.damping = 5e-4;
-    Simulation s = test::simulation(options, surface);
+    test::Driven s = test::simulation(options, surface);
     s.start(surface.statistics.highest + 3.3);
     std::vector<double> series;
     for (int n = 0; n < 160; ++n) {
@@ -201,7 +201,7 @@ TEST(Momentum, ChangesByTheForcesAlone) {
                 options.interface = interface_with(InterfaceMethod::automatic, tail);
                 options.drive.velocity = 5e-4;
                 options.damping = damping;
-                Simulation s =
+                test::Driven s =
                     test::simulation(options, test::reference_surface("c2_N16_T8_rms1.5"));
                 s.start(6.0);
                 double mass = 0.0;

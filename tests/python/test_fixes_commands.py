@@ -101,6 +101,11 @@ def bad(*words, code=None, **given):
     return said
 
 
+def told(said):
+    """The text of an error that is told to programs."""
+    return json.loads(said.splitlines()[-1])["error"]["text"]
+
+
 def good(*words, **given):
     found, said = ask(*words, **given)
     assert found == 0, f"{words}\n{said}"
@@ -152,15 +157,15 @@ COMMANDS = [
     ("more than one scene(?s:.*)for example: asperity run", lambda: bad("check", "s.toml", "t.toml"), lambda: good("check", "s.toml")),
     ("give one of them", lambda: bad(*run("--restart", "--resume", "auto", "--out", "part")), lambda: good(*run("--restart", "--out", "part"))),
     ("for example 23h50m, (45m) or 90s", lambda: bad(*run("--wall-limit", "soon")), lambda limit: good(*run("--wall-limit", limit, "--out", "o"))),
-    ("choices are auto, bar, (lines) and off(?s:.*)give one", lambda: bad(*run("--progress", "loud")), lambda mode: good(*run("--progress", mode, "--out", "o"))),
+    ("choices are auto, bar, (lines), json and off(?s:.*)give one", lambda: bad(*run("--progress", "loud")), lambda mode: good(*run("--progress", mode, "--out", "o"))),
     ("--resume (auto) takes the checkpoint", lambda: bad(*run("--resume", "gone.h5", "--out", "part")), lambda word: good(*run("--resume", word, "--out", "part", "--set", "drive.max_steps=none"))),
     ("did you mean `asperity (.*)`", lambda: bad("chekc", "s.toml"), lambda word: good(word, "s.toml")),
     ("asperity (--help)", lambda: bad("qqqqqqqqqqqq"), lambda word: good(word)),
     ("or asperity COMMAND --help", lambda: bad("check", "s.toml", "--bogus"), lambda: good("check", "--help")),
     ("name another: asperity init (NAME.toml)", lambda: bad("init", "s.toml"), lambda name: good("init", name)),
     ("name another place", lambda: bad("init", "gone/s.toml"), lambda: good("init", "x.toml")),
-    (r"write one JSON array a line: (\[.*\])", lambda: bad("theory-points", "t.toml", "--points", blank("p")), lambda line: (Path("p").write_text(line), good("theory-points", "t.toml", "--points", "p"))),
-    ("check the path and its permissions", lambda: bad("theory-points", "t.toml", "--points", "gone"), lambda: (Path("p").write_text("[]\n"), good("theory-points", "t.toml", "--points", "p"))),
+    (r"write one JSON array a line: (\[.*\])", lambda: told(bad("theory-points", "t.toml", "--points", blank("p"))), lambda line: (Path("p").write_text(line), good("theory-points", "t.toml", "--points", "p"))),
+    ("check the path and its permissions", lambda: told(bad("theory-points", "t.toml", "--points", "gone")), lambda: (Path("p").write_text("[]\n"), good("theory-points", "t.toml", "--points", "p"))),
     ("take a larger height", lambda: bad(*run("--out", "o", "--set", "drive.mode=quasistatic", "drive.control=mean-height", "drive.path=height -1", scene="t.toml")),
      lambda: good(*run("--out", "p", "--set", "drive.mode=quasistatic", "drive.control=mean-height", "drive.path=height 4", scene="t.toml"))),
     ("take a smaller pull", lambda: bad(*run("--out", "o", "--set", "drive.load=-8000", scene="t.toml")), lambda: good(*run("--out", "p", "--set", "drive.load=-1", scene="t.toml"))),

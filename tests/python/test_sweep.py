@@ -135,7 +135,7 @@ def test_only_points_that_are_done_are_averaged(tmp_path):
     sweep.directory = tmp_path
     sweep.write()
     average = sweep.table.averages()
-    assert list(average["binding_energy"].count) == [2, 3, 0] and list(average["theory.persson.gamma_eff"].count) == [3, 3, 3]
+    assert list(average["binding_energy"].points) == [2, 3, 0] and list(average["theory.persson.gamma_eff"].points) == [3, 3, 3]
     assert average["binding_energy"].mean[0] == pytest.approx((10 + 17.875) / 2)  # the first and the third
     assert sweep.means["binding_energy.count"].tolist() == [2, 3, 0]
     rows = text_of(sweep.table)[1]
@@ -186,7 +186,7 @@ def test_a_table_knows_what_means_nothing():
     assert "state" not in heads and "JKR out" in heads and "theory" in heads
     assert np.isnan(table.column("no such column")).all()
     theory = asperity.Sweep("t", {}, flat.axes, flat.points).table  # the same names in a sweep of the theory alone
-    assert (theory.values("theory.persson.gamma_eff") == theory["theory.persson.gamma_eff"]).all()
+    assert (theory.column("theory.persson.gamma_eff") == theory["theory.persson.gamma_eff"]).all()
 
 
 def test_plots_of_a_sweep_read_back_are_the_same(tmp_path):
@@ -617,7 +617,7 @@ def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
     given = {"surface.rms": [0.2, 0.4], "surface.seed": [1, 2]}
     sweep = asperity.sweep({**STATE, "theory": {"spectrum": "realised"}}, given, out="realised", jobs=2)
     assert {p["set"]["surface.seed"] for p in sweep.theory} == {1, 2} and len(sweep.theory) == 62
-    points, curve = (t.average(t.values("theory.persson.gamma_eff_ratio")) for t in (sweep.table, sweep.curves))
+    points, curve = (t.average(t.column("theory.persson.gamma_eff_ratio")) for t in (sweep.table, sweep.curves))
     assert points.deviation[1] > 1e-5  # the seeds are told apart
     assert curve.mean[[0, -1]] == pytest.approx(points.mean, rel=1e-12)
     assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 31

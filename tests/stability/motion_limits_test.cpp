@@ -25,7 +25,7 @@ const bool at_length = std::getenv("ASPERITY_LONG") != nullptr;
 using test::free_contact;
 
 /// Worst energy residual of some observed steps; infinite where something is no number.
-double worst_residual(Simulation& s, int steps) {
+double worst_residual(test::Driven& s, int steps) {
     double worst = 0.0;
     for (int n = 0; n < steps; ++n) {
         s.step(true);
@@ -59,7 +59,7 @@ TEST(Overlap, MotionKeepsItsEnergyOrSaysSo) {
                 SimulationOptions options = free_contact(dt);
                 options.block = c.block;
                 options.block.finite_strain = finite;
-                Simulation s = test::simulation(options, c.surface);
+                test::Driven s = test::simulation(options, c.surface);
                 s.start(c.height);
                 return worst_residual(s, steps);
             };
@@ -80,7 +80,7 @@ TEST(TimeStep, TheLimitIsSharp) {
         options.interface = test::paper_interface();
         options.drive.velocity = 0.0;
         options.dt = dt;
-        Simulation s = test::simulation(options, test::flat_surface(8));
+        test::Driven s = test::simulation(options, test::flat_surface(8));
         s.start(40.0); // out of reach
         Block& moving = s.block_to_write();
         test::each_node(moving, [&](const Block::Level& level, int x, int y, int z) {
@@ -133,7 +133,7 @@ struct Drift {
 Drift drift_over(int steps, bool mixed) {
     SimulationOptions options = free_contact(10.0);
     options.interface.mixed = mixed;
-    Simulation s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
+    test::Driven s = test::simulation(options, test::reference_surface("n8_b_rms1.0"));
     s.start(4.5);
     std::array<double, 10> mean{};
     double least = 1e300, most = -1e300, kinetic = 0.0;
@@ -174,13 +174,13 @@ TEST(Levels, OneAndTen) {
     s.interface = test::paper_interface();
     s.drive.velocity = 5e-4;
     s.dt = 10.0;
-    Simulation ten = test::simulation(s, test::flat_surface(sites));
+    test::Driven ten = test::simulation(s, test::flat_surface(sites));
     ten.start(3.3);
     const double residual = worst_residual(ten, at_length ? 500 : 30);
     EXPECT_LT(residual, 1e-3);
     s.block = test::paper_block(16, 16, 0);
     ASSERT_EQ(level_shapes(s.block).size(), 1u);
-    Simulation one = test::simulation(s, test::flat_surface(16));
+    test::Driven one = test::simulation(s, test::flat_surface(16));
     one.start(3.3);
     EXPECT_LT(worst_residual(one, 300), 1e-3);
 }

@@ -56,8 +56,8 @@ SimulationOptions free_contact(double dt, int layers_per_level) {
     return options;
 }
 
-Simulation simulation(const SimulationOptions& options, const Surface& surface) {
-    return Simulation(options, surface, Communicator(), serial_grid(options.block));
+Driven simulation(const SimulationOptions& options, const Surface& surface) {
+    return Driven(options, surface, Communicator(), serial_grid(options.block));
 }
 
 namespace {
@@ -202,7 +202,7 @@ std::uint64_t mix(std::uint64_t hash, const EnergyBalance& b) {
     return hash;
 }
 
-void Trace::follow(Simulation& s, int steps) {
+void Trace::follow(Driven& s, int steps) {
     for (int n = 0; n < steps; ++n) {
         const StepRecord& now = s.step(s.steps() % 10 == 0);
         s.drive().observe({now.time, now.force, 0.0, false}); // turns round on contact
@@ -211,7 +211,7 @@ void Trace::follow(Simulation& s, int steps) {
         if (now.observed) in_contact = std::max(in_contact, now.in_contact);
     }
 }
-void Trace::conclude(const Simulation& s) {
+void Trace::conclude(const Driven& s) {
     records = mix(records, s.balance());
     state = fingerprint(s.block());
 }

@@ -4,9 +4,9 @@
 // The paper's material and small scenes, in the engine's units, without going through a scene file.
 #pragma once
 
-#include "engine/dynamics/simulation.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "engine/waves/spectral_block.hpp"
+#include "support/driven.hpp"
 
 #include <algorithm>
 #include <array>
@@ -36,10 +36,10 @@ std::array<PairPotential, 3> potentials(double cutoff = 13.12);
 /// A contact of 8 sites with nothing driven and nothing damped.
 SimulationOptions free_contact(double dt, int layers_per_level = 2);
 /// On one rank.
-Simulation simulation(const SimulationOptions& options, const Surface& surface);
+Driven simulation(const SimulationOptions& options, const Surface& surface);
 /// Steps to the end of its path; look(record, segment, whether that ended with it) after each.
 template <class Look>
-void lead(Simulation& s, const Look& look, bool observe = true) {
+void lead(Driven& s, const Look& look, bool observe = true) {
     double strongest = 0.0;
     while (!s.drive().done()) {
         const std::size_t segment = s.drive().segment();
@@ -140,9 +140,9 @@ struct Trace {
     long long in_contact = 0;  ///< at most
     double force = 0.0;        ///< of the last step
     /// So many steps, of which every tenth is observed; the drive sees their forces.
-    void follow(Simulation& s, int steps);
+    void follow(Driven& s, int steps);
     /// The balance and the state. Collective.
-    void conclude(const Simulation& s);
+    void conclude(const Driven& s);
     bool operator==(const Trace&) const = default;
 };
 

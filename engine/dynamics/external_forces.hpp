@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Forces from outside on the sites of the lowest layer, beside those of the substrate, and their
+// work. Half of the work between two steps is done with the forces and velocities of each: F(n)
+// acts with v(n-1/2) and with v(n+1/2).
+#pragma once
+
+#include "decomposition/communicator.hpp"
+#include "engine/block/block.hpp"
+#include "kernels/exact_sum.hpp"
+
+namespace asperity {
+
+/// Forces from outside.
+class ExternalForces {
+public:
+    /// Sets the forces on the sites of this rank's tile from the next step on, eV/Å; null: none.
+    /// The field is read in place at each step.
+    void set(const VectorField<double>* field) { field_ = field; }
+    /// Returns true if forces act.
+    bool act() const { return field_ != nullptr; }
+    /// Returns true if forces act or have acted in the step before, so that work is to be counted.
+    bool work() const { return act() || pending_ != 0.0; }
+
+    /// Adds the forces to those of the interface on the block, before the kick of a step.
+    void add_to(Block& block);
+    /// Notes the power after the kick.
+    void look_after_kick(const Block& block) { after_ = power(block); }
+    /// Returns the work between the step before and this one, eV. Collective.
+    double work_of_step(const Communicator& ranks, double dt);
+
+    /// Passes the numbers to a visitor, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("pending", pending_);
+    }
+
+private:
+    ExactSum power(const Block& block) const;
+
+    const VectorField<double>* field_ = nullptr;
+    ExactSum before_, after_; ///< power with v(n-1/2) and v(n+1/2), of this rank, eV/fs
+    double pending_ = 0.0;    ///< power with v(n+1/2) at the step before, eV/fs
+};
+
+} // namespace asperity

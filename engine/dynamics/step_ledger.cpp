@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/dynamics/step_ledger.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace asperity {
+
+void StepLedger::enter(const StepTotals& now, StepRecord& record) {
+    if (has_previous_) {
+        // The top plane pushes the block with minus the force it feels.
+        balance_.top_work -= 0.5 * (now.top_force + record.top_force) * (now.top - record.top);
+        balance_.interface +=
+            0.5 * (now.force + record.force) * (now.mean_height - record.mean_height);
+        balance_.damped += 0.5 * (now.dissipated + pending_.dissipated);
+        balance_.drag_work -= 0.5 * (now.drag + pending_.drag);
+    }
+    balance_.heat += 0.5 * (now.heat + pending_.heat); // half of that of the first step
+    if (has_previous_) {
+        double sideways = 0.0;
+        for (std::size_t axis : {0u, 1u})
+            sideways -= 0.5 * (now.lateral_force[axis] + record.lateral_force[axis]) *
+                        (now.slide[axis] - record.slide[axis]);
+        balance_.top_work += sideways;
+        balance_.lateral += sideways;
+        balance_.external += now.external;
+    }
+    has_previous_ = true;
+    pending_ = {now.dissipated, now.drag, now.heat};
+
+    record.top = now.top;
+    record.mean_height = now.mean_height;
+    record.force = now.force;
+    record.top_force = now.top_force;
+    record.slide = now.slide;
+    record.lateral_force = now.lateral_force;
+    if (record.observed) balance_energies(now, record);
+}
+
+void StepLedger::balance_energies(const StepTotals& now, StepRecord& record) {
+    record.interface_energy = now.interface_energy;
+    record.elastic_energy = now.elastic_energy;
+    record.kinetic_energy = now.kinetic_energy;
+    record.time_step_energy = now.time_step_energy;
+    const double energy = record.energy() + record.time_step_energy;
+    if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
+    record.work = balance_.work() + *energy_brought_;
+    record.interface_work = balance_.interface;
+    record.damped = balance_.net_damped();
+    scale_ = std::max({scale_, std::abs(record.interface_energy), record.elastic_energy,
+                       record.kinetic_energy, std::abs(record.work)});
+    const double residual = record.work - energy - record.damped;
+    record.residual = scale_ > 0.0 ? residual / scale_ : 0.0;
+}
+
+} // namespace asperity

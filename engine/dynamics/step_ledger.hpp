@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Work and dissipation of a simulation, integrated over its steps, and its energy balance.
+//
+// Works are trapezia between two steps. Energies that the medium takes or gives and that the noise
+// gives at a step count half before the energies of the step and half after.
+#pragma once
+
+#include "engine/step_record.hpp"
+
+#include <array>
+#include <optional>
+
+namespace asperity {
+
+/// Work and dissipation since the start, eV.
+struct EnergyBalance {
+    double top_work = 0.0;  ///< work of the top plane on the block, sideways too
+    double lateral = 0.0;   ///< part of top_work that moves the block sideways
+    double drag_work = 0.0; ///< work of the moving damping medium on the block
+    double damped = 0.0;    ///< energy dissipated against the medium
+    double heat = 0.0;      ///< heat given by the thermostat's noise
+    double external = 0.0;  ///< work of forces from outside
+    double interface = 0.0; ///< int F dz of the mean height
+    double drive() const { return top_work + drag_work; }
+    double work() const { return drive() + external; }
+    /// Returns the net loss: at a temperature both damped and heat grow with time.
+    double net_damped() const { return damped - heat; }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("top_work", top_work);
+        v("lateral", lateral);
+        v("drag_work", drag_work);
+        v("damped", damped);
+        v("heat", heat);
+        v("external", external);
+        v("interface", interface);
+    }
+};
+
+/// Amounts of a step, summed over all ranks.
+struct StepTotals {
+    double top = 0.0, mean_height = 0.0;             ///< Å
+    double force = 0.0, top_force = 0.0;             ///< eV/Å
+    double dissipated = 0.0, drag = 0.0, heat = 0.0; ///< eV
+    double external = 0.0; ///< work of forces from outside since the step before, eV
+    /// Place over the substrate, Å, and force of the substrate, eV/Å; of a path that slides
+    std::array<double, 2> slide{}, lateral_force{};
+    // Energies at an observed step, eV:
+    double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
+    double time_step_energy = 0.0; ///< zero without a temperature (thermostat.hpp)
+};
+
+/// Ledger of the steps of a simulation.
+class StepLedger {
+public:
+    const EnergyBalance& balance() const { return balance_; }
+    /// Adds a step to works and dissipation. record: the record of the step before, to which the
+    /// amounts of this one are written; with the energies and their balance if it is marked as
+    /// observed.
+    void enter(const StepTotals& now, StepRecord& record);
+    /// Begins a new energy balance with the next observed step.
+    void restart() { energy_brought_.reset(); }
+
+    /// Passes the numbers to a visitor, for checkpoints.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("balance", balance_);
+        v("energy.brought", energy_brought_);
+        v("energy.scale", scale_);
+        v("has_previous", has_previous_);
+        v("pending.dissipated", pending_.dissipated);
+        v("pending.drag", pending_.drag);
+        v("pending.heat", pending_.heat);
+    }
+
+private:
+    void balance_energies(const StepTotals& now, StepRecord& record);
+
+    EnergyBalance balance_;
+    /// Energy at the first observed step, eV, which no work has brought.
+    std::optional<double> energy_brought_;
+    double scale_ = 0.0;        ///< largest energy seen, for the residual, eV
+    bool has_previous_ = false; ///< a step came before: trapezia can be formed
+    /// Terms of the step before, eV: integrated with those of the next step.
+    struct Pending {
+        double dissipated = 0.0, drag = 0.0, heat = 0.0;
+    } pending_;
+};
+
+} // namespace asperity
