@@ -4,12 +4,10 @@
 
 #include "engine/units.hpp"
 
-#include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -97,12 +95,16 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     flat.work_of_adhesion = -units::milli_per_unit * there.energy / area;
     const double h = 1e-4 * r0;
     flat.stiffness = -(force(flat.separation + h) - force(flat.separation - h)) / (2.0 * h * area);
-    // The largest tension, outwards of the minimum of the energy.
-    constexpr int bits = std::numeric_limits<double>::digits / 2; // more are lost in rounding
-    const auto [separation, least_force] = boost::math::tools::brent_find_minima(
-        force, flat.separation, flat.separation + 0.5 * r0, bits);
-    flat.tension_separation = separation;
-    flat.largest_tension = -least_force / area / units::gigapascal;
+    // The largest tension: golden-section search outwards of the minimum.
+    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+    double left = flat.separation, right = flat.separation + 0.5 * r0;
+    while (right - left > 1e-9 * r0) {
+        const double inner = right - golden * (right - left),
+                     outer = left + golden * (right - left);
+        (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
+    }
+    flat.tension_separation = 0.5 * (left + right);
+    flat.largest_tension = -force(flat.tension_separation) / area / units::gigapascal;
     return flat;
 }
 

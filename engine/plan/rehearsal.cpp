@@ -58,7 +58,7 @@ double allocated() {
 Case piece_of(const Case& c, int sites, bool timed) {
     Case piece = c;
     if (!c.effects.dynamic && !timed)
-        piece.path() = piece.simulation.drive.path = {{Segment::relax}};
+        piece.simulation.drive.path = {{Segment::relax}};
     piece.ranks = 1;
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
