@@ -12,7 +12,9 @@
 //   which displaces the block's longest wave by drive.displacement_step.
 //
 // A path and a state under a load that presses with more than this on each site take a site's part
-// of that load in its place (equilibrium/quasistatic.hpp).
+// of that load in its place (statics/quasistatic.hpp). Without an attraction no length of the
+// interface bounds a move: that is drive.displacement_step, or what the smallest load displaces the
+// longest wave by.
 #include "engine/case/resolving.hpp"
 
 #include "engine/units.hpp"
@@ -67,7 +69,7 @@ void find_scales(Case& c, double smallest_tension) {
             scales.force = softest * c.scene.drive.displacement_step;
             c.force_scale = "displaces the block's longest wave by drive.displacement_step";
         }
-        scales.length = scales.force / softest;
+        scales.length = std::max(scales.force / softest, c.scene.drive.displacement_step);
     }
     c.tolerance = c.scene.drive.tolerance * scales.force;
 }

@@ -33,42 +33,32 @@
 // abandoned on its way through the instability: with few exceptions its step would be halved
 // anyway. "No energy" is drive.tolerance for each site and Å of the step: this bounds the errors of
 // the energy on the whole path. Points are therefore relaxed to a quarter of the tolerance. The
-// tolerance follows the force that presses, if that is larger than the scale of forces. decide()
-// (step_decision.hpp) chooses among the three.
+// tolerance follows the force that presses, if that is larger than the scale of forces, or the load
+// to which a segment leads without attraction on the way. decide() (step_decision.hpp) chooses
+// among the three.
+//
+// An elastic block over a wall that only repels has a convex energy, and one state at each
+// position: nothing is dissipated, and the work of a step is the energy gained, however long it is.
+// (The force has a kink wherever a site touches; integrated, it would take steps of a few
+// hundredths of an angstrom.)
 #pragma once
 
-#include "engine/case/case.hpp"
 #include "engine/scene/segment_rule.hpp"
 #include "engine/statics/dissipation.hpp"
 #include "engine/statics/last_point.hpp"
+#include "engine/statics/load_aim.hpp"
+#include "engine/statics/path_options.hpp"
 #include "engine/statics/step_decision.hpp"
+#include "engine/statics/work_errors.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
 namespace asperity {
-
-struct PathOptions {
-    Constraint::Of along = Constraint::Of::top; ///< or mean_height
-    double step = 0.25;                         ///< largest step of the prescribed coordinate, Å
-    double tolerance = 0.0;                     ///< tolerance at small forces, eV/Å
-    Scales scales;
-    double load = 0.0;             ///< force at which the approach ends, eV/Å
-    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
-    double velocity = 0.0;         ///< velocity of the drive if the block relaxes in time, Å/fs
-    double depth = HUGE_VAL;       ///< energy that flat surfaces of this area bind with, eV
-    /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
-    std::function<bool(long long, double)> report;
-};
-
-/// Returns the options of a case over its interface. report: as in PathOptions.
-PathOptions path_options(const Case& c, const Interface& interface,
-                         std::function<bool(long long, double)> report = {});
 
 class QuasistaticPath {
 public:
@@ -103,12 +93,9 @@ public:
     /// Returns the work done on the block in the segment under way, eV. At a held mean height the
     /// work is minus that of the interface's force, because the mean height does not jump.
     double work() const { return course_.work; }
-    /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV: the sum
-    /// of the gaps in the energy balance of the steps and of their errors in time, and three times
-    /// the root of the summed squares of the uncertainty of the work of each step with an
-    /// instability. (Three, because these errors are not independent:
-    /// docs/explanation/relaxation.md has how often the uncertainty holds.)
-    double uncertainty() const { return course_.gap + 3.0 * std::sqrt(course_.squares); }
+    /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
+    /// (work_errors.hpp; docs/explanation/relaxation.md has how often it holds).
+    double uncertainty() const { return course_.errors.total(); }
     /// Returns the energy that a block that relaxes has dissipated in the segment under way,
     /// without the dissipation at instabilities, eV.
     double relaxed() const { return course_.relaxed; }
@@ -142,13 +129,12 @@ private:
         std::optional<double> end;    ///< end, Å; none: at a load, or apart
         std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
         SegmentRule rule;             ///< rule of a segment that a force ends
-        bool bracketed = false;       ///< the load at which the segment ends
+        LoadAim aim;                  ///< way to a load
         bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
         double work = 0.0;            ///< work of the top plane, eV
         double relaxed = 0.0;         ///< dissipated by the block, eV
         double stored_at_start = 0.0; ///< energy of interface and block, eV
-        double gap = 0.0;             ///< sum of the steps' gaps and errors in time, eV
-        double squares = 0.0;         ///< summed squares of the uncertainties of works, eV^2
+        WorkErrors errors;            ///< uncertainty of work and dissipated energy
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -158,15 +144,24 @@ private:
             v("end", end);
             v("load", load);
             v("rule", rule);
-            v("bracketed", bracketed);
+            v("aim", aim);
             v("comes_to_rest", comes_to_rest);
             v("work", work);
             v("relaxed", relaxed);
             v("stored_at_start", stored_at_start);
-            v("gap", gap);
-            v("squares", squares);
+            v("errors", errors);
         }
     };
+    /// A step that is tried.
+    struct Try {
+        double there = 0.0, way = 0.0; ///< Å
+        double length = 0.0;           ///< Å, but for the end of the segment
+        bool arrives = false;          ///< at the end of the segment
+        bool all_the_way = false;      ///< to the far end of the bracket
+        bool last = false;             ///< no shorter one is made
+        double tolerance = 0.0;        ///< eV/Å
+    };
+    Try plan();
     double at() const { return last_.at(); }
     double force() const;
     double time_of(double step) const;
@@ -188,8 +183,9 @@ private:
     double load() const { return course_.load.value_or(options_.load); }
     /// Returns true if the segment under way ends at a load.
     bool to_load() const { return !course_.end && course_.kind != Segment::pull_off; }
-    bool passes_load(const RelaxedState& state, double aim) const;
+    bool passes_load(const RelaxedState& state) const;
     bool bisect();
+    StepDecision judge(const RelaxedState& state, const Try& t) const;
     bool work_is_known(double at, double force) const;
     ForceWindow acceptable_force(double at) const;
     void accept(const RelaxedState& state, double at, const StepDecision& step);
@@ -203,7 +199,9 @@ private:
     double tolerance_under(double force) const {
         return options_.tolerance * std::max(1.0, force / (sites_ * options_.scales.force));
     }
+    double tolerance_at(double force) const;
     double tolerance_to(double at) const;
+    double energy_error() const;
     double allowed_missing(double way, double tolerance) const;
     /// Returns the same of a step in which a block that relaxes may go on without the drive, eV.
     /// Collective.

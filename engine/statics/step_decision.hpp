@@ -5,99 +5,12 @@
 // the one tried, the force on the way and what may be wrong.
 #pragma once
 
+#include "engine/statics/force_trail.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace asperity {
-
-/// The force, eV/Å, that leading takes at a place x, Å.
-struct ForceAt {
-    double x = 0.0, f = 0.0;
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("x", x);
-        v("f", f);
-    }
-};
-
-/// The integral of a force along a path that is made point by point.
-///
-/// From the last point to a new one the force is the polynomial through the new point and up to
-/// three before it (Newton's divided differences), so that the error of a step h is of order h^5
-/// where the force is smooth. Where it is not, the polynomial through the old points alone misses
-/// the new force, and wherever in the step that came about, the integral is wrong by no more than
-/// half the step times the miss. Where the force jumps, the trail begins anew: what it has missed
-/// is then measured from the slope of the branch before, which a jump of a small part of the
-/// contact leaves nearly as it was.
-class ForceTrail {
-public:
-    struct Integral {
-        double value = 0.0, error = 0.0; ///< int f dx and its error, eV
-    };
-
-    /// Starts the trail with a first point.
-    void begin(double x, double f) { points_.assign(1, {x, f}); }
-    /// Resets the slope of the branch, because another coordinate is led from here.
-    void forget_slope() { branch_slope_ = 0.0; }
-    void add(double x, double f) {
-        branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
-        if (points_.size() == longest) points_.erase(points_.begin());
-        points_.push_back({x, f});
-    }
-    /// Integrates from the last point to (x, f), which is not added.
-    Integral to(double x, double f) const {
-        const std::size_t n = points_.size();
-        const ForceAt& last = points_[n - 1];
-        const double h = x - last.x, slope = (f - last.f) / h;
-        double value = 0.5 * h * (f + last.f), miss = f - last.f - h * branch_slope_;
-        if (n > 1) {
-            const ForceAt& second = points_[n - 2];
-            const double d = last.x - second.x, old_slope = (last.f - second.f) / d;
-            const double bend = (slope - old_slope) / (x - second.x);
-            value -= h * h * h / 6.0 * bend;
-            miss = bend * h * (x - second.x);
-            if (n > 2) {
-                const ForceAt& third = points_[n - 3];
-                const double old_bend =
-                    (old_slope - (second.f - third.f) / (second.x - third.x)) / (last.x - third.x);
-                const double twist = (bend - old_bend) / (x - third.x);
-                value -= (h / 12.0 + d / 6.0) * h * h * h * twist;
-                miss = twist * h * (x - second.x) * (x - third.x);
-            }
-        }
-        return {value, std::abs(0.5 * h * miss)};
-    }
-    /// Returns true if the trail has one point only.
-    bool is_new() const { return points_.size() == 1; }
-    /// Returns the force at x on the line through the last point with the slope of its branch,
-    /// eV/Å.
-    double continued(double x) const {
-        return points_.back().f + (x - points_.back().x) * branch_slope_;
-    }
-    /// Returns the distance of the force f at x from the last or from the continued force,
-    /// whichever is larger, eV/Å: after an instability and some way along the new branch f may
-    /// equal the last force again.
-    double jump(double x, double f) const {
-        return std::max(std::abs(f - points_.back().f), std::abs(f - continued(x)));
-    }
-    /// Integrates to (x, f) by the trapezium alone, eV.
-    double trapezium(double x, double f) const {
-        return 0.5 * (x - points_.back().x) * (f + points_.back().f);
-    }
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("points", points_);
-        v("branch_slope", branch_slope_);
-    }
-
-private:
-    static constexpr std::size_t longest = 3;
-    std::vector<ForceAt> points_;
-    double branch_slope_ = 0.0; ///< slope in the last step without a jump, eV/Å^2
-};
 
 struct PathPoint {
     double at = 0.0;     ///< prescribed coordinate, Å
@@ -132,6 +45,17 @@ struct StepDecision {
     double growth = 1.0;     ///< factor of the length of the next step
 };
 
+/// Returns a step of a path on which nothing can be dissipated: the work is the energy gained.
+/// error: of the energy of a point, eV.
+inline StepDecision reversible_step(const PathPoint& last, const PathPoint& trial, double error) {
+    StepDecision d;
+    d.verdict = StepDecision::accept;
+    d.work = trial.energy - last.energy;
+    d.gap = error;
+    d.growth = 2.0;
+    return d;
+}
+
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
                            const StepLimits& limits) {
     const double gained = trial.energy - last.energy;
@@ -154,8 +78,8 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         return d;
     }
     d.coarse = !limits.short_in_time;
-    // Missing energy below the uncertainty of the work or below the limit is not counted as
-    // dissipated: it shows in the residual.
+    // Missing energy below the uncertainty of the work and the limit is not counted as dissipated:
+    // it shows in the residual.
     d.uncertain = integral.error;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;
@@ -164,7 +88,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         d.uncertain = 0.5 * std::abs(trial.at - last.at) * trail.jump(trial.at, trial.force);
         known = d.uncertain <= limits.uncertain;
     }
-    const double least = std::max(d.uncertain, limits.missing);
+    const double least = d.uncertain + limits.missing;
     if (d.work - gained > least) d.dissipated = d.work - gained;
     d.gap = d.work - gained - d.dissipated;
     d.excess = gained - d.work > least;

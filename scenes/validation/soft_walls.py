@@ -6,8 +6,8 @@
     scenes/validation/soft_walls.py [--first 0] [--scenes 40] [--tight 5e-6] [--out results/soft-walls]
 
 Scenes of 16 sites are drawn at random: modulus, roughness, work and range of an exponential wall, at a held mean height or a
-held top. The works of each at the default tolerance are compared with those at a tolerance 50 times smaller. Prints
-(work - tight)/uncertainty of approach and pull-off. About five minutes of one core.
+held top. The works and losses of each at the default tolerance are compared with those at a tolerance 50 times smaller. Prints
+(stated - tight)/uncertainty of the works, then of the losses, of approach and pull-off. About five minutes of one core.
 """
 import argparse
 import os
@@ -39,18 +39,18 @@ def main() -> None:
     words.add_argument("--out", default="results/soft-walls")
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # 16 sites
-    outside = works = 0
+    missed: list[float] = []
     for number in range(asked.first, asked.first + asked.scenes):
         keys = scene(number)
         stated, tight = (asperity.run({}, keys | more, out=f"{asked.out}/{number}-{name}", progress="off")
                          for name, more in (("stated", {}), ("tight", {"drive.tolerance": asked.tight})))
-        missed = [(getattr(stated.work_of_drive, way) - getattr(tight.work_of_drive, way))
-                  / getattr(stated.work_of_drive.uncertainty, way) for way in ("approach", "pull_off")]
-        works += len(missed)
-        outside += sum(abs(m) > 1.0 for m in missed)
-        print(f"{number:3}  {keys['drive.control']:11}  " + "  ".join(f"{m:7.2f}" for m in missed), flush=True)
-    print(f"{outside} of {works} works outside their uncertainty")
-
+        here = [(getattr(getattr(stated, what), way) - getattr(getattr(tight, what), way))
+                / max(getattr(getattr(stated, what).uncertainty, way), 1e-9)
+                for what in ("work_of_drive", "lost") for way in ("approach", "pull_off")]
+        missed += here
+        print(f"{number:3}  {keys['drive.control']:11}  " + "  ".join(f"{m:7.2f}" for m in here), flush=True)
+    print(f"of {len(missed)} numbers " + ", ".join(f"{sum(abs(m) > k for m in missed)} lie beyond {k}" for k in (1, 2, 4))
+          + " times their uncertainty")
 
 if __name__ == "__main__":
     main()

@@ -3,9 +3,16 @@
 //
 // What becomes of a step of a quasi-static path, without a path: trails, energies and limits made
 // by hand. A spring of stiffness 2 is led from 0; its force is 2 x and its energy x^2.
+#include "engine/statics/load_aim.hpp"
 #include "engine/statics/step_decision.hpp"
+#include "engine/statics/work_errors.hpp"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
 
 namespace {
 
@@ -108,3 +115,91 @@ TEST(StepDecision, TheShortestStepIsAcceptedAsItIs) {
 }
 
 } // namespace
+
+/// Where nothing can be dissipated, the work is what the energy gains, however coarse the step.
+TEST(StepDecision, AReversibleStepIsTakenWhateverItsLength) {
+    const StepDecision d = reversible_step(spring(1.0), spring(3.0), 1e-9);
+    EXPECT_EQ(d.verdict, StepDecision::accept);
+    EXPECT_DOUBLE_EQ(d.work, 8.0);
+    EXPECT_EQ(d.dissipated, 0.0);
+    EXPECT_EQ(d.gap, 1e-9);
+}
+
+namespace {
+
+/// Returns the steps, those that go too far among them, in which a force that grows inwards is
+/// brought to each of some loads, to 1e-5 of it.
+int steps_to(const std::vector<double>& loads, const std::function<double(double)>& force,
+             bool smooth) {
+    int tries = 0;
+    double length = 0.25;
+    ForceTrail trail;
+    trail.begin(0.0, force(0.0));
+    for (const double load : loads) {
+        LoadAim aim;
+        for (bool there = false; !there && tries < 1000;) {
+            const double from = trail.last().x;
+            length = aim.cut(length, -1.0, trail, load, smooth);
+            const double x = from - length, f = force(x);
+            aim.count();
+            ++tries;
+            if (f > load * (1.0 + 1e-5)) {
+                aim.pass({x, f}, from);
+                continue;
+            }
+            there = aim.take_beside() && f >= load * (1.0 - 1e-5);
+            trail.add(x, f);
+            length = there ? std::max(length, aim.uncut()) : std::min(0.25, 2.0 * length);
+        }
+        EXPECT_NEAR(trail.last().f, load, 1e-5 * load);
+    }
+    return tries;
+}
+
+} // namespace
+
+/// Between loads of four decades there are 33 steps of the largest length; each load takes two
+/// more.
+TEST(LoadAim, MeetsLoadsInFewSteps) {
+    const auto force = [](double x) { return 0.01 * std::exp(-x / 0.9); };
+    for (const bool smooth : {false, true})
+        EXPECT_LE(steps_to({0.1, 1.0, 10.0, 100.0}, force, smooth), 45) << smooth;
+    // A force that is no exponential, and one that jumps across the load.
+    const auto hertz = [](double x) { return x < 0.0 ? std::pow(-x, 1.5) : 0.0; };
+    EXPECT_LE(steps_to({0.5, 1.0}, hertz, true), 12);
+    LoadAim aim;
+    ForceTrail trail;
+    trail.begin(0.0, 0.0);
+    trail.add(-0.1, 0.1);
+    aim.pass({-0.35, 2.0}, -0.1);
+    double beyond = -0.35;
+    int tries = 0;
+    for (; std::abs(beyond - trail.last().x) > 1e-9 && tries < 200; ++tries) {
+        const double x = trail.last().x - aim.cut(0.25, -1.0, trail, 1.0, false);
+        aim.count();
+        if (x < -0.25)
+            aim.pass({beyond = x, 2.0 - x}, trail.last().x);
+        else
+            trail.add(x, -x);
+    }
+    EXPECT_LT(tries, 160);
+}
+
+/// One instability is known to three times what its work is not known by. From the second on, what
+/// another within the step may take along counts; the less, the shorter the step.
+TEST(WorkErrors, CountWhatAnInstabilityMayTakeAlong) {
+    const auto total = [](double step) {
+        WorkErrors errors;
+        errors.add_gap(-1e-3);
+        for (int i = 0; i < 5; ++i)
+            errors.add_instability(0.5 * i, step, 1e-4, 2.0);
+        return errors.total();
+    };
+    WorkErrors one;
+    one.add_gap(-1e-3);
+    one.add_instability(3.0, 0.01, 1e-4, 2.0);
+    EXPECT_NEAR(one.total(), 1e-3 + 3e-4, 1e-12);
+    // One every 0.5 Å before the fifth, counted from the first: p = 0.01 i / (0.5 i).
+    EXPECT_NEAR(total(0.01), 1e-3 + std::sqrt(5 * 9e-8 + 4 * 4.0 * (0.01 / 0.5) * 4.0), 1e-9);
+    EXPECT_LT(total(1e-4), 0.15 * total(0.01));
+}

@@ -4,6 +4,7 @@
 
 import contextlib
 import csv
+import io
 import json
 import os
 import re
@@ -11,6 +12,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import h5py
@@ -36,15 +38,45 @@ os.execv(sys.argv[1], sys.argv[1:])
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["relax"]}}
 
 
+OF_PYTHON = ("theory", "sweep", "report", "export", "convert", "adhesion", "states", "estimate", "cost")
+"""Commands of the package, which the program starts."""
+
+
+def in_this_process(words, given="", cwd=None):
+    """Carries out a command of the package without starting Python again: its exit code, and what it prints to either stream."""
+    from asperity.__main__ import main
+
+    streams, before = (io.StringIO(), io.StringIO()), sys.stdin
+    with contextlib.chdir(cwd or "."), contextlib.redirect_stdout(streams[0]), contextlib.redirect_stderr(streams[1]):
+        with warnings.catch_warnings():
+            warnings.simplefilter("default")
+            warnings.showwarning = lambda *a: print(warnings.formatwarning(*a[:4]), file=sys.stderr)
+            sys.stdin = io.StringIO(given or "")
+            try:
+                code = main([str(word) for word in words])
+            except SystemExit as ended:  # --help
+                code = int(ended.code or 0)
+            finally:
+                sys.stdin = before
+    return code, *(stream.getvalue() for stream in streams)
+
+
 def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
     """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it
-    prints. The exit code must be `expect`, and the text hold `says`."""
+    prints. The exit code must be `expect`, and the text hold `says`. A command of the package runs in this process."""
+    if words[0] in OF_PYTHON and not ranks and env is None:
+        code, *streams = in_this_process(words, given, cwd)
+        return as_expected(words, code, "".join(streams), expect, says)
     launcher = [*asperity.running.runs.launcher(2)[:-1], str(ranks)] if ranks else []
     done = subprocess.run([*launcher, os.environ["ASPERITY_PROGRAM"], *map(str, words)], cwd=cwd, input=given,
                           text=True, capture_output=True, timeout=120 if ranks else None,
                           env={**os.environ, **(env or {})})
-    said = done.stdout + done.stderr
-    assert done.returncode == expect, f"exit {done.returncode}: {words}\n{said}"
+    return as_expected(words, done.returncode, done.stdout + done.stderr, expect, says)
+
+
+def as_expected(words, code, said, expect, says):
+    """Checks the end of a command. Returns the text."""
+    assert code == expect, f"exit {code}: {words}\n{said}"
     for text in [says] if isinstance(says, str) else says:
         assert text in said, f"{words} did not say {text!r}:\n{said}"
     return said

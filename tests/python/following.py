@@ -4,14 +4,12 @@
 
 from __future__ import annotations
 
-import contextlib
-import io
 import os
 import re
 import subprocess
-import sys
 
 from catalogue import Message, catalogue
+from conftest import OF_PYTHON, in_this_process
 
 heard: list[str] = []
 """Messages whose fix was followed to its good end, each from its first line to its fix."""
@@ -27,24 +25,11 @@ def followed(text: str) -> None:
     heard.extend(messages_in(text))
 
 
-OF_PYTHON = ("theory", "sweep", "report", "export", "convert", "adhesion", "states", "estimate", "cost")
-
-
 def ask(*words: object, given: str = "", env: dict[str, str] | None = None) -> tuple[int, str]:
     """Runs the program; its exit code, and what it prints. A command of the package runs in this process."""
     if words[0] in OF_PYTHON and env is None:
-        from asperity.__main__ import main
-
-        said, before = io.StringIO(), sys.stdin
-        with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
-            sys.stdin = io.StringIO(given)
-            try:
-                code = main(list(map(str, words)))
-            except SystemExit as ended:  # --help
-                code = int(ended.code or 0)
-            finally:
-                sys.stdin = before
-        return code, said.getvalue()
+        code, *streams = in_this_process(words, given)
+        return code, "".join(streams)
     done = subprocess.run([os.environ["ASPERITY_PROGRAM"], *map(str, words)], input=given, text=True, capture_output=True,
                           timeout=60, env={**os.environ, **(env or {})})
     return done.returncode, done.stdout + done.stderr

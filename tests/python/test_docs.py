@@ -4,12 +4,13 @@
 overrides put behind the command's own; a comment "# exit N" behind a command says with which code it is to end."""
 
 import re
+import shlex
 import subprocess
 
 import pytest
 
 import asperity
-from conftest import ROOT, command
+from conftest import OF_PYTHON, ROOT, command
 
 PAGES = [ROOT / "ARCHITECTURE.md", ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
 LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./asperity .*)", page.read_text(), re.M)
@@ -53,6 +54,9 @@ def test_commands(work, line):
         words += SMALL + (SHORT if wanted == 0 else "")  # what is meant to fail has to get there
         if " sweep scenes/paper/" in words and "surface.rms=" not in words:
             words += FEW
+    if words.split()[1] in OF_PYTHON and words.startswith("./"):
+        command(*shlex.split(words)[1:], expect=wanted, cwd=work)
+        return
     words = words.replace("./asperity", '"$ASPERITY_PROGRAM"')
     if words.startswith("mpirun "):
         words = " ".join(asperity.running.runs.launcher(2)[:-2]) + words.removeprefix("mpirun")

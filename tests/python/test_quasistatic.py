@@ -3,12 +3,13 @@
 """Runs without time as a user meets them: stopped and taken up again they end the same, and their files say what
 there is."""
 
+import importlib
 from pathlib import Path
 
 import pytest
 
 import asperity
-from conftest import command, found
+from conftest import ROOT, command, found
 
 PATH = """[surface]
 sites = 24
@@ -92,6 +93,38 @@ def test_walls(place):
     run("soft", HELD, "drive.tolerance=1e-4", "interface.kind=wall", "interface.adhesion=50 meV/Å^2",
         "interface.range=1 Å", scene="soft.toml")
     assert asperity.load("soft").run.steps < 500
+
+
+def test_many_loads_of_a_wall_that_repels(place):
+    # The energy is convex: nothing is lost, and no load costs much more than the largest alone.
+    wall = ["output.fields=[]", "interface.kind=wall", "interface.adhesion=0", "surface.sites=32", "block.thickness=32", "block.young=10 GPa"]
+    loads = [0.1, 1.0, 10.0, 100.0, 500.0]
+    up = "drive.path=" + str([f"load {p} MPa" for p in loads]).replace("'", '"')
+    run("one", *wall, 'drive.path=["load 500 MPa"]')
+    run("many", *wall, up)
+    one, many = asperity.load("one"), asperity.load("many")
+    assert [s["pressure"] for s in many["segments"]] == pytest.approx(loads, rel=1e-4)
+    assert many.run.iterations < 2.5 * one.run.iterations
+    assert many.run.steps < 2.0 * one.run.steps
+    assert all(s["lost"] == 0.0 and s["work_of_drive"] == pytest.approx(s["stored"]) for s in many["segments"])
+    total = sum(s["work_of_drive"] for s in many["segments"])
+    assert total == pytest.approx(one["segments"][0]["work_of_drive"], rel=1e-4)
+    run("parts", *wall, up, more=["--wall-limit", "0.02s"], expect=75)
+    resume("parts", *wall, up)
+    assert found("parts") == found("many")
+
+
+@pytest.mark.parametrize("number", [9, 21])
+def test_works_over_soft_walls_are_within_their_uncertainty(place, monkeypatch, number):
+    # Where many patches come off, another tolerance leads to another sequence of instabilities.
+    monkeypatch.syspath_prepend(ROOT / "scenes" / "validation")
+    scene = importlib.import_module("soft_walls").scene(number)
+    default, close = (asperity.run({}, scene | {"drive.tolerance": t}, out=f"{t}", progress="off") for t in (2.5e-4, 2e-5))
+    for way in ("approach", "pull_off"):
+        error = abs(getattr(default.work_of_drive, way) - getattr(close.work_of_drive, way))
+        uncertain = [getattr(r.work_of_drive.uncertainty, way) for r in (default, close)]
+        assert error <= 2.0 * sum(uncertain)
+        assert uncertain[1] < 0.7 * uncertain[0], "a smaller tolerance brackets instabilities more closely"
 
 
 def test_one_relaxation_stopped_inside(place):

@@ -17,6 +17,7 @@ Units: any consistent set. All functions take arrays.
 
 from __future__ import annotations
 
+import functools
 import math
 from typing import Any, NamedTuple
 
@@ -33,8 +34,18 @@ def jkr(a: Any) -> tuple[Any, Any, Any]:
     return a**3 - np.sqrt(6 * a**3), a, a**2 - 2 / 3 * np.sqrt(6 * a)
 
 
-def maugis(parameter: Any, s: Any) -> tuple[Any, Any, Any]:
-    """Returns force, radius and approach in Maugis' units at λ and s = √(m² - 1)."""
+class Openings(NamedTuple):
+    """Terms of Maugis' equations that s = √(m² - 1) alone decides: s, m, arctan s, and the parts of the opening at c by λ/2 and 4λ²/3."""
+
+    s: np.ndarray
+    m: np.ndarray
+    angle: np.ndarray
+    hertz: np.ndarray
+    adhesion: np.ndarray
+
+
+def openings(s: Any) -> Openings:
+    """Returns the parts of Maugis' equations at these √(m² - 1)."""
     s = np.asarray(s, float)
     m, angle = np.sqrt(1 + s * s), np.arctan(s)
     # w/σ0 is the opening at c; both parts cancel to order s³ and s² where m is close to one.
@@ -45,6 +56,12 @@ def maugis(parameter: Any, s: Any) -> tuple[Any, Any, Any]:
     tail = s * s / (1 + m)  # m - 1
     adhesion = np.where(s > 0.1, s * angle - tail,
                         (near.ravel() ** 2 * powers / (2 * k + 1)).sum(0).reshape(s.shape) - tail)
+    return Openings(s, m, angle, hertz, adhesion)
+
+
+def maugis(parameter: Any, at: Any) -> tuple[Any, Any, Any]:
+    """Returns force, radius and approach in Maugis' units at λ and √(m² - 1), or its openings()."""
+    s, m, angle, hertz, adhesion = at if isinstance(at, Openings) else openings(at)
     A, B = parameter / 2 * hertz, 4 * parameter**2 / 3 * adhesion
     a = 2 / (B + np.sqrt(B * B + 4 * A))  # A a² + B a = 1
     return a**3 - parameter * a**2 * (s + m * m * angle), a, a**2 - 4 / 3 * parameter * a * s
@@ -74,13 +91,14 @@ class Sphere(NamedTuple):
         curvature = CURVATURE_SUM / (2 * math.pi * self.modulus * self.period**3)
         at = np.asarray(at, float)
         force = before = 0 * at
+        opened = None if stress is None else openings(at)
         for _ in range(200):  # the radius that the force itself has changed; NaN where that diverges
             inverse = 1 / self.radius + curvature * force
             R = 1 / np.where(inverse > 0, inverse, np.nan)
             unit = math.pi * self.work * R
             length = np.cbrt(unit * R / self.stiffness)
             with np.errstate(over="ignore", invalid="ignore"):
-                reduced, a, approach = jkr(at / length) if stress is None else maugis(self.parameter(stress, R), at)
+                reduced, a, approach = jkr(at / length) if opened is None else maugis(self.parameter(stress, R), opened)
             before, force = force, np.where(np.isfinite(reduced), reduced * unit, np.nan)
             if not np.any(np.abs(force - before) > 1e-13 * math.pi * self.work * self.radius):
                 break
@@ -88,6 +106,7 @@ class Sphere(NamedTuple):
         height = self.separation - approach * length**2 / R - MEAN_SUM * force / (math.pi * self.modulus * self.period)
         return height, force, a * length
 
+    @functools.lru_cache(maxsize=256)
     def pull_off(self, stress: float | None = None) -> float:
         """Returns the largest attraction as a work of adhesion by JKR, F/(1.5πR). NaN if there is none."""
         unit = float(np.cbrt(math.pi * self.work * self.radius**2 / self.stiffness))

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The steps by which a segment of a quasi-static path meets the load at which it ends.
+#pragma once
+
+#include "engine/statics/force_trail.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace asperity {
+
+/// The way to a load: the nearest places beyond it, once some are known, and the steps that it cut.
+class LoadAim {
+public:
+    void begin() { *this = {}; }
+    /// Notes a place beyond the load, seen from x, Å.
+    void pass(const ForceAt& beyond, double x) {
+        if (beyond_.empty() || 2.0 * std::abs(beyond.x - x) <= std::abs(beyond_[0].x - x))
+            tries_ = 0;
+        beyond_.insert(beyond_.begin(), beyond);
+        beyond_.resize(std::min<std::size_t>(beyond_.size(), 2));
+    }
+    /// Counts a try.
+    void count() {
+        if (!beyond_.empty()) ++tries_;
+    }
+    /// Returns the step of this length, Å, from the end of a trail, or a shorter one to where the
+    /// force is expected to be the load: by the places on both sides, or halfway if these have not
+    /// come closer for long; by the points before only if the force is known to have no jumps.
+    double cut(double length, double direction, const ForceTrail& trail, double load, bool smooth) {
+        const std::vector<ForceAt>& points = trail.points();
+        const std::size_t n = points.size();
+        const ForceAt& last = points[n - 1];
+        double to_load = HUGE_VAL;
+        if (!beyond_.empty()) {
+            constexpr int patience = 4;
+            const double way = std::abs(beyond_[0].x - last.x);
+            const ForceAt* third = beyond_.size() > 1 ? &beyond_[1]
+                                   : n > 1            ? &points[n - 2]
+                                                      : nullptr;
+            const double x = place_of(load, last, beyond_[0], third, 0.0, 1.0);
+            to_load = tries_ > patience ? 0.5 * way : std::abs(x - last.x);
+            to_load = std::clamp(to_load, 0.001 * way, 0.999 * way);
+        } else if (smooth && n > 1) {
+            const ForceAt* third = n > 2 ? &points[n - 3] : nullptr;
+            const double x = place_of(load, last, points[n - 2], third, -HUGE_VAL, 0.0);
+            to_load = direction * (x - last.x);
+        }
+        if (!(to_load > 0.0 && to_load <= length)) return length;
+        uncut_ = std::max(uncut_, length);
+        beside_ = true;
+        return to_load;
+    }
+    /// Returns true once after a step that was cut: such a step passes no load unseen.
+    bool take_beside() { return std::exchange(beside_, false); }
+    /// Returns the longest step that was cut, Å.
+    double uncut() const { return uncut_; }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("beyond", beyond_);
+        v("tries", tries_);
+        v("uncut", uncut_);
+        v("beside", beside_);
+    }
+
+private:
+    /// Returns where the force is a load: on the parabola x(f) through three places, or on the line
+    /// through the first two if the parabola is not within these parts of the way between them or
+    /// is far from the line. Forces of one sign grow rather as exponentials: f is their logarithm.
+    static double place_of(double load, const ForceAt& a, const ForceAt& b, const ForceAt* c,
+                           double least, double most) {
+        const bool grows = load > 0.0 && a.f > 0.0 && b.f > 0.0 && (c == nullptr || c->f > 0.0);
+        const auto y = [&](const ForceAt& p) { return grows ? std::log(p.f / load) : p.f - load; };
+        const double slope = (b.x - a.x) / (y(b) - y(a)), line = -y(a) * slope;
+        if (c == nullptr) return a.x + line;
+        const double other = (c->x - b.x) / (y(*c) - y(b));
+        const double curve = line + y(a) * y(b) * (other - slope) / (y(*c) - y(a));
+        const double part = curve / (b.x - a.x), of_line = curve / line;
+        const bool good = part > least && part < most && of_line > 0.25 && of_line < 4.0;
+        return a.x + (good ? curve : line);
+    }
+
+    std::vector<ForceAt> beyond_; ///< nearest known places beyond the load, the nearest first
+    int tries_ = 0;               ///< since the way to it was halved
+    double uncut_ = 0.0;          ///< Å
+    bool beside_ = false;
+};
+
+} // namespace asperity

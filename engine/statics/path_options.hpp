@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The options of a quasi-static path (quasistatic.hpp).
+#pragma once
+
+#include "engine/case/case.hpp"
+#include "engine/interface/interface.hpp"
+#include "engine/options/scales.hpp"
+#include "engine/waves/constraint.hpp"
+
+#include <cmath>
+#include <functional>
+
+namespace asperity {
+
+struct PathOptions {
+    Constraint::Of along = Constraint::Of::top; ///< or mean_height
+    double step = 0.25;                         ///< largest step of the prescribed coordinate, Å
+    double tolerance = 0.0;                     ///< tolerance at small forces, eV/Å
+    Scales scales;
+    double load = 0.0;             ///< force at which the approach ends, eV/Å
+    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
+    double velocity = 0.0;         ///< velocity of the drive if the block relaxes in time, Å/fs
+    /// Energy that flat surfaces of this area bind with, eV; infinite if they do not.
+    double depth = HUGE_VAL;
+    bool over_wall = false;
+    /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
+    std::function<bool(long long, double)> report;
+
+    bool attracts() const { return depth < HUGE_VAL; }
+    /// Returns true if there is one state at each position, whichever way the path has come: the
+    /// energy of an elastic block over a wall that only repels is convex.
+    bool reversible() const { return over_wall && !attracts() && !(velocity > 0.0); }
+};
+
+/// Returns the options of a case over its interface. report: as in PathOptions.
+PathOptions path_options(const Case& c, const Interface& interface,
+                         std::function<bool(long long, double)> report = {});
+
+} // namespace asperity

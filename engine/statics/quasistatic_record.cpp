@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What is noted of the points of a quasi-static path.
+#include "engine/statics/quasistatic.hpp"
+
+#include "decomposition/global_sum.hpp"
+#include "io/error.hpp"
+#include "kernels/elastic_level.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace asperity {
+
+/// Returns the force on the prescribed coordinate, eV/Å; 0 for a hold.
+double QuasistaticPath::force() const {
+    switch (course_.along) {
+    case Along::z:
+        return record_.top_force;
+    case Along::time:
+        return 0.0;
+    default:
+        return record_.lateral_force[axis()];
+    }
+}
+
+void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
+    throw io::PhysicsError(fmt::format("no equilibrium was found with the {} {:.6g} Å",
+                                       course_.along != Along::z ? "block moved sideways by"
+                                       : options_.along == Constraint::Of::top
+                                           ? "top plane displaced by"
+                                           : "mean height displaced by",
+                                       at),
+                           fmt::format("after {} iterations {}", state.iterations,
+                                       why_not_converged(state, last_.tolerance())),
+                           "a larger drive.tolerance, or a height further from the substrate");
+}
+
+/// Sums the lateral force of the substrate on the lowest layer, eV/Å, of the last relaxation.
+/// Collective.
+std::array<double, 2> QuasistaticPath::lateral_force() const {
+    const VectorPlane<double> f = block_.interface_force();
+    std::array<ExactSum, 2> sums;
+    elastic_kernels().sum(f.x, 0, f.x.ny, sums[0]);
+    elastic_kernels().sum(f.y, 0, f.y.ny, sums[1]);
+    return global_sums(block_.communicator(), sums);
+}
+
+PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
+    const double force = course_.along == Along::z      ? state.top_force
+                         : course_.along == Along::time ? 0.0
+                                                        : lateral_force()[axis()];
+    return {at, force,
+            state.interface_energy + state.elastic_energy + record_.relaxed +
+                state.branches.dissipated};
+}
+
+void QuasistaticPath::set_record(const RelaxedState& state, double at) {
+    if (course_.along == Along::z)
+        record_.top = at;
+    else if (course_.along != Along::time)
+        record_.slide[axis()] = at;
+    if (interface_.options().slides) record_.lateral_force = lateral_force();
+    record_.mean_height = options_.reference_height + state.mean_height;
+    record_.force = state.force;
+    record_.top_force = state.top_force;
+    record_.observed = true;
+    record_.interface_energy = state.interface_energy;
+    record_.elastic_energy = state.elastic_energy;
+    record_.branch_energy = state.branches.stored;
+    static_cast<ContactCount&>(record_) = state;
+    const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
+    scale_ = std::max(
+        {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
+    // The balance says nothing of small energies: those below an eightieth of the work of the scale
+    // of forces on the way so far and a step more, or below a twentieth of flat surfaces'. Neither
+    // depends on the tolerance.
+    const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
+                                  0.05 * options_.depth);
+    const double scale = std::max(scale_, least);
+    const double spent = record_.damped + record_.relaxed;
+    record_.residual = scale > 0.0 ? (record_.work - gained - spent) / scale : 0.0;
+}
+
+Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {
+    Instability instability;
+    instability.energy = energy;
+    instability.segment = course_.number;
+    instability.top = record_.top;
+    instability.height_before = record_.mean_height;
+    instability.height_after = options_.reference_height + state.mean_height;
+    instability.slide = record_.slide;
+    instability.force_before = force();
+    instability.force_after = point(state, at()).force;
+    instability.contact_before = record_.in_contact;
+    instability.contact_after = state.in_contact;
+    const LargestSite most = last_.largest_move();
+    std::array<std::int64_t, 1> count = {0};
+    const auto moved = last_.moves();
+    const auto layer = block_.lowest_layer();
+    for (int y = 0; y < layer.x.ny; ++y)
+        for (int x = 0; x < layer.x.nx; ++x)
+            count[0] += moved(x, y) > 0.5 * most.value;
+    block_.communicator().sum(count);
+    instability.site_x = most.x;
+    instability.site_y = most.y;
+    instability.largest_move = most.value;
+    instability.sites_moved = count[0];
+    return instability;
+}
+
+} // namespace asperity

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The beginnings of a quasi-static path and of its segments.
+#include "engine/statics/quasistatic.hpp"
+
+#include "decomposition/global_sum.hpp"
+#include "engine/case/flat_reference.hpp"
+#include "engine/units.hpp"
+#include "io/error.hpp"
+#include "kernels/elastic_level.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <span>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+/// Refuses a mean height far inside the substrate, at which forces and relaxation have no end: even
+/// a flat surface would press with more than the modulus of the block, or ten times the
+/// largest attraction. Collective.
+void refuse_deep(double height, const Interface& interface, const SpectralBlock& block,
+                 const Scales& scales) {
+    const BlockOptions& options = block.options();
+    const double n = options.sites, area = options.spacing * options.spacing;
+    double mean = 0.0;
+    if (interface.wall()) {
+        const PlaneView<const double> below = interface.wall()->height();
+        ExactSum sum;
+        elastic_kernels().sum(below, 0, below.ny, sum);
+        mean = global_sum(block.communicator(), sum) / (n * n);
+    } else {
+        const std::span<const double> map = interface.tables().map;
+        if (map.empty()) return; // atoms anywhere
+        mean = std::accumulate(map.begin(), map.end(), 0.0) / static_cast<double>(map.size());
+    }
+    const double gap = height - mean;
+    const bool inside = !interface.wall() && gap <= 0.0;
+    double pressure = inside ? HUGE_VAL : 0.0;
+    // Between the atoms of a flat layer the force falls again: the largest from here outwards.
+    for (int i = 0; i < 10 && !inside; ++i)
+        pressure = std::max(pressure, flat_pair_sum(interface.options(), options.spacing,
+                                                    options.sites, interface.substrate_sites(),
+                                                    gap + 0.1 * i * scales.length)
+                                              .force[2] /
+                                          area);
+    double young = 0.0;
+    for (const Material& material : options.materials())
+        young = std::max(young, material.young);
+    const double most = std::max(young, 10.0 * scales.force / area);
+    if (!(pressure > most)) return;
+    throw io::PhysicsError(
+        fmt::format("a mean height of {:.4g} Å lies too far inside the substrate", height),
+        inside ? std::string("it is below the mean plane of the atoms")
+               : fmt::format("flat surfaces at this distance press with {:.3g} GPa, and Young's "
+                             "modulus of the block is {:.3g} GPa",
+                             pressure / units::gigapascal, young / units::gigapascal),
+        "take a larger height, or lead the block by a load");
+}
+
+} // namespace
+
+QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
+    : block_(block), interface_(interface), options_(std::move(options)),
+      sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
+      last_(
+          block, interface,
+          {options_.along, 0.25 * options_.tolerance, options_.scales, options_.reference_height}),
+      length_(options_.step) {}
+
+void QuasistaticPath::start() {
+    block_.set_uniform(0.0);
+    first_point(0.0, {.from_apart = true});
+}
+
+void QuasistaticPath::start_here(Here here) {
+    first_point(options_.along == Constraint::Of::top ? block_.top() : block_.mean_height(), here);
+}
+
+void QuasistaticPath::first_point(double top, Here here) {
+    const double dt = here.remembers ? 0.0 : HUGE_VAL;
+    block_.begin_step(dt);
+    last_.accept(top);
+    const RelaxedState state = last_.relax_at(top, dt, {});
+    if (!state.converged)
+        throw io::PhysicsError("the path does not start from an equilibrium",
+                               why_not_converged(state, last_.tolerance()),
+                               "a larger drive.tolerance, or a height further from the substrate");
+    last_.accept(top);
+    record_.step = 0;
+    const double energy = state.interface_energy + state.elastic_energy;
+    record_.work = here.from_apart ? energy : 0.0;
+    energy_at_start_ = energy - record_.work;
+    set_record(state, top);
+    trail_.begin(top, state.top_force);
+    if (!here.from_apart) turn();
+}
+
+void QuasistaticPath::resume() {
+    put_back();
+    record_.observed = true;
+}
+
+void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
+    course_.number = number;
+    course_.kind = segment.kind;
+    course_.end.reset();
+    course_.load.reset();
+    const Along along = segment.kind == Segment::hold    ? Along::time
+                        : segment.kind != Segment::slide ? Along::z
+                        : segment.axis == 0              ? Along::x
+                                                         : Along::y;
+    const double from = last_.lead(along);
+    double direction = 0.0;
+    switch (segment.kind) {
+    case Segment::approach:
+        direction = -1.0;
+        break;
+    case Segment::load: {
+        course_.load = segment.amount;
+        const double slack = this->slack(record_.in_contact);
+        const bool apart = record_.in_contact == 0 && std::abs(record_.force) <= slack;
+        if (apart || record_.force < segment.amount - slack)
+            direction = -1.0;
+        else if (record_.force > segment.amount + slack)
+            direction = 1.0;
+        break;
+    }
+    case Segment::height:
+        begin_to(segment.amount - options_.reference_height);
+        return;
+    case Segment::slide:
+        course_.end = from + segment.amount;
+        if (*course_.end != from) direction = *course_.end < from ? -1.0 : 1.0;
+        break;
+    case Segment::hold:
+        course_.end = from + segment.amount * options_.velocity;
+        direction = *course_.end == from ? 0.0 : 1.0;
+        break;
+    default: // a pull-off
+        direction = 1.0;
+    }
+    begin(along, direction);
+}
+
+void QuasistaticPath::begin_to(double at) {
+    if (options_.along == Constraint::Of::mean_height)
+        refuse_deep(options_.reference_height + at, interface_, block_, options_.scales);
+    course_.kind = Segment::height;
+    course_.load.reset();
+    course_.end = at;
+    const double from = last_.lead(Along::z);
+    begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
+}
+
+void QuasistaticPath::begin(Along along, double direction) {
+    if (along != course_.along || direction != course_.direction) {
+        // No points of the segment before for the integral.
+        if (along != course_.along) trail_.forget_slope();
+        course_.along = along;
+        course_.direction = direction;
+        trail_.begin(at(), force());
+        bracket_.reset();
+        turn();
+    }
+    length_ = std::min(length_, longest_step());
+    // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
+    // on the top plane that is none of the contact's.
+    double balance = HUGE_VAL;
+    if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
+    if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
+    last_.balance_to(balance);
+    const double a = block_.options().spacing;
+    course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
+                       slack(record_.in_contact));
+    course_.aim.begin();
+    course_.errors.begin();
+    course_.comes_to_rest = false;
+    course_.work = course_.relaxed = 0.0;
+    course_.stored_at_start = record_.energy();
+    dissipation_.begin_segment();
+}
+
+} // namespace asperity
