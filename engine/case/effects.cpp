@@ -127,10 +127,10 @@ Effects effects_of(const Case& c) {
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const bool atoms = s.surface.kind == SurfaceKind::atoms;
     e.theory = {!atoms && !e.layers && !e.surface_stress,
-                atoms ? "surface.kind = \"atoms\": the theory is of one layer with heights"
-                : e.layers || e.surface_stress
-                    ? "block.layers or surface_stress: the theory is of one modulus"
-                    : "always: Persson's theory of this scene"};
+                atoms      ? "surface.kind = \"atoms\": the theory is of one layer with heights"
+                : e.layers ? "block.layers: the theory is of one modulus"
+                : e.surface_stress ? "block.surface_stress: the theory is of a block without it"
+                                   : "always: Persson's theory of this scene"};
     e.device = device_effect(c);
     return e;
 }

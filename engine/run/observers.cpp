@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 namespace asperity {
 
 bool row_is_due(const Path& path) {
@@ -16,6 +18,50 @@ bool row_is_due(const Path& path) {
     if (!c.effects.dynamic || path.status() == Path::Status::at_end) return true;
     return path.steps() % c.output.series == 0;
 }
+
+namespace {
+
+/// Rows of the series, one for each observed step or point.
+class Rows : public Observer {
+public:
+    explicit Rows(RunSession& session) : session_(session) {}
+    Path::Wish wish(const Path& path) const override;
+
+protected:
+    void look_at_step(const Path& path) override;
+
+private:
+    RunSession& session_;
+};
+
+/// Frames of the lowest layer (output.trajectory).
+class Trajectory : public Observer {
+public:
+    explicit Trajectory(RunSession& session) : session_(session) {}
+    Path::Wish wish(const Path& path) const override;
+
+protected:
+    void look_at_step(const Path& path) override;
+
+private:
+    bool is_due(long long step) const;
+    RunSession& session_;
+};
+
+/// The line of progress in the terminal.
+class ProgressLine : public Observer {
+public:
+    explicit ProgressLine(RunSession& session) : session_(session) {}
+    /// Shows an iteration of a relaxation, if it is time.
+    void look_within(const Path& path, long long iteration, double residual);
+
+protected:
+    void look_at_step(const Path& path) override;
+    void look_at_beginning(const Path& path) override;
+
+private:
+    RunSession& session_;
+};
 
 Path::Wish Rows::wish(const Path& path) const {
     return row_is_due(path) ? session_.recorder().wish_of_row() : Path::Wish{};
@@ -65,6 +111,38 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
                      c.effects.dynamic ? now.time : 0.0,
                      way_done(c, path.reference_height(), path.segment(), now.top)});
+}
+
+} // namespace
+
+Observers::Observers(RunSession& session) {
+    auto progress = std::make_unique<ProgressLine>(session);
+    look_within_ = [line = progress.get()](const Path& path, long long iteration, double residual) {
+        line->look_within(path, iteration, residual);
+    };
+    own_.push_back(std::make_unique<Trajectory>(session));
+    own_.push_back(std::make_unique<Rows>(session));
+    own_.push_back(std::move(progress));
+    all_ = {&session.maps()};
+    for (const auto& observer : own_)
+        all_.push_back(observer.get());
+}
+
+Path::Wish Observers::wish(const Path& path) const {
+    Path::Wish wish;
+    for (const Observer* o : all_)
+        wish |= o->wish(path);
+    return wish;
+}
+
+void Observers::look(const Path& path) const {
+    for (Observer* o : all_)
+        o->look(path);
+}
+
+void Observers::finish(const Path& path) const {
+    for (Observer* o : all_)
+        o->finish(path);
 }
 
 } // namespace asperity

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The observers of a run except the maps (path_maps.hpp).
+// The observers of a run: rows of the series, frames, maps (path_maps.hpp) and the line of
+// progress. A new one is a class in observers.cpp and a line of the list there.
 #pragma once
 
 #include "engine/path/path.hpp"
+
+#include <functional>
+#include <memory>
+#include <vector>
 
 namespace asperity {
 
@@ -13,46 +18,27 @@ class RunSession;
 /// Returns true if the next step makes a row of the series.
 bool row_is_due(const Path& path);
 
-/// Rows of the series, one for each observed step or point.
-class Rows : public Observer {
+/// The observers of a run, in any order.
+class Observers {
 public:
-    explicit Rows(RunSession& session) : session_(session) {}
-    Path::Wish wish(const Path& path) const override;
+    explicit Observers(RunSession& session);
 
-protected:
-    void look_at_step(const Path& path) override;
+    /// Returns the data that the observers need of the next step.
+    Path::Wish wish(const Path& path) const;
+    /// Looks at the path after advance().
+    void look(const Path& path) const;
+    /// Looks at an iteration of a relaxation, for which the path has no point yet. residual:
+    /// largest force, eV/Å.
+    void look_within(const Path& path, long long iteration, double residual) const {
+        look_within_(path, iteration, residual);
+    }
+    /// Ends the observation with the run, whether or not the path has come to its end.
+    void finish(const Path& path) const;
 
 private:
-    RunSession& session_;
-};
-
-/// Frames of the lowest layer (output.trajectory).
-class Trajectory : public Observer {
-public:
-    explicit Trajectory(RunSession& session) : session_(session) {}
-    Path::Wish wish(const Path& path) const override;
-
-protected:
-    void look_at_step(const Path& path) override;
-
-private:
-    bool is_due(long long step) const;
-    RunSession& session_;
-};
-
-/// The line of progress in the terminal.
-class ProgressLine : public Observer {
-public:
-    explicit ProgressLine(RunSession& session) : session_(session) {}
-    /// Shows an iteration of a relaxation, for which the path has no point yet, if it is time.
-    void look_within(const Path& path, long long iteration, double residual);
-
-protected:
-    void look_at_step(const Path& path) override;
-    void look_at_beginning(const Path& path) override;
-
-private:
-    RunSession& session_;
+    std::vector<std::unique_ptr<Observer>> own_;
+    std::vector<Observer*> all_; ///< the observers above and the maps of the session
+    std::function<void(const Path&, long long, double)> look_within_;
 };
 
 } // namespace asperity

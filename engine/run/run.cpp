@@ -3,27 +3,19 @@
 #include "engine/run/run.hpp"
 
 #include "engine/run/observers.hpp"
-#include "engine/run/path_maps.hpp"
 #include "engine/run/run_session.hpp"
 
 #include <memory>
-#include <vector>
 
 namespace asperity {
 
 namespace {
 
-using Observers = std::vector<Observer*>;
-
 /// Runs the loop to the end of the path or to the point at which the run stops.
 void follow(Path& path, RunSession& session, const Observers& observers) {
     while (path.status() != Path::Status::done && !session.stop_here(path)) {
-        Path::Wish wish;
-        for (const Observer* o : observers)
-            wish |= o->wish(path);
-        if (!session.advance(path, wish)) return session.stop_now(path);
-        for (Observer* o : observers)
-            o->look(path);
+        if (!session.advance(path, observers.wish(path))) return session.stop_now(path);
+        observers.look(path);
         session.keep(path);
     }
 }
@@ -34,19 +26,15 @@ int run(const Case& c, const RunOptions& options, const Communicator& communicat
     c.require_runnable();
     RunSession session(c, options, communicator);
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);
-    Rows rows(session);
-    Trajectory trajectory(session);
-    ProgressLine progress(session);
-    const Observers observers = {&trajectory, &rows, &session.maps(), &progress};
+    const Observers observers(session);
     path->watch([&](long long iteration, double residual) {
-        progress.look_within(*path, iteration, residual);
+        observers.look_within(*path, iteration, residual);
         return session.stop_within(*path);
     });
     const auto work = [&] {
         session.begin(*path);
         follow(*path, session, observers);
-        for (Observer* o : observers)
-            o->finish(*path);
+        observers.finish(*path);
     };
     return session.carry_out(*path, work);
 }

@@ -98,7 +98,7 @@ class Sphere(NamedTuple):
             unit = math.pi * self.work * R
             length = np.cbrt(unit * R / self.stiffness)
             with np.errstate(over="ignore", invalid="ignore"):
-                reduced, a, approach = jkr(at / length) if opened is None else maugis(self.parameter(stress, R), opened)
+                reduced, a, approach = jkr(at / length) if stress is None or opened is None else maugis(self.parameter(stress, R), opened)
             before, force = force, np.where(np.isfinite(reduced), reduced * unit, np.nan)
             if not np.any(np.abs(force - before) > 1e-13 * math.pi * self.work * self.radius):
                 break
