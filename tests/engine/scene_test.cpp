@@ -157,7 +157,7 @@ TEST(Scene, Paths) {
                        "\"slide y -5\", \"hold 20 ps\", \" pull-off \"]",
                        "s.toml");
     ASSERT_EQ(guided.path().size(), 6u);
-    EXPECT_EQ(guided.path()[1].amount, 1000.0 * units::megapascal * guided.area()) << "eV/Å";
+    EXPECT_DOUBLE_EQ(guided.path()[1].amount, 1000.0 * units::megapascal * guided.area()) << "eV/Å";
     EXPECT_EQ(guided.path()[2].amount, 12.0);
     EXPECT_EQ(guided.path()[3].amount, -5.0);
     EXPECT_EQ(guided.path()[3].axis, 1);
