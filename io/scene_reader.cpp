@@ -400,6 +400,12 @@ Problem Key::store(const Schema::Value& value) const {
 
 Json Key::load() const { return std::visit(Load{*this}, field); }
 
+const Schema::Need* Key::unmet_need() const {
+    const auto unmet =
+        std::find_if(needs.begin(), needs.end(), [](const Schema::Need& n) { return !n.is_met(); });
+    return unmet == needs.end() ? nullptr : &*unmet;
+}
+
 Key& Schema::add(Key key) {
     key.section = sections_.empty() ? "" : sections_.back().first;
     return keys_.emplace_back(std::move(key));

@@ -23,6 +23,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -121,7 +122,16 @@ public:
     using Field = std::variant<bool*, int*, long long*, std::optional<long long>*, double*,
                                std::optional<double>*, std::string*, Choice, Words*, Rows>;
 
-    /// A key of a scene: its name, field, documentation and allowed values.
+    /// State of other keys without which a key has no effect, or is refused.
+    struct Need {
+        std::function<bool()> is_met;
+        std::string otherwise; ///< state without it: "surface.kind is not \"self-affine\""
+        /// Set: a value other than the default is refused without it. `refused` stands behind the
+        /// value: "on a dynamic path".
+        std::string refused{}, why{}, fix{};
+    };
+
+    /// A key of a scene: its name, field, documentation, allowed values and needs.
     struct Key {
         std::string name;
         Field field;
@@ -141,10 +151,14 @@ public:
         std::string section{};
         /// Returns true if writing the key back would change the meaning; empty: always written.
         std::function<bool()> omitted{};
+        /// States of other keys that the key needs; the first that is not met counts.
+        std::vector<Need> needs{};
 
         std::string path() const { return section + "." + name; }
         std::string kind() const; ///< returns boolean, integer, number, text, choice, list or rows
         bool written() const { return !omitted || !omitted(); }
+        /// Returns the first need that is not met; nullptr if all are.
+        const Need* unmet_need() const;
         /// Stores a value in the field. Returns the problem with the value; its `what` is empty on
         /// success.
         Problem store(const Value& value) const;
@@ -247,6 +261,9 @@ public:
     };
     void variations(Variations section) { variations_ = std::move(section); }
 
+    /// Keeps what the closures of the keys look at.
+    void keep(std::shared_ptr<const void> what) { kept_ = std::move(what); }
+
     const std::vector<Key>& keys() const { return keys_; }
     const Variations& variations() const { return variations_; }
     const Key* find(std::string_view path) const;
@@ -276,6 +293,7 @@ private:
     std::vector<Removed> removed_;
     std::vector<std::pair<std::string, std::string>> sections_; ///< name and doc, in order
     Variations variations_;
+    std::shared_ptr<const void> kept_;
 };
 
 /// Name by which a command line asks for the standard input.

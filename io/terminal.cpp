@@ -227,7 +227,7 @@ std::string progress_line(const Progress::State& state, double seconds, long lon
 }
 
 std::string duration_text(double seconds) {
-    const auto whole = static_cast<long long>(seconds + 0.5);
+    const long long whole = std::llround(seconds);
     if (seconds < 9.95) return fmt::format("{:.1f} s", seconds);
     if (whole < 60) return fmt::format("{} s", whole);
     if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);

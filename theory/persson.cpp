@@ -293,14 +293,6 @@ FullContactState full_contact(const AdhesiveContact& c) {
     return s;
 }
 
-double contact_modulus(double E, double nu) {
-    if (!(nu > -1 && nu <= 0.5 && E > 0) || !std::isfinite(E))
-        throw InvalidInput(message("Young's modulus ", E, " and Poisson ratio ", nu,
-                                   " are not those of a stable isotropic solid (E > 0, -1 < nu <= "
-                                   "0.5); check them"));
-    return E / (1 - nu * nu);
-}
-
 std::string_view name(Status status) {
     return status == Status::adhesive  ? "adhesive"
            : status == Status::pressed ? "pressed"

@@ -89,9 +89,6 @@ struct CriticalRoughness {
 /// Returns the roughness at which adhesion ends. Throws NoSolution if adhesion does not end.
 [[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact);
 
-/// Returns E* = E/(1-ν²), one body rigid.
-[[nodiscard]] double contact_modulus(double youngs_modulus, double poisson_ratio);
-
 [[nodiscard]] std::string_view name(Status status);
 
 /// Throws InvalidInput if the contact makes no sense.

@@ -16,9 +16,11 @@
 #include "decomposition/process_grid.hpp"
 #include "engine/case/effects.hpp"
 #include "engine/case/flat_reference.hpp"
+#include "engine/options/output_options.hpp"
 #include "engine/options/scales.hpp"
 #include "engine/options/segment.hpp"
 #include "engine/options/simulation_options.hpp"
+#include "engine/options/theory_options.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/scene/surface.hpp"
 
@@ -31,23 +33,15 @@
 
 namespace asperity {
 
-/// Times at which maps are written (output.fields).
-struct MapTimes {
-    bool relaxed = false, pull_off = false;
-    bool segments = false;          ///< maps at the end of each segment of the path
-    std::optional<long long> every; ///< steps, or points of a quasi-static path
-    /// Delay after the end of the approach, ps, and name; in the order of the delays.
-    std::vector<std::pair<double, std::string>> after_approach;
-};
-
 /// A scene, checked and complete.
 struct Case {
-    Scene scene;         ///< scene of the case
-    int ranks = 1;       ///< number of ranks of the case
-    bool in_time = true; ///< a dynamic path; false: equilibria only
-    std::string file;    ///< file of the map or the atoms, as found; empty: the scene has none
-    std::vector<Segment> path; ///< segments of the path; never empty in a valid scene
+    Scene scene;            ///< scene of the case
+    int ranks = 1;          ///< number of ranks of the case
+    std::string file;       ///< file of the map or the atoms, as found; empty: the scene has none
+    SurfaceOptions surface; ///< options of the substrate; a map with rms = 0 keeps its own
+    OutputOptions output;
     MapTimes maps;
+    TheoryOptions theory;
     std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
     std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
@@ -75,23 +69,33 @@ struct Case {
     /// Problems that stop a run; `theory` and `surface` can use the case.
     std::vector<io::Problem> refused;
 
+    /// Returns the segments of the path; never empty in a valid scene.
+    const std::vector<Segment>& path() const { return simulation.drive.path; }
     /// Returns the paths of the files that were read: the scene, the map or the atoms, tables.
     std::vector<std::string> inputs() const;
     bool has(Segment::Kind kind) const;
     /// Returns true if the path has segments other than approach and pull-off.
     bool guided() const;
-    bool starts_with(Segment::Kind kind) const { return !path.empty() && path[0].kind == kind; }
+    bool starts_with(Segment::Kind kind) const { return !path().empty() && path()[0].kind == kind; }
     /// Returns the area of the interface, Å^2.
-    double area() const { return scene.edge() * scene.edge(); }
+    double area() const { return edge() * edge(); }
+    /// Returns the edge of the box, Å.
+    double edge() const { return simulation.block.edge(); }
+    /// Returns the number of sites.
+    double sites() const {
+        const double across = simulation.block.sites;
+        return across * across;
+    }
+    /// Returns drive.load, MPa.
+    double load_in_megapascal() const;
+    /// Returns the radius of the spherical cap, Å; empty: not curved.
+    std::optional<double> radius() const {
+        return surface.radius > 0.0 ? std::optional(surface.radius) : std::nullopt;
+    }
     /// Returns a number of sites over that of all sites.
-    double fraction(long long sites) const {
-        const double across = scene.surface.sites;
-        return static_cast<double>(sites) / (across * across);
-    }
+    double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.
-    int substrate() const {
-        return substrate_sites(scene.surface.sites, scene.surface.lattice_ratio);
-    }
+    int substrate() const { return surface.sites; }
     /// Returns the cut of the box: slabs of rows on quasi-static paths, tiles on dynamic ones.
     /// Throws std::invalid_argument if it cannot be cut.
     ProcessGrid grid(int rank) const;

@@ -3,6 +3,7 @@
 //
 // The surface of a case: made from its spectrum, or from the map or the atoms of its file.
 #include "engine/case/case.hpp"
+#include "engine/case/site_field.hpp"
 #include "engine/case/spacing_limits.hpp"
 
 #include "io/atoms_file.hpp"
@@ -106,47 +107,11 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     return surface;
 }
 
-/// Returns the map of the scene's file on every rank. The root alone reads it.
-io::HeightMap map_of_file(const Case& c, const Communicator& ranks) {
-    const auto& s = c.scene.surface;
-    io::HeightMap map;
-    std::string head;
-    ranks.on_root([&] {
-        map = io::read_height_map(c.file, {s.file_unit, s.file_missing == MapMissing::fill,
-                                           s.file_crop == MapCrop::middle, s.file_size});
-        if (ranks.size() == 1) return;
-        io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
-        json["notes"] = map.notes;
-        json["doubts"] = map.doubts;
-        if (map.width) json["width"] = *map.width;
-        head = io::json_text(json);
-    });
-    if (ranks.size() == 1) return map;
-    std::array<std::uint64_t, 2> sizes = {head.size(), map.heights.size()};
-    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
-    head.resize(sizes[0]);
-    map.heights.resize(sizes[1]);
-    ranks.broadcast(std::as_writable_bytes(std::span(head)));
-    ranks.broadcast(std::span(map.heights));
-    const io::Json json = io::parse_json(head, s.file);
-    map.rows = map.columns = json["rows"];
-    map.unit = json["unit"];
-    map.origin = json["origin"];
-    map.notes = json["notes"].get<std::vector<std::string>>();
-    map.doubts = json["doubts"].get<std::vector<std::string>>();
-    if (json.contains("width")) map.width = json["width"].get<double>();
-    return map;
-}
-
-} // namespace
-
-namespace {
-
 /// Checks the memory before anything is allocated: for the heights, and for the waves that
 /// make_surface() and measure() need. Throws io::SceneError.
 void require_memory_for_heights(const Case& c) {
     const double n = c.substrate();
-    const double needed = n * n * (8.0 + (c.scene.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
+    const double needed = n * n * (8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
     const io::AvailableMemory there = io::available_memory();
     if (needed <= there.bytes) return;
     io::Problems problems = c.scene.problems();
@@ -163,23 +128,12 @@ void require_memory_for_heights(const Case& c) {
 
 Surface surface_of(const Case& c, const Communicator& world) {
     require_memory_for_heights(c);
-    const Scene& scene = c.scene;
-    const auto& s = scene.surface;
-    SurfaceOptions options;
-    options.kind = s.kind;
-    options.sites = c.substrate();
-    options.length = scene.edge();
-    options.rms = s.rms;
-    options.hurst = s.hurst;
-    options.rolloff = s.rolloff;
-    options.cutoff = s.q_max.value_or(0.5 * options.sites);
-    options.amplitudes = s.amplitudes;
-    options.seed = static_cast<std::uint64_t>(s.seed);
-    options.radius = s.radius.value_or(0.0);
+    const auto& s = c.scene.surface;
+    SurfaceOptions options = c.surface;
     try {
-        if (s.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
-        if (s.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map = map_of_file(c, world);
+        if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
+        if (options.kind != SurfaceKind::file) return make_surface(options);
+        io::HeightMap map = read_field(heights_of(c), world);
         options.map_edge = map.width.value_or(0.0);
         const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
         if (points != covered && s.resample == Resample::none)
@@ -192,10 +146,6 @@ Surface surface_of(const Case& c, const Communicator& world) {
         if (points != covered)
             io::require_memory(s.file, "the resampled map",
                                32.0 * covered * static_cast<double>(covered));
-        options.rms = scene.gives_rms() ? s.rms : 0.0;
-        options.detrend = s.detrend != Detrend::none;
-        options.line_noise = s.line_noise;
-        options.periodic = s.detrend == Detrend::periodic;
         const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
         if (options.map_edge <= 0.0)
             map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
@@ -235,7 +185,7 @@ Surface surface_of(const Case& c, const Communicator& world) {
                 100.0 * (1.0 - softness)));
         return surface;
     } catch (const std::invalid_argument& e) {
-        io::Problems problems = scene.problems();
+        io::Problems problems = c.scene.problems();
         problems.add(s.reads_file() ? "surface.file" : "surface.kind",
                      std::string(": ") + e.what());
         problems.throw_if_any();

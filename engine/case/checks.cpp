@@ -31,8 +31,8 @@ void check_path(const Case& c, io::Problems& problems) {
     const bool frictionless =
         c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
     bool apart = true; // beyond the interaction range
-    for (std::size_t i = 0; i < c.path.size(); ++i) {
-        const Segment& segment = c.path[i];
+    for (std::size_t i = 0; i < c.path().size(); ++i) {
+        const Segment& segment = c.path()[i];
         const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
             problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
                          instead);
@@ -76,7 +76,7 @@ void check_path(const Case& c, io::Problems& problems) {
                        "take interface.kind = \"atoms\" with frictionless = false");
             break;
         case Segment::hold:
-            if (!c.in_time && c.scene.block.prony.empty())
+            if (!c.effects.dynamic && c.scene.block.prony.empty())
                 refuse("on a quasi-static path", "equilibria do not change while they are held",
                        "take it out, or give the block branches that relax (block.prony), or take "
                        "drive.mode = \"dynamic\"");
@@ -92,15 +92,6 @@ void check_path(const Case& c, io::Problems& problems) {
 void check_layers(const Case& c, io::Problems& problems) {
     const Scene& scene = c.scene;
     const auto& block = scene.block;
-    constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
-                                    "its surface, has them";
-    if (c.in_time && !block.layers.empty())
-        problems.add("block.layers", "= [...] on a dynamic path", at_rest,
-                     "take drive.mode = \"quasistatic\", or leave layers out");
-    if (c.in_time && block.surface_stress > 0.0)
-        problems.add("block.surface_stress",
-                     fmt::format("= {:.6g} N/m on a dynamic path", block.surface_stress), at_rest,
-                     "take drive.mode = \"quasistatic\", or leave surface_stress out");
     if (block.surface_stress > 0.0 && !block.prony.empty())
         problems.add("block.surface_stress",
                      fmt::format("= {:.6g} N/m with block.prony", block.surface_stress),
@@ -131,52 +122,18 @@ void check_layers(const Case& c, io::Problems& problems) {
                         sum + std::max(1.0, 0.5 * scene.surface.sites)));
 }
 
-/// Checks the keys that cannot be combined with a substrate of atoms anywhere.
+/// Checks what a substrate of atoms anywhere cannot have.
 void check_atoms(const Scene& scene, io::Problems& problems) {
-    const auto& [surface, interface] = std::tie(scene.surface, scene.interface);
-    const auto refuse = [&](const char* key, const std::string& value, const char* why,
-                            const char* instead) {
-        problems.add(key, "= " + value + " with surface.kind = \"atoms\"", why, instead);
-    };
-    const auto refuse_number = [&](const char* key, double value, const char* why,
-                                   const char* instead) {
-        refuse(key, fmt::format("{:.6g}", value), why, instead);
-    };
-    constexpr const char* as_they_are = "the atoms stand where their file says";
+    const Scene::Interface& interface = scene.interface;
     if (interface.kind == InterfaceKind::wall)
-        refuse("interface.kind", "\"wall\"", "a wall stands in place of atoms",
-               "take interface.kind = \"atoms\", or surface.kind = \"file\" with a map");
-    if (interface.tail)
-        refuse("interface.tail", "true", "the tail is that of one layer of known density",
-               "take a larger interface.cutoff, and tail = false");
+        problems.add("interface.kind", "= \"wall\" with surface.kind = \"atoms\"",
+                     "a wall stands in place of atoms",
+                     "take interface.kind = \"atoms\", or surface.kind = \"file\" with a map");
     if (interface.cutoff && *interface.cutoff > largest_cell_cutoff)
-        refuse_number("interface.cutoff", *interface.cutoff,
-                      "the cells of atoms hold for cutoffs up to 100 Å",
-                      "take a cutoff of 100 Å or less");
-    if (scene.gives_rms())
-        refuse_number("surface.rms", surface.rms, as_they_are, "leave it out, and scale the file");
-    if (surface.radius)
-        refuse_number("surface.radius", *surface.radius, as_they_are,
-                      "leave it out, and curve the file");
-    if (surface.lattice_ratio != 1.0)
-        refuse_number("surface.lattice_ratio", surface.lattice_ratio, as_they_are,
-                      "leave it out: the file has its own spacing");
-    if (surface.file_size)
-        refuse_number("surface.file_size", *surface.file_size,
-                      "the file says how wide its periodic box is", "leave it out");
-    if (surface.file_unit != "auto")
-        refuse("surface.file_unit", "\"" + surface.file_unit + "\"",
-               "files of atoms say their unit, or are in Å",
-               "leave it out; give /position and /box of the file an attribute unit");
-    if (surface.detrend != Detrend::none)
-        refuse("surface.detrend", surface.detrend == Detrend::plane ? "\"plane\"" : "\"periodic\"",
-               as_they_are, "leave it out");
-    if (surface.line_noise != LineNoise::keep)
-        refuse("surface.line_noise",
-               surface.line_noise == LineNoise::isotropic ? "\"isotropic\"" : "\"align-rows\"",
-               as_they_are, "leave it out");
-    if (surface.resample != Resample::none)
-        refuse("surface.resample", "\"band-limited\"", as_they_are, "leave it out");
+        problems.add("interface.cutoff",
+                     fmt::format("= {:.6g} with surface.kind = \"atoms\"", *interface.cutoff),
+                     "the cells of atoms hold for cutoffs up to 100 Å",
+                     "take a cutoff of 100 Å or less");
 }
 
 } // namespace
@@ -242,14 +199,10 @@ void check_keys(const Case& c, io::Problems& problems) {
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
 
-    if (surface.kind == SurfaceKind::atoms)
-        check_atoms(scene, problems);
-    else if (!interface.pairs.empty())
-        problems.add("interface.pairs", "= [...] without a substrate of atoms from a file",
-                     "the atoms of other substrates are of one type, with interface.potential",
-                     "leave it out, or take surface.kind = \"atoms\"");
+    refuse_unmet_needs(scene, problems);
+    if (surface.kind == SurfaceKind::atoms) check_atoms(scene, problems);
 
-    if (wall && c.in_time)
+    if (wall && c.effects.dynamic)
         problems.add("interface.kind", "= \"wall\" on a dynamic path",
                      "a wall takes no lateral tractions, and dynamic paths cannot leave lateral "
                      "displacements "
@@ -259,12 +212,7 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
-    if (wall && surface.lattice_ratio != 1.0)
-        problems.add("surface.lattice_ratio",
-                     fmt::format("= {:.6g} with a wall", surface.lattice_ratio),
-                     "a wall has a height below each site, and no lattice of its own",
-                     "take lattice_ratio = 1, or interface.kind = \"atoms\"");
-    if (interface.frictionless && !wall && c.in_time)
+    if (interface.frictionless && !wall && c.effects.dynamic)
         problems.add("interface.frictionless", "= true on a dynamic path",
                      "lateral displacements can be left out only where the block's stiffness for "
                      "normal forces alone is known wave by wave",
@@ -272,41 +220,22 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "frictionless = false");
 
     check_path(c, problems);
-    if (drive.stiffness) {
-        const std::string value = fmt::format("= {:.6g} N/m", *drive.stiffness);
-        if (c.in_time)
-            problems.add("drive.stiffness", value + " on a dynamic path",
-                         "a spring holds the top plane of a quasi-static path",
-                         "take drive.mode = \"quasistatic\", or leave stiffness out");
-        else if (drive.control == Control::mean_height)
-            problems.add("drive.stiffness", value + " with drive.control = \"mean-height\"",
-                         "the mean height is prescribed as by a machine that is hard, whatever "
-                         "holds the top plane",
-                         "take control = \"top\", or leave stiffness out");
-        if (!scene.block.prony.empty())
-            problems.add("drive.stiffness", value + " with block.prony",
-                         "what a block remembers is measured from a top plane that the drive moves",
-                         "leave stiffness or prony out");
-    }
-    if (drive.control == Control::mean_height && c.in_time)
-        problems.add("drive.control", "= \"mean-height\" on a dynamic path",
-                     "a dynamic path prescribes the top plane; the mean height of the lowest layer "
-                     "follows from the motion of the block",
-                     "take drive.mode = \"quasistatic\", or control = \"top\"");
+    if (drive.stiffness && drive.control == Control::mean_height)
+        problems.add(
+            "drive.stiffness",
+            fmt::format("= {:.6g} N/m with drive.control = \"mean-height\"", *drive.stiffness),
+            "the mean height is prescribed as by a machine that is hard, whatever holds "
+            "the top plane",
+            "take control = \"top\", or leave stiffness out");
+    if (drive.stiffness && !scene.block.prony.empty())
+        problems.add("drive.stiffness",
+                     fmt::format("= {:.6g} N/m with block.prony", *drive.stiffness),
+                     "what a block remembers is measured from a top plane that the drive moves",
+                     "leave stiffness or prony out");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
-    if (scene.block.strain == Strain::finite && !c.in_time)
-        problems.add(
-            "block.strain", "= \"finite\" on a quasi-static path",
-            "on such a path the block is a sum of waves, and at finite strain waves do not "
-            "add up",
-            "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"");
     const auto& prony = scene.block.prony;
-    if (!prony.empty() && c.in_time)
-        problems.add("block.prony", "= [...] on a dynamic path",
-                     "only the block of a quasi-static path can relax",
-                     "take drive.mode = \"quasistatic\", or leave prony out");
     for (std::size_t i = 1; i < prony.size(); ++i)
         if (prony[i][1] <= prony[i - 1][1])
             problems.add("block.prony",
@@ -327,21 +256,17 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
         for (const io::Problem& p : device_problems(c))
             problems.add(p.where, p.what, p.why, p.fix);
-    if (!c.maps.after_approach.empty() && (!c.in_time || !c.has(Segment::pull_off)))
+    if (!c.maps.after_approach.empty() && (!c.effects.dynamic || !c.has(Segment::pull_off)))
         problems.add("output.fields", "asks for \"" + c.maps.after_approach.front().second + "\"",
                      "no dynamic pull-off follows an approach",
                      "take a dynamic path with a pull-off, or take it out of output.fields");
-    if (c.maps.segments && c.path.size() == 1 && c.starts_with(Segment::relax))
+    if (c.maps.segments && c.path().size() == 1 && c.starts_with(Segment::relax))
         problems.add("output.fields", "asks for \"segments\"",
                      "drive.path is one relaxation, whose state is \"relaxed\"",
                      "take \"relaxed\" in its place");
     if (c.maps.pull_off && !c.has(Segment::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
-    if (scene.output.trajectory && !c.in_time)
-        problems.add("output.trajectory", fmt::format("= {}", *scene.output.trajectory),
-                     "frames are taken from time steps, and a quasi-static path has none",
-                     "leave it out: the maps of output.fields hold the states");
 }
 
 std::vector<io::Problem> device_problems(const Case& c) {
@@ -350,7 +275,7 @@ std::vector<io::Problem> device_problems(const Case& c) {
         list.push_back({"numerics.device", "is not available with " + std::move(with),
                         std::move(why), std::move(instead)});
     };
-    if (!c.in_time)
+    if (!c.effects.dynamic)
         refuse("a quasi-static path",
                "a device takes time steps; equilibria are relaxed by the "
                "processor",
@@ -387,7 +312,7 @@ void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
                     "it is part of the scene format, and this release does not compute it",
                     std::move(instead));
     };
-    if (scene.drive.mode == DriveMode::dynamic && c.path.size() > 1 &&
+    if (scene.drive.mode == DriveMode::dynamic && c.path().size() > 1 &&
         c.starts_with(Segment::relax))
         refuse("drive.path", "a dynamic path from \"relax\"",
                "use path = [\"approach\", \"pull-off\"], or drive.mode = \"quasistatic\"");
@@ -397,7 +322,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const Scene& scene = c.scene;
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    if (c.in_time && scene.block.model == BlockModel::multiscale) {
+    if (c.effects.dynamic && scene.block.model == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
@@ -420,8 +345,9 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                    "binding energy leaves out the load's potential",
                                    scene.drive.load));
     double load = std::abs(scene.drive.load); // MPa
-    for (const Segment& segment : c.path)
-        if (segment.kind == Segment::load) load = std::max(load, std::abs(segment.amount));
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::load)
+            load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
     const double strain = load * units::megapascal / c.simulation.block.softest_column();
     if (strain > 0.05 && scene.block.strain == Strain::linear)
         list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
@@ -441,18 +367,13 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "
                                        "eV, and may be meV",
                                        c.table_files[i], depth));
-    const bool wall = scene.interface.kind == InterfaceKind::wall;
-    const bool exponential = wall && scene.interface.law == WallLawKind::exponential;
-    const auto idle = [&](const std::string& key, const std::string& reason) {
-        if (scene.positions.is_set(key)) list.push_back(key + " has no effect: " + reason);
-    };
     if (c.effects.branches) {
         // A way of some hundred steps, and holds; as slow as the path can look closer.
         const double a_step =
             100.0 * scene.drive.displacement_step / scene.drive.velocity; // ps: Å over m/s
         double path = 200.0 * a_step;
-        for (const Segment& segment : c.path)
-            if (segment.kind == Segment::hold) path += segment.amount;
+        for (const Segment& segment : c.path())
+            if (segment.kind == Segment::hold) path += segment.amount / units::picosecond;
         for (const auto& [ratio, time] : scene.block.prony)
             if (time > 1000.0 * path)
                 list.push_back(fmt::format("block.prony: {:.4g} ps is far beyond the path, which "
@@ -462,56 +383,9 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                 list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
                                            "the path, {:.1g} ps: this branch is always relaxed",
                                            time, 0x1p-16 * a_step));
-    } else if (!c.in_time && !scene.block.prony.empty()) {
-        idle("block.prony", "drive.path is one relaxation, and its state is the relaxed one");
     }
-    if (c.path.size() == 1 && c.starts_with(Segment::relax))
-        for (const char* key : {"drive.control", "drive.stiffness"})
-            idle(key, "drive.path relaxes with nothing held");
-    if (!c.in_time) {
-        std::vector<std::string> timed; // a scene that was dynamic has many: one note
-        for (const char* key :
-             {"drive.velocity", "drive.temperature", "drive.seed", "drive.timestep",
-              "drive.damping", "drive.damping_from", "drive.ramp", "output.series",
-              "block.atom_mass", "block.model", "block.layers_per_level"})
-            if (scene.positions.is_set(key) &&
-                !(c.effects.branches && std::string_view(key) == "drive.velocity"))
-                timed.push_back(key);
-        if (timed.size() == 1) idle(timed.front(), "no time passes on this path");
-        if (timed.size() > 1)
-            list.push_back(fmt::format("{} and {} have no effect: no time passes on this path",
-                                       fmt::join(timed.begin(), timed.end() - 1, ", "),
-                                       timed.back()));
-    } else {
-        idle("drive.displacement_step", "drive.mode is \"dynamic\"");
-    }
-    if (!scene.output.trajectory) idle("output.velocities", "output.trajectory is \"none\"");
-    if (!wall) idle("interface.law", "interface.kind is not \"wall\"");
-    for (const char* key : {"interface.adhesion", "interface.range", "interface.stiffness"})
-        if (!exponential) idle(key, "there is no wall with the exponential law");
-    for (const char* key : {"interface.potential", "interface.cutoff", "interface.tail"})
-        if (exponential) idle(key, "the wall has the exponential law");
-    for (const auto& [key, potential] : keys_of_potentials())
-        if (exponential)
-            idle(key, "the wall has the exponential law");
-        else if (potential != scene.interface.potential_name() && scene.interface.pairs.empty())
-            idle(key, "interface.potential is not \"" + potential + "\"");
-    if (!surface.reads_file())
-        idle("surface.file", "surface.kind is neither \"file\" nor \"atoms\"");
-    if (surface.kind != SurfaceKind::file)
-        for (const char* key : {"surface.detrend", "surface.line_noise", "surface.resample",
-                                "surface.file_size", "surface.file_unit"})
-            idle(key, "surface.kind is not \"file\"");
-    if (surface.kind == SurfaceKind::flat) idle("surface.rms", "surface.kind is \"flat\"");
-    if (surface.kind == SurfaceKind::atoms)
-        for (const char* key : {"surface.file_missing", "surface.file_crop", "theory.delta_gamma"})
-            idle(key, "surface.kind is \"atoms\"");
-    if (surface.kind != SurfaceKind::self_affine)
-        for (const char* key : {"surface.hurst", "surface.rolloff", "surface.q_max", "surface.seed",
-                                "surface.amplitudes"})
-            idle(key, "surface.kind is not \"self-affine\"");
-    if (c.in_time && scene.block.model != BlockModel::multiscale)
-        idle("block.layers_per_level", "block.model is not \"multiscale\"");
+    for (std::string& note : notes_on_idle_keys(scene))
+        list.push_back(std::move(note));
     return list;
 }
 

@@ -25,11 +25,16 @@ Effect device_effect(const Case& c) {
     return {true, any};
 }
 
+/// Returns the key that makes a path one of equilibria, with its value.
+std::string key_of_rest(const Case& c) {
+    return c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
+}
+
 } // namespace
 
 std::vector<std::pair<const char*, Effect>> Effects::list() const {
     // clang-format off
-    return {{"inertia", inertia}, {"lateral displacements", lateral}, {"damping", damping},
+    return {{"dynamic", dynamic}, {"lateral displacements", lateral}, {"damping", damping},
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
@@ -40,24 +45,28 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
     // clang-format on
 }
 
+Effect dynamic_effect(const Case& c) {
+    if (c.scene.is_dynamic()) return {true, "the path is dynamic"};
+    return {false, "a state of force balance: " + key_of_rest(c)};
+}
+
 Effects effects_of(const Case& c) {
     const Scene& s = c.scene;
-    const bool wall = s.interface.kind == InterfaceKind::wall, in_time = c.in_time;
-    const bool follows_path = std::any_of(c.path.begin(), c.path.end(), [](const Segment& segment) {
-        return segment.kind != Segment::relax;
-    });
-    const std::string rest =
-        c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
+    const bool wall = s.interface.kind == InterfaceKind::wall, dynamic = c.effects.dynamic;
+    const bool follows_path =
+        std::any_of(c.path().begin(), c.path().end(),
+                    [](const Segment& segment) { return segment.kind != Segment::relax; });
+    const std::string rest = key_of_rest(c);
     const std::string no_time = "a state of force balance: " + rest;
     const auto timed = [&](bool on, std::string why) {
-        return in_time ? Effect{on, std::move(why)} : Effect{false, no_time};
+        return dynamic ? Effect{on, std::move(why)} : Effect{false, no_time};
     };
     const auto pairs = [&](bool on, std::string why, const char* of_wall) {
         return wall ? Effect{false, std::string("interface.kind = \"wall\"") + of_wall}
                     : Effect{on, std::move(why)};
     };
     Effects e;
-    e.inertia = timed(true, "the path is dynamic");
+    e.dynamic = c.effects.dynamic;
     e.lateral = pairs(
         !s.interface.frictionless,
         s.interface.frictionless ? "interface.frictionless = true" : "three components a node", "");
@@ -86,7 +95,7 @@ Effects effects_of(const Case& c) {
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
-    e.branches = {!s.block.prony.empty() && !in_time && follows_path,
+    e.branches = {!s.block.prony.empty() && !dynamic && follows_path,
                   s.block.prony.empty()
                       ? "block.prony = []"
                       : fmt::format("block.prony has {} of them", s.block.prony.size())};
@@ -96,17 +105,17 @@ Effects effects_of(const Case& c) {
                     : fmt::format("block.layers has {} of them", s.block.layers.size())};
     e.surface_stress = {s.block.surface_stress > 0.0,
                         fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
-    e.spring = {s.drive.stiffness.has_value() && !in_time && follows_path,
+    e.spring = {s.drive.stiffness.has_value() && !dynamic && follows_path,
                 s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
                                   : "drive.stiffness = \"none\""};
-    e.relaxation = {!in_time || !finite,
-                    !in_time ? rest
+    e.relaxation = {!dynamic || !finite,
+                    !dynamic ? rest
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "
                                "waves do not add up"
                              : "a copy of the lowest layer is relaxed where the approach ends"};
     e.observation = {follows_path,
                      !follows_path ? no_time
-                     : in_time     ? fmt::format("every {} steps (output.series)", s.output.series)
+                     : dynamic     ? fmt::format("every {} steps (output.series)", s.output.series)
                                    : "always: at every point of a quasi-static path"};
     const MapTimes& m = c.maps;
     e.maps.on = m.relaxed || m.pull_off || m.segments || (follows_path && m.every) ||

@@ -26,7 +26,7 @@ struct Effect {
 
 /// All effects of a scene.
 struct Effects {
-    Effect inertia,     ///< velocities, time steps
+    Effect dynamic,     ///< time steps with inertia; off: states of force balance only
         lateral,        ///< displacements along x and y
         damping,        ///< damping against a medium that moves with the top plane
         temperature,    ///< thermal noise
@@ -51,7 +51,10 @@ struct Effects {
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
 };
-/// Returns the effects of a case whose scene, path and maps are known.
+/// Returns the first of the effects, which the options of the block need: whether the path of a
+/// scene is dynamic.
+Effect dynamic_effect(const Case& c);
+/// Returns the effects of a case whose scene, path, effects.dynamic and maps are known.
 Effects effects_of(const Case& c);
 
 } // namespace asperity

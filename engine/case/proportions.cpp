@@ -28,7 +28,7 @@ struct Part {
 /// Returns the least way of the top plane that the path asks for, at right angles and along, Å.
 double least_way(const Case& c) {
     double way = 0.0, at = 0.0;
-    for (const Segment& segment : c.path) {
+    for (const Segment& segment : c.path()) {
         if (segment.kind == Segment::slide) way += std::abs(segment.amount);
         if (segment.kind == Segment::height)
             way += std::abs(segment.amount - at), at = segment.amount;
@@ -66,9 +66,9 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const double dt = c.simulation.dt, velocity = c.simulation.drive.velocity;
     double hold = 0.0;
-    for (const Segment& segment : c.path)
-        if (segment.kind == Segment::hold) hold += segment.amount * units::picosecond;
-    const double turns = static_cast<double>(c.path.size()) - 1.0,
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::hold) hold += segment.amount;
+    const double turns = static_cast<double>(c.path().size()) - 1.0,
                  ramps = c.simulation.drive.ramp * turns;
     const double way = least_way(c) / velocity;
     const Part parts[] = {
@@ -106,7 +106,7 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
 /// Refuses a quasi-static path of more points than a run can make.
 void refuse_short_steps(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
-    if (c.path.size() == 1 && c.starts_with(Segment::relax)) return;
+    if (c.path().size() == 1 && c.starts_with(Segment::relax)) return;
     const double asked = scene.drive.displacement_step, way = least_way(c);
     const double step = std::min(asked, c.longest_step);
     if (!(way / step > most_points) || scene.drive.max_steps > 0) return;
@@ -129,7 +129,7 @@ void refuse_short_steps(const Case& c, io::Problems& refused) {
 void refuse_violence(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const double dt = c.simulation.dt;
-    if (c.effects.damping && c.in_time && c.simulation.damping * dt > 1.0)
+    if (c.effects.damping && c.effects.dynamic && c.simulation.damping * dt > 1.0)
         refused.add(
             "drive.damping",
             fmt::format("= {:.6g} 1/ps stops the atoms within a time step", scene.drive.damping),
@@ -157,10 +157,11 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                         fmt::format("{}: take a load below {:.2g} MPa", unit_fix, 0.05 * modulus));
     };
     look("drive.load", scene.drive.load, fmt::format("= {:.6g} MPa", scene.drive.load));
-    for (const Segment& segment : c.path)
+    for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)
-            look("drive.path", segment.amount, fmt::format("has \"{}\", which", segment.text));
-    if (!c.in_time && scene.drive.tolerance >= 1.0)
+            look("drive.path", segment.amount / (units::megapascal * c.area()),
+                 fmt::format("has \"{}\", which", segment.text));
+    if (!c.effects.dynamic && scene.drive.tolerance >= 1.0)
         refused.add("drive.tolerance",
                     fmt::format("= {:.6g} takes every state for balanced", scene.drive.tolerance),
                     "it is a fraction of the smallest force that decides the state",
@@ -173,7 +174,7 @@ void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
     const std::size_t before = refused.list().size();
     refuse_heights(c, refused);
     if (refused.list().size() > before) return; // further problems would have the same cause
-    if (c.in_time)
+    if (c.effects.dynamic)
         refuse_long_times(c, refused);
     else
         refuse_short_steps(c, refused);

@@ -83,7 +83,26 @@ MapTimes maps_of(const Scene& scene, io::Problems& problems) {
     return maps;
 }
 
-BlockOptions block_of(const Scene& scene, bool in_time) {
+SurfaceOptions surface_options(const Scene& scene) {
+    const Scene::Surface& s = scene.surface;
+    SurfaceOptions options;
+    options.kind = s.kind;
+    options.sites = substrate_sites(s.sites, s.lattice_ratio);
+    options.length = scene.edge();
+    options.rms = s.kind == SurfaceKind::file && !scene.gives_rms() ? 0.0 : s.rms;
+    options.hurst = s.hurst;
+    options.rolloff = s.rolloff;
+    options.cutoff = s.q_max.value_or(0.5 * options.sites);
+    options.amplitudes = s.amplitudes;
+    options.seed = static_cast<std::uint64_t>(s.seed);
+    options.radius = s.radius.value_or(0.0);
+    options.detrend = s.detrend != Detrend::none;
+    options.periodic = s.detrend == Detrend::periodic;
+    options.line_noise = s.line_noise;
+    return options;
+}
+
+BlockOptions block_of(const Scene& scene, bool dynamic) {
     BlockOptions block;
     block.sites = scene.surface.sites;
     block.spacing = scene.surface.spacing;
@@ -92,7 +111,7 @@ BlockOptions block_of(const Scene& scene, bool in_time) {
     block.atom_mass = scene.block.atom_mass * units::atomic_mass;
     block.thickness = scene.block.thickness;
     block.layers_per_level = scene.block.layers_per_level;
-    block.multiscale = in_time && scene.block.model == BlockModel::multiscale;
+    block.multiscale = dynamic && scene.block.model == BlockModel::multiscale;
     block.finite_strain = scene.block.strain == Strain::finite;
     for (const auto& [ratio, time] : scene.block.prony)
         block.branches.push_back({ratio, time * units::picosecond});
@@ -126,7 +145,7 @@ void fill_interface(Case& c) {
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
         c.notes.push_back("numerics.precision has no effect: pairs are in double precision " +
                           in_double);
-    options.mixed_on_request = !c.in_time;
+    options.mixed_on_request = !c.effects.dynamic;
     if (i.kind == InterfaceKind::atoms) return;
     if (i.law == WallLawKind::smeared) {
         std::visit(
@@ -187,7 +206,7 @@ void fill_flat_reference(Case& c, io::Problems& problems) {
 
 /// Notes a tolerance whose forces, in the block's longest wave, matter beside the work of adhesion.
 void note_coarse_tolerance(Case& c) {
-    if (c.in_time) return;
+    if (c.effects.dynamic) return;
     constexpr double coarse = 0.01;
     const BlockOptions& block = c.simulation.block;
     const double force = c.tolerance, area = block.spacing * block.spacing;
@@ -206,12 +225,15 @@ void note_coarse_tolerance(Case& c) {
 /// Limits steps: no step may jump over the potential, and no pull can exceed the strongest binding.
 void limit_steps(Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
+    c.simulation.drive.displacement_step = scene.drive.displacement_step;
     // The width of the potential: its depth over its largest force.
     const double tension = c.largest_tension * units::gigapascal;
     const double width = c.flat.work_of_adhesion / units::milli_per_unit / tension;
     if (tension > 0.0) {
         c.longest_step = 0.5 * width;
-        if (!c.in_time && scene.drive.displacement_step > c.longest_step)
+        c.simulation.drive.displacement_step =
+            std::min(scene.drive.displacement_step, c.longest_step);
+        if (!c.effects.dynamic && scene.drive.displacement_step > c.longest_step)
             c.notes.push_back(fmt::format(
                 "drive.displacement_step = {:.6g} Å: steps are {:.3g} Å at most, half the width of "
                 "the potential (its depth over its largest force)",
@@ -226,7 +248,7 @@ void limit_steps(Case& c, io::Problems& refused) {
                             tension / units::megapascal),
                 "take a smaller pull");
     }
-    if (c.in_time && tension > 0.0) {
+    if (c.effects.dynamic && tension > 0.0) {
         const double travel = scene.drive.velocity * units::metre_per_second * scene.drive.timestep;
         if (travel > 0.1 * width)
             refused.add(
@@ -266,22 +288,19 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.velocity = scene.drive.velocity * units::metre_per_second;
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
+    drive.control = scene.drive.control;
     drive.stiffness = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
+    if (scene.drive.max_steps > 0) drive.max_steps = scene.drive.max_steps;
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
     if (c.effects.temperature)
         drive.average_over = c.scales.length > 0.0
                                  ? std::min(crossing, 0.1 * c.scales.length / drive.velocity)
                                  : crossing;
-    if (c.effects.temperature && c.in_time)
+    if (c.effects.temperature && c.effects.dynamic)
         c.notes.push_back(fmt::format(
             "the force of a warm block fluctuates: an approach or a load ends by its average over "
             "{:.3g} ps (segments[].pressure, with pressure_scatter)",
             drive.average_over / units::picosecond));
-    drive.path = c.path;
-    for (Segment& segment : drive.path) {
-        if (segment.kind == Segment::load) segment.amount *= units::megapascal * c.area();
-        if (segment.kind == Segment::hold) segment.amount *= units::picosecond;
-    }
     c.simulation.interface.slides = c.effects.sliding;
 
     c.simulation.dt = scene.drive.timestep;
@@ -294,7 +313,7 @@ void fill_motion(Case& c, io::Problems& refused) {
 
     c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
     const double period = std::numbers::pi * c.longest_timestep; // period of the fastest vibration
-    if (c.effects.inertia && scene.drive.timestep >= c.longest_timestep)
+    if (c.effects.dynamic && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
@@ -354,9 +373,13 @@ std::string find_beside_scene(const Scene& scene, const std::string& file, const
     return {};
 }
 
+double Case::load_in_megapascal() const {
+    return simulation.drive.load_force / (units::megapascal * area());
+}
+
 ProcessGrid Case::grid(int rank) const {
-    if (!in_time) return ProcessGrid::slabs(ranks, rank, scene.surface.sites);
-    return ProcessGrid(ranks, rank, scene.surface.sites, static_cast<int>(levels.size()));
+    if (!effects.dynamic) return ProcessGrid::slabs(ranks, rank, simulation.block.sites);
+    return ProcessGrid(ranks, rank, simulation.block.sites, static_cast<int>(levels.size()));
 }
 
 std::vector<std::string> Case::inputs() const {
@@ -366,11 +389,12 @@ std::vector<std::string> Case::inputs() const {
 }
 
 bool Case::has(Segment::Kind kind) const {
-    return std::any_of(path.begin(), path.end(), [&](const Segment& s) { return s.kind == kind; });
+    return std::any_of(path().begin(), path().end(),
+                       [&](const Segment& s) { return s.kind == kind; });
 }
 
 bool Case::guided() const {
-    return std::any_of(path.begin(), path.end(), [](const Segment& s) {
+    return std::any_of(path().begin(), path().end(), [](const Segment& s) {
         return s.kind != Segment::approach && s.kind != Segment::pull_off &&
                s.kind != Segment::relax;
     });
@@ -390,9 +414,12 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     c.scene = scene;
     c.ranks = ranks;
     io::Problems found = scene.problems();
-    c.path = parse_path(scene.drive.path, found);
-    c.in_time = scene.drive.mode == DriveMode::dynamic && !c.has(Segment::relax);
-    c.simulation.block = block_of(scene, c.in_time);
+    c.simulation.drive.path = parse_path(scene.drive.path, scene.edge() * scene.edge(), found);
+    c.effects.dynamic = dynamic_effect(c);
+    c.simulation.block = block_of(scene, c.effects.dynamic);
+    c.surface = surface_options(scene);
+    c.output = scene.output;
+    c.theory = scene.theory;
     c.levels = level_shapes(c.simulation.block);
     c.file = file_of(scene, found);
     c.maps = maps_of(scene, found);

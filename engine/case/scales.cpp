@@ -36,8 +36,9 @@ double smallest_load(const Case& c) {
         if (size > 0.0 && (smallest == 0.0 || size < smallest)) smallest = size;
     };
     if (c.has(Segment::approach) || c.has(Segment::relax)) consider(c.scene.drive.load);
-    for (const Segment& segment : c.path)
-        if (segment.kind == Segment::load) consider(segment.amount);
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::load)
+            consider(segment.amount / (units::megapascal * c.area()));
     return smallest;
 }
 

@@ -22,14 +22,14 @@ struct ContactEdge {
 };
 
 std::optional<ContactEdge> edge_of(const Case& c) {
-    const Scene& scene = c.scene;
-    const auto& wall = scene.interface;
+    const auto& wall = c.scene.interface;
     if (wall.kind != InterfaceKind::wall || wall.law != WallLawKind::exponential ||
         wall.adhesion == 0.0)
         return std::nullopt;
     // The gap opens as the root of the distance from the edge of a contact.
     const double modulus = c.simulation.block.surface_material().contact_modulus();
-    const double adhesion = wall.adhesion / units::milli_per_unit, spacing = scene.surface.spacing;
+    const double adhesion = wall.adhesion / units::milli_per_unit;
+    const double spacing = c.simulation.block.spacing;
     ContactEdge edge;
     edge.strip = modulus * wall.range * wall.range / adhesion;
     // A row lets go at its largest tension, adhesion / range, whatever the work of adhesion: where
@@ -45,14 +45,14 @@ std::optional<ContactEdge> edge_of(const Case& c) {
 } // namespace
 
 std::optional<std::string> note_on_contact_edge(const Case& c) {
-    const Scene& scene = c.scene;
     const auto edge = edge_of(c);
-    if (!edge || edge->strip >= 2.0 * scene.surface.spacing) return std::nullopt;
+    const double spacing = c.simulation.block.spacing;
+    if (!edge || edge->strip >= 2.0 * spacing) return std::nullopt;
     return fmt::format(
         "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / adhesion), "
         "{:.2g} spacings: single rows of sites hold the edge in place, and a sphere's pull-off "
         "force is about {:.3g} times too large; {} avoids that",
-        edge->strip, edge->strip / scene.surface.spacing, edge->pinning, edge->remedy);
+        edge->strip, edge->strip / spacing, edge->pinning, edge->remedy);
 }
 
 double edge_pinning(const Case& c) {

@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-/// Returns Case::edge_pinning of a scene.
+/// Returns Case::edge_pinning of a case whose options of the block are known.
 double edge_pinning(const Case& c);
 /// Returns a sentence with that factor; nothing if the spacing resolves the edge.
 std::optional<std::string> note_on_contact_edge(const Case& c);

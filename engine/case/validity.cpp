@@ -76,7 +76,7 @@ std::vector<std::string> notes_on_validity(const Case& c) {
                 "lists more",
                 slope));
     }
-    if (!c.in_time) return notes;
+    if (!c.effects.dynamic) return notes;
     if (scene.drive.velocity > fastest)
         notes.push_back(
             fmt::format("drive.velocity = {:.4g} m/s is above {:.4g} m/s: the sound that the drive "

@@ -3,8 +3,9 @@
 #include "engine/commands/commands.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/case/site_field.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/run/series.hpp"
 #include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
@@ -119,7 +120,6 @@ int init_command(const std::string& asked, const Communicator& world) {
 }
 
 int check_command(const Case& c, bool json, const Communicator& world) {
-    const Scene& scene = c.scene;
     if (json) {
         const io::Json all = check_json(c, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
@@ -127,12 +127,12 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     }
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root()) return io::exit_code::done;
-    fmt::print("{}: nothing wrong\n", scene.file);
+    fmt::print("{}: nothing wrong\n", c.scene.file);
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
-               scene.surface.sites, scene.edge(), scene.block.thickness, c.levels.size(),
+               c.simulation.block.sites, c.edge(), c.simulation.block.thickness, c.levels.size(),
                c.levels.size() == 1 ? "" : "s");
-    if (c.in_time)
-        fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", scene.drive.timestep,
+    if (c.effects.dynamic)
+        fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));
     for (const std::string& note : notes)
         fmt::print("  note: {}\n", note);
@@ -161,9 +161,9 @@ namespace {
 
 /// Prints the contents of the file of a measured surface, before the scene uses them.
 void print_map_file(const Case& c) {
-    const Scene& scene = c.scene;
+    const FieldFile field = heights_of(c);
     const io::HeightMap map =
-        io::read_map_file(c.file, {scene.surface.file_unit, false, false, scene.surface.file_size});
+        io::read_map_file(field.file, {field.how.unit, false, false, field.how.size});
     const std::optional<double>&width = map.width, &height = map.height;
     const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
                  dy = height.value_or(0.0) / static_cast<double>(map.rows);
@@ -172,18 +172,18 @@ void print_map_file(const Case& c) {
         return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
     };
     io::Table table({"the file", "", ""}, "<<<");
-    table.row({"name", std::filesystem::path(scene.surface.file).filename().string(), map.format});
+    table.row({"name", std::filesystem::path(field.name).filename().string(), map.format});
     table.row({"points", fmt::format("{} x {}", map.columns, map.rows),
                map.missing > 0 ? fmt::format("{} without a height", map.missing) : ""});
     table.row({"size", width ? fmt::format("{:.6g} x {:.6g} Å", *width, *height) : "?",
-               scene.surface.file_size ? "surface.file_size"
-               : width                 ? ""
-                                       : "the file does not say"});
+               field.how.size ? "surface.file_size"
+               : width        ? ""
+                              : "the file does not say"});
     table.row({"pixel", width ? fmt::format("{:.5g} x {:.5g} Å", dx, dy) : "?", ""});
     table.row({"heights in", map.unit,
-               scene.surface.file_unit != "auto" ? "surface.file_unit"
-               : map.unit_assumed                ? "assumed: the file does not say"
-                                                 : ""});
+               field.how.unit != "auto" ? "surface.file_unit"
+               : map.unit_assumed       ? "assumed: the file does not say"
+                                        : ""});
     table.row({"rms height", fmt::format("{:.8g} Å", s.rms_height), "about the mean"});
     table.row({"rms slope", if_sized(s.rms_slope, "{:.8g}"), "differences of neighbours"});
     table.row({"rms curvature", if_sized(s.rms_curvature, "{:.8g} 1/Å"), "second differences"});
@@ -275,7 +275,7 @@ int surface_command(const Case& c, const std::string& out, bool json, const Comm
         });
         return io::exit_code::done;
     }
-    if (c.scene.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
+    if (c.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
     const Surface surface = surface_of(c, world);
     world.on_root([&] {
         const std::vector<std::string> lines = write_surface(c, surface, out);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/commands.hpp"
 
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/theory/rough_interface.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
@@ -30,9 +30,8 @@ using io::Json;
 class SurfaceCache {
 public:
     const Surface& of(const Case& c) {
-        const Scene& scene = c.scene;
-        Json keys = scene_json(scene)["surface"];
-        if (scene.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
+        Json keys = scene_json(c.scene)["surface"];
+        if (c.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
         if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
             surface_ = surface_of(c);
             keys_ = text;
@@ -160,7 +159,7 @@ int theory_points_command(const TheoryPoints& what) {
             if (what.runnable) examine(c);
             point = what.runnable ? simulated_point(c, surfaces, what.profile)
                                   : point_json(c, surfaces, what.profile);
-            if (what.runnable && (c.scene.surface.reads_file() || c.table_digest)) {
+            if (what.runnable && (c.surface.reads_file() || c.table_digest)) {
                 // Present contents of the files.
                 const Json now = surface_result(c, surfaces.of(c)).json();
                 for (const char* part : {"surface", "interface"})

@@ -10,7 +10,7 @@ namespace asperity {
 
 double BlockOptions::sound_speed() const {
     const double density = atom_mass / (spacing * spacing * spacing);
-    return std::sqrt((lame() + 2.0 * shear_modulus()) / density);
+    return std::sqrt(modulus_of_compression() / density);
 }
 
 CellElasticity BlockOptions::elasticity(int level) const { return cell(spacing * (1 << level)); }
@@ -26,7 +26,7 @@ std::vector<Material> BlockOptions::materials() const {
 double BlockOptions::softest_column() const {
     double softest = HUGE_VAL;
     for (const Material& m : materials())
-        softest = std::min(softest, m.lame() + 2.0 * m.shear_modulus());
+        softest = std::min(softest, m.modulus_of_compression());
     return softest;
 }
 
@@ -55,7 +55,7 @@ SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
 }
 
 double BlockOptions::softest_wave() const {
-    if (layers.empty()) return contact_modulus() * std::numbers::pi / (sites * spacing);
+    if (layers.empty()) return contact_modulus() * std::numbers::pi / edge();
     return 1.0 / inverse(stiffness(wave_phase(1, sites), wave_phase(0, sites))).zz /
            (spacing * spacing);
 }

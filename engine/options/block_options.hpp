@@ -24,6 +24,8 @@ struct Material {
 
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
+    /// Returns the modulus of a solid that is compressed and cannot widen, lambda + 2 mu, eV/Å^3.
+    double modulus_of_compression() const { return lame() + 2.0 * shear_modulus(); }
     /// Returns E/(1 - nu^2), eV/Å^3.
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
     /// Returns the constants of a lattice cell, of this edge in Å.
@@ -52,6 +54,8 @@ struct BlockOptions : Material {
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
 
+    /// Returns the edge of the box, Å.
+    double edge() const { return sites * spacing; }
     /// Returns all materials, that of the surface first.
     std::vector<Material> materials() const;
     /// Returns the smallest modulus of a material that cannot widen, lambda + 2 mu, eV/Å^3.

@@ -6,9 +6,13 @@
 
 #include "engine/options/segment.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace asperity {
+
+/// Quantity that a quasi-static path moves from point to point.
+enum class Control { top, mean_height };
 
 /// Options of the drive, in the units of the engine.
 struct DriveOptions {
@@ -20,7 +24,12 @@ struct DriveOptions {
     /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
     /// a warm block, whose force fluctuates.
     double average_over = 0.0;
-    /// Segments of the path. Amounts in the units of the engine: a load in eV/Å, a hold in fs.
+    Control control = Control::top; ///< quantity that a quasi-static path moves
+    /// Largest displacement from point to point of a quasi-static path, Å
+    double displacement_step = 0.25;
+    /// Number of steps or points after which the run stops; empty: no limit
+    std::optional<long long> max_steps;
+    /// Segments of the path
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
 };

@@ -16,10 +16,10 @@ struct Segment {
         approach, ///< down, through attraction, to drive.load
         pull_off, ///< up, until beyond the interaction range
         relax,    ///< straight to the relaxed state under drive.load, nothing held
-        load,     ///< up or down to a pressure, MPa
+        load,     ///< up or down to a total normal force, eV/Å
         height,   ///< up or down to a height of the lowest layer, Å: its mean height if that is
                   ///< held; otherwise its height in the undeformed block
-        hold,     ///< at rest, for a time, ps
+        hold,     ///< at rest, for a time, fs
         slide     ///< sideways by a distance, Å, at the same height
     };
     static constexpr std::size_t kinds = 7;

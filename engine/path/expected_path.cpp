@@ -13,12 +13,12 @@ namespace asperity {
 ExpectedPath expected_path(const Case& c, double start) {
     const BlockOptions& block = c.simulation.block;
     const double contact = c.flat.separation - start; // displacement of the top plane
-    const double modulus = block.lame() + 2.0 * block.shear_modulus(); // eV/Å^3
-    const double yields = block.thickness * block.spacing / modulus; // deformation under a pressure
+    const double yields = block.thickness * block.spacing /
+                          block.modulus_of_compression(); // deformation under a pressure
     ExpectedPath path;
-    path.time = c.simulation.drive.ramp * static_cast<double>(c.path.size() - 1); // turns
+    path.time = c.simulation.drive.ramp * static_cast<double>(c.path().size() - 1); // turns
     double at = 0.0, pressure = 0.0;
-    for (const Segment& segment : c.path) {
+    for (const Segment& segment : c.path()) {
         double to = at, way = 0.0;
         if (segment.kind == Segment::approach) {
             to = contact;
@@ -28,7 +28,7 @@ ExpectedPath expected_path(const Case& c, double start) {
             way = std::max(-at, 0.5 * c.largest_tension * units::gigapascal * yields);
             to = 0.0;
         } else if (segment.kind == Segment::load) {
-            const double asked = segment.amount * units::megapascal;
+            const double asked = segment.amount / c.area();
             to = std::min(at, contact) + (pressure - asked) * yields;
             pressure = asked;
         } else if (segment.kind == Segment::height) {
@@ -36,7 +36,7 @@ ExpectedPath expected_path(const Case& c, double start) {
         } else if (segment.kind == Segment::slide) {
             way = std::abs(segment.amount);
         } else if (segment.kind == Segment::hold) {
-            path.time += segment.amount * units::picosecond;
+            path.time += segment.amount;
         }
         way = std::max(way, std::abs(to - at));
         at = to;
@@ -55,8 +55,8 @@ double way_done(const Case& c, double start, std::size_t segment, double top) {
     // Depth of an approach still to come, of a pull-off done
     const double depth = path.deepest + top;
     double here = 0.0;
-    if (c.path[segment].kind == Segment::approach) here = path.ways[segment] - depth;
-    if (c.path[segment].kind == Segment::pull_off) here = depth;
+    if (c.path()[segment].kind == Segment::approach) here = path.ways[segment] - depth;
+    if (c.path()[segment].kind == Segment::pull_off) here = depth;
     here = std::clamp(here, 0.0, path.ways[segment]);
     return all > 0.0 ? std::clamp((ended + here) / all, 0.0, 0.99) : 0.0;
 }

@@ -51,11 +51,11 @@ std::optional<std::string> violation(const StepRecord& now, const Case& c, const
     double lowest = surface.statistics.lowest - reach_of(c.simulation.interface);
     // A wall gives way: the mean gap is no less than that of flat surfaces under the same force.
     if (const auto& wall = c.simulation.interface.wall) {
-        const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
-        const auto depth = [&](const auto& law) { return law.depth_under(now.force / sites); };
+        const auto depth = [&](const auto& law) { return law.depth_under(now.force / c.sites()); };
         lowest -= 2.0 * std::visit(depth, *wall);
     }
-    return violation(now, lowest, fmt::format("{} {}", c.in_time ? "step" : "point", now.step));
+    return violation(now, lowest,
+                     fmt::format("{} {}", c.effects.dynamic ? "step" : "point", now.step));
 }
 
 } // namespace asperity

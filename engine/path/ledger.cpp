@@ -21,7 +21,7 @@ std::optional<double> Ledger::per_area(const std::optional<double>& energy) cons
 
 void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& works,
                       const std::optional<double>& kinetic) {
-    const Segment& segment = case_.path[number];
+    const Segment& segment = case_.path()[number];
     SegmentResults ended = results_.ended(number, segment, now, works.lateral);
     ended.work = per_area(works.on_solids);
     ended.lost = per_area(works.lost);
@@ -29,7 +29,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.stored = per_area(works.stored);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
-    if (case_.scene.drive.temperature == 0.0) ended.kinetic = per_area(kinetic);
+    if (!case_.effects.temperature) ended.kinetic = per_area(kinetic);
     results_.segments.push_back(ended);
     results_.begin_segment();
 
@@ -38,7 +38,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
     // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
-    if (results_.last(Segment::approach) && case_.scene.drive.temperature == 0.0)
+    if (results_.last(Segment::approach) && !case_.effects.temperature)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
     if (results_.last(Segment::approach) && case_.effects.branches)
         results_.relaxed_in_cycle = per_area(relaxed_since_apart_);

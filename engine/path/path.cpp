@@ -48,7 +48,7 @@ bool Path::advance(const Wish& wish) {
         return true;
     }
     conclude();
-    status_ = ++concluded_ == case_.path.size() ? Status::done : Status::beginning;
+    status_ = ++concluded_ == case_.path().size() ? Status::done : Status::beginning;
     return true;
 }
 
@@ -62,7 +62,7 @@ void Observer::look(const Path& path) {
 }
 
 std::unique_ptr<Path> path_of(const Case& c, const Surface& surface, const Communicator& ranks) {
-    if (c.in_time) return std::make_unique<TimePath>(c, surface, ranks);
+    if (c.effects.dynamic) return std::make_unique<TimePath>(c, surface, ranks);
     return std::make_unique<StaticPath>(c, surface, ranks);
 }
 

@@ -184,7 +184,7 @@ protected:
     /// Sets the status after a step that advance() has not made.
     void come_to(Status status) { status_ = status; }
     /// Returns the segment that is under way or at its end.
-    const Segment& segment_to_conclude() const { return case_.path[concluded_]; }
+    const Segment& segment_to_conclude() const { return case_.path()[concluded_]; }
     bool told(long long iteration, double residual) const {
         return watch_ && watch_(iteration, residual);
     }

@@ -10,8 +10,8 @@ namespace asperity {
 
 StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator& ranks)
     : Path(c, surface), grid_(c.grid(ranks.rank())),
-      interface_(surface, grid_.tile(0), c.scene.surface.spacing, c.simulation.interface),
-      block_(c.simulation.block, ranks, c.scene.interface.frictionless) {
+      interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
+      block_(c.simulation.block, ranks, !c.effects.lateral) {
     if (c.effects.spring) block_.set_machine(c.simulation.drive.stiffness);
     nowhere_.mean_height = interface_.start_height();
 }
@@ -30,11 +30,11 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
             return Status::relaxing;
         }
         const bool first = segment() == 0;
-        const bool from_state = !first && case_.path[segment() - 1].kind == Segment::relax;
+        const bool from_state = !first && case_.path()[segment() - 1].kind == Segment::relax;
         if (first || from_state) make_points();
         if (first) points_->start();
         if (from_state) points_->start_here({.from_apart = true});
-        points_->begin(case_.simulation.drive.path[segment()], segment());
+        points_->begin(case_.path()[segment()], segment());
         if (first || from_state) return Status::under_way;
     }
     const long long before = now().step;
@@ -77,7 +77,7 @@ void StaticPath::conclude() {
                 .interface = {},
                 .uncertainty = points_->uncertainty()};
     // A held mean height does not jump: the holder's force is that of the interface.
-    if (case_.scene.drive.control == Control::mean_height)
+    if (case_.simulation.drive.control == Control::mean_height)
         works.interface = slide ? 0.0 : -points_->work();
     ledger_.conclude(segment(), now(), works, {});
 }

@@ -16,7 +16,7 @@ TimePath::TimePath(const Case& c, const Surface& surface, const Communicator& ra
     : Path(c, surface), simulation_(c.simulation, surface, ranks, c.grid(ranks.rank())),
       drive_(c.simulation.drive) {
     start_.height = simulation_.interface().start_height();
-    if (c.scene.drive.temperature == 0.0)
+    if (!c.effects.temperature)
         start_ = approach_start(simulation_.block_to_write(), simulation_.interface());
     drive_.begin_at(start_.height);
     simulation_.start(start_.height, drive_.motion(0.0).z);
@@ -48,7 +48,7 @@ void TimePath::step(const TopMotion& motion, const Wish& wish) {
         come_to(Status::behind_end);
     } else {
         make_step(motion, wish);
-        results_.record_force(case_.path[segment_], now());
+        results_.record_force(case_.path()[segment_], now());
     }
 }
 
@@ -71,7 +71,7 @@ void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
         const double v = case_.simulation.drive.velocity;
         // The energy of a block that starts at full speed is that of the first step, unless noise
         // is part of it.
-        const bool as_seen = drive_.motion(0.0).z != 0.0 && case_.scene.drive.temperature == 0.0;
+        const bool as_seen = drive_.motion(0.0).z != 0.0 && !case_.effects.temperature;
         kinetic_at_full_speed_ =
             as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
@@ -97,7 +97,7 @@ void TimePath::keep(const Wish& wish) {
 
 /// Returns true if the segment has ended with this step.
 bool TimePath::tell_drive(const StepRecord& now) {
-    const Segment& segment = case_.path[drive_.segment()];
+    const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
     const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
     if (!drive_.observe({now.time, now.force, now.top, apart})) return false;
@@ -141,7 +141,7 @@ void TimePath::conclude() {
         end = at_rest_apart(end, bound, moving);
         kinetic = energy - bound - moving;
     } else if (segment.kind == Segment::approach && results_.zero_load &&
-               case_.scene.drive.load == 0.0) {
+               case_.simulation.drive.load_force == 0.0) {
         kinetic =
             energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
     }
@@ -180,7 +180,7 @@ double TimePath::kinetic_as_top(double time) const {
 std::string TimePath::position() const { return fmt::format("step {}", steps()); }
 
 Path::Remedy TimePath::remedy() const {
-    const double set = case_.scene.drive.timestep, limit = case_.longest_timestep;
+    const double set = case_.simulation.dt, limit = case_.longest_timestep;
     return {fmt::format("{}; drive.timestep = {:.4g} fs is stable up to {:.4g} fs in an unloaded "
                         "contact, and less where atoms are pressed into the wall or hit it fast",
                         fastest_site(simulation_), set, limit),

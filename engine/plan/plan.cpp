@@ -27,7 +27,7 @@ namespace {
 /// For states and paths of pieces, s.
 constexpr double rehearsal_seconds = 1.5;
 /// Sites across the largest piece and the smallest.
-constexpr int most_sites = 256, least_sites = 16;
+constexpr int widest_piece = 256, least_sites = 16;
 /// A run of no more nodes and sites than these fits anywhere.
 constexpr double small_nodes = 2e5, small_sites = 65536.0;
 /// Typical: highest point of a surface over its rms height; power of the width by which states and
@@ -45,15 +45,15 @@ constexpr double one_day = 86400.0; ///< s
 /// Returns pieces of growing width; the last is the largest that the time allows.
 std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double atoms) {
     // The box of a piece is twice the cutoff at least.
-    const double reach = 2.0 * c.simulation.interface.pairs().cutoff / c.scene.surface.spacing;
+    const double reach = 2.0 * c.simulation.interface.pairs().cutoff / c.simulation.block.spacing;
     const int least = std::max(least_sites, static_cast<int>(reach) + 1);
-    const int sites = c.scene.surface.sites;
+    const int sites = c.simulation.block.sites;
     int halvings = 0;
     while (sites >> (halvings + 1) >= least)
         ++halvings;
     std::vector<Piece> pieces;
     double left = rehearsal_seconds;
-    for (; halvings >= 0 && sites >> halvings <= most_sites; --halvings) {
+    for (; halvings >= 0 && sites >> halvings <= widest_piece; --halvings) {
         // Twice the width takes four to eight times as long.
         if (!pieces.empty() && 5.0 * (pieces.back().making + pieces.back().resting) > left) break;
         const Piece piece = rehearse(c, sites >> halvings, left, of_file, atoms);
@@ -68,16 +68,16 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
 double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
     const Tile tile = c.grid(rank).tile(0);
     const double one = std::pow(piece.sites, 2), h = 2.0 * halo_width;
-    const double whole = std::pow(c.scene.surface.sites, 2) / one;
+    const double whole = std::pow(c.simulation.block.sites, 2) / one;
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
     const double bytes = piece.bytes[part];
     if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
     if (part == Piece::maps) return rank == 0 ? bytes * whole : 0.0; // the root collects them
-    if (c.in_time && (part == Piece::block || part == Piece::kept))
+    if (c.effects.dynamic && (part == Piece::block || part == Piece::kept))
         return bytes * nodes_of(c.levels) / piece.nodes / whole * (tile.nx + h) * (tile.ny + h) /
                std::pow(piece.sites + h, 2);
     // Each rank has the table of the waves whole, and a relaxation half of it again.
-    const double tables = part == Piece::rest    ? (c.in_time ? 1.5 : 0.5)
+    const double tables = part == Piece::rest    ? (c.effects.dynamic ? 1.5 : 0.5)
                           : part == Piece::block ? 1.0
                                                  : 0.0;
     return bytes * here + tables * piece.table * (whole - here);
@@ -96,7 +96,7 @@ void print_scales(std::FILE* to, const Case& c, double height) {
     fmt::print(to,
                "forces      {:.3g} eV/Å on a site decides the state: {};\n"
                "            drive.tolerance = {:.3g} of it is {:.3g} eV/Å\n",
-               c.scales.force, c.force_scale, c.scene.drive.tolerance, c.tolerance);
+               c.scales.force, c.force_scale, c.tolerance / c.scales.force, c.tolerance);
     if (const std::string note = rounding_note(c, height); !note.empty())
         fmt::print(to, "            {}\n", note);
 }
@@ -104,7 +104,8 @@ void print_scales(std::FILE* to, const Case& c, double height) {
 } // namespace
 
 Plan make_plan(const Case& c, int threads) {
-    const Scene::Surface& own = c.scene.surface;
+    const SurfaceOptions& own = c.surface;
+    const BlockOptions& block = c.simulation.block;
     const bool timed = threads > 0;
     std::optional<Surface> of_file;
     if (timed && own.reads_file()) of_file = surface_of(c);
@@ -114,9 +115,9 @@ Plan make_plan(const Case& c, int threads) {
     const Surface* const surface = of_file ? &*of_file : nullptr;
     const int threads_here = omp_get_max_threads();
     omp_set_num_threads(1);
-    int sites = own.sites;
-    while (sites > most_sites &&
-           sites / 2.0 * own.spacing >= 2.0 * c.simulation.interface.pairs().cutoff)
+    int sites = block.sites;
+    while (sites > widest_piece &&
+           sites / 2.0 * block.spacing >= 2.0 * c.simulation.interface.pairs().cutoff)
         sites /= 2;
     const Piece room = rehearse(c, sites, 0.0, surface, atoms);
     const std::vector<Piece> pieces = timed ? timed_pieces(c, surface, atoms) : std::vector{room};
@@ -138,16 +139,16 @@ Plan make_plan(const Case& c, int threads) {
 
     // The share of the work of each thread of the slowest rank.
     const double share = (1.0 + c.grid(0).imbalance()) / c.ranks / threads;
-    const double wider = static_cast<double>(own.sites) / piece.sites;
+    const double wider = static_cast<double>(block.sites) / piece.sites;
     plan.making = piece.making * wider * wider / threads;
     const double highest = surface                         ? surface->statistics.highest
                            : own.kind == SurfaceKind::flat ? 0.0
                                                            : highest_over_rms * own.rms;
     plan.start = highest + reach_of(c.simulation.interface);
-    if (c.in_time) {
+    if (c.effects.dynamic) {
         plan.steps = std::llround(expected_path(c, plan.start).time / c.simulation.dt);
-        if (const long long most = c.scene.drive.max_steps; most > 0)
-            plan.steps = std::min(plan.steps, most);
+        if (const auto& most = c.simulation.drive.max_steps)
+            plan.steps = std::min(plan.steps, *most);
         // An approach and a pull-off are half of their way beyond the interaction range.
         const double far = c.guided() ? 0.0 : 0.5;
         plan.moving = share * static_cast<double>(plan.steps) * nodes_of(c.levels) / piece.nodes *
@@ -168,11 +169,11 @@ Plan make_plan(const Case& c, int threads) {
 }
 
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
-    const Scene& scene = c.scene;
+    const BlockOptions& block = c.simulation.block;
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
-    fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", scene.name,
-               scene.surface.sites, scene.surface.sites, scene.edge(), scene.block.thickness,
-               c.levels.size(), s(c.levels.size()));
+    fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", c.scene.name,
+               block.sites, block.sites, c.edge(), block.thickness, c.levels.size(),
+               s(c.levels.size()));
     io::Table effects({"effect", "", "because"}, "<<<");
     for (const auto& [name, effect] : c.effects.list())
         effects.row({name, effect ? "on" : "off", effect.why});
@@ -185,13 +186,13 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
             table.row({what, memory_text(bytes), seconds > 0.0 ? io::duration_text(seconds) : "",
                        remark});
     };
-    const bool path = !c.in_time && c.effects.observation;
+    const bool path = !c.effects.dynamic && c.effects.observation;
     const std::string steps = fmt::format("{} steps of {:.4g} fs", plan.steps, c.simulation.dt);
     const std::string range = fmt::format("{} to {}", io::duration_text(plan.rest / plan.factor),
                                           io::duration_text(plan.rest * plan.factor));
     line("surface", plan.bytes[Piece::surface], plan.making, "made before the first step");
     line("interface", plan.bytes[Piece::interface], 0.0, "");
-    line("block", plan.bytes[Piece::block], plan.moving, c.in_time ? steps : "");
+    line("block", plan.bytes[Piece::block], plan.moving, c.effects.dynamic ? steps : "");
     line("states kept", plan.bytes[Piece::kept], 0.0,
          path ? "to go back to" : "for the energy guard");
     line(path ? "path" : "relaxation", plan.bytes[Piece::rest], plan.rest,
@@ -251,24 +252,22 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
 void require_memory(const Case& c, const Communicator& ranks) {
     c.require_runnable();
     // The same on all ranks.
-    if (nodes_of(c.levels) <= small_nodes && std::pow(c.scene.surface.sites, 2) <= small_sites)
-        return;
+    if (nodes_of(c.levels) <= small_nodes && c.sites() <= small_sites) return;
     // Nor is anything made to be counted where several times what the fields of any run take is
     // there.
-    const double fields = 4096.0 * std::pow(c.scene.surface.sites, 2) + 512.0 * nodes_of(c.levels);
-    if (!c.scene.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5)
-        return;
+    const double fields = 4096.0 * c.sites() + 512.0 * nodes_of(c.levels);
+    if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5) return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
     const double needed = ranks.sum_on_machine(mine);
     const io::AvailableMemory there = io::available_memory();
     // All ranks refuse alike, with the numbers of the machine that is worst off.
     const double worst = ranks.max(needed / there.bytes);
     if (worst <= 1.0) return;
-    const bool coarser = c.in_time && c.scene.block.model == BlockModel::lattice;
+    const bool coarser = c.effects.dynamic && !c.simulation.block.multiscale;
     io::Problems problems = c.scene.problems();
     problems.add(
         "surface.sites",
-        fmt::format("= {}: the run does not fit into memory", c.scene.surface.sites),
+        fmt::format("= {}: the run does not fit into memory", c.simulation.block.sites),
         fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
                     worst * there.bytes / 1e9, there.bytes / 1e9, there.because),
         fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "

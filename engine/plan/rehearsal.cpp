@@ -57,13 +57,13 @@ double allocated() {
 /// otherwise a quasi-static one is a relaxation.
 Case piece_of(const Case& c, int sites, bool timed) {
     Case piece = c;
-    if (!c.in_time && !timed) piece.path = piece.simulation.drive.path = {{Segment::relax}};
+    if (!c.effects.dynamic && !timed) piece.simulation.drive.path = {{Segment::relax}};
     piece.ranks = 1;
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
-    Scene::Surface& surface = piece.scene.surface;
-    const double fraction = static_cast<double>(sites) / surface.sites;
-    if (c.in_time)
+    SurfaceOptions& surface = piece.surface;
+    const double fraction = static_cast<double>(sites) / block.sites;
+    if (c.effects.dynamic)
         block.thickness =
             std::min(block.thickness, c.levels.size() > 1 ? most_layers : most_layers_of_lattice);
     if (fraction < 1.0 && surface.kind == SurfaceKind::self_affine) {
@@ -71,10 +71,12 @@ Case piece_of(const Case& c, int sites, bool timed) {
         // the power 2H.
         surface.rms *= std::pow(std::min(1.0, surface.rolloff * fraction), surface.hurst);
         surface.rolloff = std::max(1.0, surface.rolloff * fraction);
-        if (surface.q_max) surface.q_max = std::max(surface.rolloff, *surface.q_max * fraction);
+        surface.cutoff = std::max(surface.rolloff, surface.cutoff * fraction);
     }
-    surface.sites = block.sites = sites;
-    piece.scene.block.thickness = block.thickness;
+    const double ratio = static_cast<double>(block.sites) / surface.sites;
+    block.sites = sites;
+    surface.sites = substrate_sites(sites, ratio);
+    surface.length = block.edge();
     piece.levels = level_shapes(block);
     piece.simulation.drive.load_force *= fraction * fraction;
     for (Segment& segment : piece.simulation.drive.path)
@@ -84,7 +86,8 @@ Case piece_of(const Case& c, int sites, bool timed) {
 
 /// Returns a surface in place of one from a file: a rough one, or as many atoms in flat layers.
 Surface stand_in(Case piece, double rms, int atoms) {
-    Scene::Surface& s = piece.scene.surface;
+    SurfaceOptions& s = piece.surface;
+    const BlockOptions& block = piece.simulation.block;
     if (s.kind == SurfaceKind::file) {
         s.kind = SurfaceKind::self_affine;
         s.rms = rms;
@@ -92,23 +95,19 @@ Surface stand_in(Case piece, double rms, int atoms) {
     }
     AtomPositions at;
     for (int i = 0; i < atoms; ++i) {
-        at.x.push_back(s.spacing * (i % s.sites));
-        at.y.push_back(s.spacing * (i / s.sites % s.sites));
-        at.z.push_back(-s.spacing * (i / (s.sites * s.sites)));
+        at.x.push_back(block.spacing * (i % block.sites));
+        at.y.push_back(block.spacing * (i / block.sites % block.sites));
+        at.z.push_back(-block.spacing * (i / (block.sites * block.sites)));
         if (!piece.types.empty()) at.type.push_back(0);
     }
-    SurfaceOptions options;
-    options.kind = SurfaceKind::atoms;
-    options.sites = piece.substrate();
-    options.length = piece.scene.edge();
-    return surface_from_atoms(options, std::move(at));
+    return surface_from_atoms(s, std::move(at));
 }
 
 /// Follows a path as a run does. Returns true if it came to its end.
 bool follow(Path& path, const auto& stop) {
-    const long long most = path.scene_case().scene.drive.max_steps;
+    const auto& most = path.scene_case().simulation.drive.max_steps;
     while (path.status() != Path::Status::done) {
-        if (most > 0 && path.status() == Path::Status::under_way && path.steps() >= most) break;
+        if (most && path.status() == Path::Status::under_way && path.steps() >= *most) break;
         if (stop() || !path.advance({})) return false;
     }
     return true;
@@ -128,14 +127,14 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     };
     const double begin = now();
     Surface heights;
-    if (!piece.scene.surface.reads_file())
+    if (!piece.surface.reads_file())
         heights = surface_of(piece);
-    else if (of_file && sites == c.scene.surface.sites)
+    else if (of_file && sites == c.simulation.block.sites)
         heights = *of_file;
     else
         heights =
             stand_in(piece, of_file ? of_file->statistics.rms : 1.0,
-                     static_cast<int>(atoms * std::pow(1.0 * sites / c.scene.surface.sites, 2)));
+                     static_cast<int>(atoms * std::pow(1.0 * sites / c.simulation.block.sites, 2)));
     done.bytes[Piece::surface] =
         sizeof(double) * static_cast<double>(heights.height.size() + 3 * heights.atoms.size());
     const ProcessGrid grid = piece.grid(0);
@@ -145,8 +144,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         below.emplace(heights, grid.tile(0), options.spacing, piece.simulation.interface);
     });
     std::optional<SpectralBlock> waves;
-    part(Piece::block,
-         [&] { waves.emplace(options, Communicator(), piece.scene.interface.frictionless); });
+    part(Piece::block, [&] { waves.emplace(options, Communicator(), !piece.effects.lateral); });
     done.sites = sites;
     done.atoms = std::pow(piece.substrate(), 2) + static_cast<double>(heights.atoms.size());
     done.nodes = nodes_of(piece.levels);
@@ -172,7 +170,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
             .numbers.has_value();
     };
     waves.reset();
-    if (piece.in_time) {
+    if (piece.effects.dynamic) {
         const TopMotion down{.z = -piece.simulation.drive.velocity};
         part(Piece::block, [&] {
             simulation.emplace(piece.simulation, heights, Communicator(), grid);

@@ -36,16 +36,17 @@ std::optional<double> attraction_averaged(const PathSeries& path, std::size_t fr
 
 } // namespace
 
-void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
-                     const Scene& scene, io::Result& result) {
+void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments, double edge,
+                     double radius, io::Result& result) {
     if (!result.number("work_of_drive.pull_off")) return; // the pull-off did not come to its end
     /// Rows of the last segment of a kind, from the first to behind the last.
     const auto rows_of = [&](Segment::Kind kind) {
-        double number = -1.0;
+        std::optional<double> number;
         for (std::size_t i = 0; i < segments.size(); ++i)
             if (segments[i].kind == kind) number = static_cast<double>(i);
+        if (!number) return std::pair<std::size_t, std::size_t>{};
         const auto [first, end] =
-            std::equal_range(path.segment.begin(), path.segment.end(), number);
+            std::equal_range(path.segment.begin(), path.segment.end(), *number);
         return std::pair{static_cast<std::size_t>(first - path.segment.begin()),
                          static_cast<std::size_t>(end - path.segment.begin())};
     };
@@ -56,11 +57,11 @@ void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segment
                          path.force.begin() + static_cast<std::ptrdiff_t>(out.second));
     const double fraction =
         path.contact_fraction[static_cast<std::size_t>(strongest - path.force.begin())];
-    result.set("contact_radius.pull_off", scene.edge() * std::sqrt(fraction / std::numbers::pi));
+    result.set("contact_radius.pull_off", edge * std::sqrt(fraction / std::numbers::pi));
     const auto averaged = [&](std::size_t from, std::size_t to, io::Key key) {
         if (const auto force = attraction_averaged(path, from, to))
-            result.set(key, units::milli_per_unit *
-                                theory::jkr::work_from_pull_off(*force, *scene.surface.radius));
+            result.set(key,
+                       units::milli_per_unit * theory::jkr::work_from_pull_off(*force, radius));
     };
     averaged(in.first, in.second, "jkr.approach_averaged");
     averaged(out.first, out.second, "jkr.pull_off_averaged");

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "engine/options/segment.hpp"
-#include "engine/scene/scene.hpp"
 #include "io/result.hpp"
 
 #include <vector>
@@ -21,7 +20,7 @@ struct PathSeries {
 };
 /// Adds the numbers of the last approach and pull-off of a whole path over a sphere to a result:
 /// jkr.approach_averaged, jkr.pull_off_averaged and contact_radius.pull_off.
-void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments,
-                     const Scene& scene, io::Result& result);
+void add_sphere_path(const PathSeries& path, const std::vector<Segment>& segments, double edge,
+                     double radius, io::Result& result);
 
 } // namespace asperity

@@ -16,7 +16,8 @@ Interruption Interruptions::here() const {
     if (!ranks_.root()) return Interruption::none;
     const double now = seconds();
     if (options_.wall_limit && now >= *options_.wall_limit) return Interruption::wall_limit;
-    return now - last_checkpoint_ >= checkpoint_ ? Interruption::checkpoint : Interruption::none;
+    const bool due = checkpoint_ && now - last_checkpoint_ >= *checkpoint_;
+    return due ? Interruption::checkpoint : Interruption::none;
 }
 
 Interruption Interruptions::now() const {
@@ -30,8 +31,8 @@ bool Interruptions::look_is_due() {
     std::array<double, 1> stride = {1.0};
     if (ranks_.root()) {
         const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);
-        stride[0] =
-            std::clamp(std::floor(std::min(0.5, checkpoint_) / std::max(each, 1e-9)), 1.0, most);
+        stride[0] = std::clamp(
+            std::floor(std::min(0.5, checkpoint_.value_or(0.5)) / std::max(each, 1e-9)), 1.0, most);
     }
     ranks_.broadcast(std::span<double>(stride));
     steps_to_look_ = looked_every_ = static_cast<long long>(stride[0]);

@@ -9,6 +9,7 @@
 #include "engine/run/run.hpp"
 
 #include <chrono>
+#include <optional>
 
 namespace asperity {
 
@@ -18,8 +19,9 @@ enum class Interruption { none, checkpoint, wall_limit, signal };
 /// Interruptions of a run.
 class Interruptions {
 public:
-    /// Starts the clock. checkpoint: seconds between two checkpoints; HUGE_VAL: none.
-    Interruptions(const RunOptions& options, double checkpoint, const Communicator& ranks)
+    /// Starts the clock. checkpoint: seconds between two checkpoints; empty: none.
+    Interruptions(const RunOptions& options, std::optional<double> checkpoint,
+                  const Communicator& ranks)
         : options_(options), checkpoint_(checkpoint), ranks_(ranks) {}
 
     /// Returns the reason to interrupt now, the same on all ranks. Collective.
@@ -39,7 +41,7 @@ private:
     Interruption here() const;
 
     const RunOptions& options_;
-    const double checkpoint_;
+    const std::optional<double> checkpoint_; ///< s
     const Communicator ranks_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     double last_checkpoint_ = 0.0, last_look_ = 0.0; ///< s

@@ -15,8 +15,8 @@ namespace asperity {
 
 bool row_is_due(const Path& path) {
     const Case& c = path.scene_case();
-    if (!c.in_time || path.status() == Path::Status::at_end) return true;
-    return path.steps() % c.scene.output.series == 0;
+    if (!c.effects.dynamic || path.status() == Path::Status::at_end) return true;
+    return path.steps() % c.output.series == 0;
 }
 
 namespace {
@@ -74,25 +74,25 @@ void Rows::look_at_step(const Path& path) {
 }
 
 bool Trajectory::is_due(long long step) const {
-    const std::optional<long long>& every = session_.scene_case().scene.output.trajectory;
+    const std::optional<long long>& every = session_.scene_case().output.trajectory;
     return every && step % *every == 0;
 }
 
 Path::Wish Trajectory::wish(const Path& path) const {
     const bool due = is_due(path.steps());
-    return {.layer = due, .velocities = due && session_.scene_case().scene.output.velocities};
+    return {.layer = due, .velocities = due && session_.scene_case().output.velocities};
 }
 
 void Trajectory::look_at_step(const Path& path) {
     if (!is_due(path.now().step)) return;
     const auto t = session_.phases().time(Phase::output);
-    session_.recorder().frame(path, session_.scene_case().scene.output.velocities);
+    session_.recorder().frame(path, session_.scene_case().output.velocities);
 }
 
 void ProgressLine::look_at_step(const Path& path) { look_within(path, 0, 0.0); }
 
 void ProgressLine::look_at_beginning(const Path& path) {
-    session_.progress().say(path.scene_case().path[path.concluded()].text + " begins");
+    session_.progress().say(path.scene_case().path()[path.concluded()].text + " begins");
 }
 
 void ProgressLine::look_within(const Path& path, long long iteration, double residual) {
@@ -105,11 +105,11 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
             {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
         return;
     }
-    const std::string where =
-        progress_phase(c, c.path[path.segment()].text, now.force, now.in_contact, now.mean_height) +
-        (iteration > 0 ? ", relaxing" : "");
+    const std::string where = progress_phase(c, c.path()[path.segment()].text, now.force,
+                                             now.in_contact, now.mean_height) +
+                              (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
-                     c.in_time ? now.time : 0.0,
+                     c.effects.dynamic ? now.time : 0.0,
                      way_done(c, path.reference_height(), path.segment(), now.top)});
 }
 

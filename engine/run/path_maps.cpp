@@ -35,7 +35,7 @@ Path::Wish PathMaps::wish(const Path& path) const {
 
 void PathMaps::look_at_step(const Path& path) {
     const StepRecord& now = path.now();
-    const Segment::Kind kind = path.scene_case().path[path.segment()].kind;
+    const Segment::Kind kind = path.scene_case().path()[path.segment()].kind;
     if (is_due(now.step)) write(path, fmt::format("step-{}", now.step), path.layer());
     while (delayed_is_due(path, now.time))
         write(path, times_.after_approach[delayed_written_++].second, path.layer());
@@ -73,7 +73,7 @@ void PathMaps::finish(const Path& path) {
     if (place_ == path.interface().place()) return write_over(path.interface());
     // The block has slid since.
     const Interface& now = path.interface();
-    Interface then(path.surface(), now.tile(), path.scene_case().scene.surface.spacing,
+    Interface then(path.surface(), now.tile(), path.scene_case().simulation.block.spacing,
                    now.options());
     then.slide_to(place_[0], place_[1]);
     write_over(then);

@@ -4,7 +4,7 @@
 
 #include "engine/path/guard.hpp"
 #include "engine/run/curve.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/run/summary.hpp"
 #include "io/run_h5.hpp"
 
@@ -41,7 +41,9 @@ void print_unless_closed(const Print& print) {
 RunSession::RunSession(const Case& c, const RunOptions& options, const Communicator& ranks)
     : case_(c), options_(options), ranks_(ranks), surface_(surface_of(c, ranks)),
       grid_(c.grid(ranks.rank())), storage_(options, c, ranks),
-      interruptions_(options, c.effects.checkpoints ? c.scene.output.checkpoint : HUGE_VAL, ranks),
+      interruptions_(options,
+                     c.effects.checkpoints ? std::optional(c.output.checkpoint) : std::nullopt,
+                     ranks),
       progress_(options.progress, !ranks.root()), maps_(*this),
       fingerprint_(physics_of(c, surface_)) {
     print_notes();
@@ -119,13 +121,13 @@ bool RunSession::stop_here(const Path& path) {
     const Status status = path.status();
     const bool goes_on = status == Status::beginning || status == Status::under_way;
     if (!goes_on && status != Status::at_end) return false;
-    const long long most = case_.scene.drive.max_steps;
-    if (goes_on && most > 0 && path.steps() >= most) {
+    const auto& most = case_.simulation.drive.max_steps;
+    if (goes_on && most && path.steps() >= *most) {
         stopped_ = Stopped::max_steps;
         save_if_on(path);
         return true;
     }
-    if (case_.in_time && !interruptions_.look_is_due()) return false; // steps are short
+    if (case_.effects.dynamic && !interruptions_.look_is_due()) return false; // steps are short
     const Interruption now = ask();
     if (now > Interruption::checkpoint) {
         stop_now(path);
@@ -152,7 +154,7 @@ bool RunSession::stop_within(const Path& path) {
 
 bool RunSession::advance(Path& path, const Path::Wish& wish) {
     if (path.status() == Path::Status::relaxing) {
-        if (case_.path[path.concluded()].kind == Segment::approach) {
+        if (case_.path()[path.concluded()].kind == Segment::approach) {
             save_if_on(path);
             progress_.say("contact is made; relaxing its lowest layer under no load");
         }
@@ -170,12 +172,12 @@ void RunSession::require_physical(Path& path) {
     if (!wrong) return;
     failed_ = path.now();
     Path::Remedy remedy = path.remedy();
-    if (case_.in_time) remedy.fix += "; " + put_back(path);
+    if (case_.effects.dynamic) remedy.fix += "; " + put_back(path);
     throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
 }
 
 void RunSession::keep(const Path& path) {
-    const bool kept = case_.in_time && path.has_stepped() && path.now().observed;
+    const bool kept = case_.effects.dynamic && path.has_stepped() && path.now().observed;
     if (!kept || recorder().rows() % rows_between_snapshots != 1) return;
     const auto t = phases_.time(Phase::output);
     last_good_.take(path);
@@ -252,7 +254,7 @@ void RunSession::open_recorder() {
     };
     std::vector<const SeriesColumn*> columns;
     for (const SeriesColumn& c : series_columns())
-        if (c.is_in(case_.in_time, case_.effects)) columns.push_back(&c);
+        if (c.is_in(case_.effects.dynamic, case_.effects)) columns.push_back(&c);
     recorder_.emplace(ranks_.root() ? storage_.directory() : io::Directory("."), surface_, ranks_,
                       std::move(columns), resumed_at_, add);
 }
@@ -310,14 +312,14 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure) {
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);
     }
-    if (recorder_ && case_.scene.surface.radius) {
+    if (recorder_ && case_.radius()) {
         auto series = recorder_->series();
         add_sphere_path({.segment = series["segment"],
                          // A quasi-static path has no vibrations to average.
-                         .time = case_.in_time ? series["time"] : std::vector<double>(),
+                         .time = case_.effects.dynamic ? series["time"] : std::vector<double>(),
                          .force = series["force"],
                          .contact_fraction = series["contact_fraction"]},
-                        case_.path, case_.scene, result);
+                        case_.path(), case_.edge(), *case_.radius(), result);
     }
     io::write_result(storage_.directory(), result);
     if (failure || stopped_ != Stopped::no) return result;

@@ -119,13 +119,13 @@ std::vector<io::Quantity> series_quantities() {
     return list;
 }
 
-bool SeriesColumn::is_in(bool in_time, const Effects& effects) const {
+bool SeriesColumn::is_in(bool dynamic_path, const Effects& effects) const {
     if (in == sliding) return effects.sliding;
     if (in == relaxing) return effects.branches;
     if (in == thermal) return effects.temperature;
     if (in == sprung) return effects.spring;
-    if (in == time) return in_time || effects.branches;
-    return in == both || (in == dynamic) == in_time;
+    if (in == time) return dynamic_path || effects.branches;
+    return in == both || (in == dynamic) == dynamic_path;
 }
 
 } // namespace asperity

@@ -28,7 +28,7 @@ struct SeriesColumn {
     /// The value is computed from the sites, path.layer(), which is then needed in each row.
     bool of_sites = false;
 
-    bool is_in(bool in_time, const Effects& effects) const;
+    bool is_in(bool dynamic_path, const Effects& effects) const;
     /// Returns the name of the column, "force".
     std::string name() const {
         return std::string(quantity.name.substr(quantity.name.find('/') + 1));

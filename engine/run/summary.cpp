@@ -3,7 +3,7 @@
 #include "engine/run/summary.hpp"
 
 #include "engine/device/device_block.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "engine/units.hpp"
 #include "io/terminal.hpp"
@@ -23,9 +23,9 @@ namespace {
 constexpr double no_adhesion = 0.01;
 
 std::string levels_text(const Case& c) {
-    if (!c.in_time) return "static response of the lattice, wave by wave";
+    if (!c.effects.dynamic) return "static response of the lattice, wave by wave";
     const auto& levels = c.levels;
-    const char* strain = c.scene.block.strain == Strain::finite ? "; finite strain" : "";
+    const char* strain = c.simulation.block.finite_strain ? "; finite strain" : "";
     if (levels.size() == 1)
         return fmt::format("one lattice of {} layers{}", levels.front().cells, strain);
     const auto& block = c.simulation.block;
@@ -34,8 +34,8 @@ std::string levels_text(const Case& c) {
                        nodes_of(levels), all, strain);
 }
 
-std::string surface_text(const Scene& scene, const Surface& surface) {
-    if (scene.surface.kind == SurfaceKind::flat) return "flat";
+std::string surface_text(const Case& c, const Surface& surface) {
+    if (c.surface.kind == SurfaceKind::flat) return "flat";
     const auto& s = surface.statistics;
     const std::string atoms = surface.atoms.size() > 0
                                   ? fmt::format("{} atoms, topmost ones: ", surface.atoms.size())
@@ -92,8 +92,7 @@ double works_in_cycle(const PathResults& results) {
 /// Prints works and losses of a whole path.
 void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
-    const Scene& scene = c.scene;
-    if (scene.drive.temperature > 0.0) {
+    if (c.effects.temperature) {
         fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
@@ -137,16 +136,17 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
             "{}.\n",
             with_units(lost),
-            c.in_time ? "damped, or left in motion at the end" : "lost at instabilities");
-    if (of("lost.approach") && scene.drive.load == 0.0)
-        fmt::print(to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-                   c.in_time ? "energy lost + energy left in motion" : "energy lost there",
-                   c.in_time ? "" : "\n  = work of the drive on the pull-off - energy lost there");
-    if (of("work_of_interface.approach") && c.in_time)
+            c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
+    if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
+        fmt::print(
+            to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
+            c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
+            c.effects.dynamic ? "" : "\n  = work of the drive on the pull-off - energy lost there");
+    if (of("work_of_interface.approach") && c.effects.dynamic)
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
                        "surface: a jump of the\n  whole block does not change it, jumps of single "
                        "patches do.\n");
-    if (!hardly && scene.drive.control == Control::top)
+    if (!hardly && c.simulation.drive.control == Control::top)
         fmt::print(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
 }
@@ -159,15 +159,16 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                                      named("lost", "segments[].lost")};
     if (c.effects.branches)
         head.push_back(named("dissipated in the block", "segments[].dissipated_in_block"));
-    if (!c.in_time) head.push_back(named("stored", "segments[].stored"));
+    if (!c.effects.dynamic) head.push_back(named("stored", "segments[].stored"));
     head.insert(head.end(), {named("ends at", "segments[].pressure"),
                              named("mean height", "segments[].mean_height"), "contact"});
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
     for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {c.path[s.number].text, energies(s.work), energies(s.lost)};
+        std::vector<std::string> row = {c.path()[s.number].text, energies(s.work),
+                                        energies(s.lost)};
         if (c.effects.branches) row.push_back(energies(s.relaxed));
-        if (!c.in_time) row.push_back(energies(s.stored));
+        if (!c.effects.dynamic) row.push_back(energies(s.stored));
         row.insert(row.end(), {number(s.force / (c.area() * units::megapascal), 1),
                                number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)});
         if (slides) row.push_back(number(s.lateral_mean, 2));
@@ -175,16 +176,16 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     }
     fmt::print(to, "\n");
     table.print(to);
-    if (c.in_time) return;
+    if (c.effects.dynamic) return;
     for (const SegmentResults& s : results.segments) {
-        const Segment& asked = c.simulation.drive.path[s.number];
+        const Segment& asked = c.path()[s.number];
         if (asked.kind != Segment::load || asked.amount == 0.0 ||
             std::abs(s.force - asked.amount) <= 1.1 * load_accuracy * std::abs(asked.amount))
             continue;
         fmt::print(to,
                    "  \"{}\" ended at {:.4g} MPa: the force jumps across the load there, and no "
                    "state that this path\n  passes is under it.\n",
-                   c.path[s.number].text, s.force / (c.area() * units::megapascal));
+                   c.path()[s.number].text, s.force / (c.area() * units::megapascal));
     }
 }
 
@@ -202,12 +203,10 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     const Scene& scene = c.scene;
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
-    fmt::print(to, "{}: {} x {} sites, {} Å wide\n", scene.name, block.sites, block.sites,
-               io::number(scene.edge(), 1));
-    fmt::print(to, "  substrate   {}{}\n", surface_text(scene, surface),
-               scene.surface.radius
-                   ? fmt::format(", on a sphere of R = {:.6g} Å", *scene.surface.radius)
-                   : "");
+    fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
+               io::number(c.edge(), 1));
+    fmt::print(to, "  substrate   {}{}\n", surface_text(c, surface),
+               c.radius() ? fmt::format(", on a sphere of R = {:.6g} Å", *c.radius()) : "");
     fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
                io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
@@ -231,7 +230,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     for (const std::string& note : surface.notes)
         fmt::print(to, "  note: {}\n", note);
     const double height = surface.statistics.highest + reach_of(interface);
-    if (const std::string note = rounding_note(c, height); !c.in_time && !note.empty())
+    if (const std::string note = rounding_note(c, height); !c.effects.dynamic && !note.empty())
         fmt::print(to, "  note: {}\n", note);
     std::fflush(to);
 }
@@ -241,13 +240,13 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const Scene& scene = c.scene;
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
-    const bool loaded = c.has(Segment::relax) && scene.drive.load != 0.0;
-    const std::string at =
-        loaded ? fmt::format("under {:.6g} MPa", scene.drive.load) : std::string("at zero load");
+    const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;
+    const std::string at = loaded ? fmt::format("under {:.6g} MPa", c.load_in_megapascal())
+                                  : std::string("at zero load");
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
                  interface_in = of("work_of_interface.approach"),
                  interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
-    const bool anywhere = scene.surface.kind == SurfaceKind::atoms;
+    const bool anywhere = c.surface.kind == SurfaceKind::atoms;
     const std::string flat_text =
         fmt::format("  over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
     const auto over_flat = [&](Number v) {
@@ -296,7 +295,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                        plus_minus(of("work_of_drive.uncertainty.pull_off"))});
         table.row({named("largest attraction", "pull_off_force"), number(of("approach_force"), 1),
                    number(of("pull_off_force"), 1)});
-        if (scene.surface.radius)
+        if (c.radius())
             row("  as a JKR sphere", "jkr.approach", of("jkr.approach"), of("jkr.pull_off"));
         fmt::print(to, "\n");
         table.print(to);
@@ -321,7 +320,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         fmt::print(to,
                    "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n",
                    at, 100.0 * no_adhesion);
-    if (scene.block.strain == Strain::finite)
+    if (c.simulation.block.finite_strain)
         fmt::print(to,
                    "  At finite strain no state at zero load is given: states are sums of waves, "
                    "which do not add up.\n");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/scene/parse_path.hpp"
 
+#include "engine/units.hpp"
 #include "io/error.hpp"
 #include "io/units.hpp"
 
@@ -43,7 +44,8 @@ std::string rest_of(const std::string& text, std::size_t from) {
 
 } // namespace
 
-std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Problems& problems) {
+std::vector<Segment> parse_path(const std::vector<std::string>& path, double area,
+                                io::Problems& problems) {
     std::vector<Segment> segments;
     for (const std::string& member : path) {
         const std::string text = rest_of(member, 0);
@@ -102,6 +104,8 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Proble
                 continue;
             }
         }
+        if (segment.kind == Segment::load) segment.amount *= units::megapascal * area;
+        if (segment.kind == Segment::hold) segment.amount *= units::picosecond;
         segments.push_back(std::move(segment));
     }
     return segments;

@@ -13,7 +13,8 @@
 namespace asperity {
 
 /// Returns one segment for each member of drive.path; adds wrong members to problems and leaves
-/// them out.
-std::vector<Segment> parse_path(const std::vector<std::string>& path, io::Problems& problems);
+/// them out. area: of the interface, Å^2.
+std::vector<Segment> parse_path(const std::vector<std::string>& path, double area,
+                                io::Problems& problems);
 
 } // namespace asperity

@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "engine/scene/scene.hpp"
+#include "engine/scene/scene_needs.hpp"
 
+#include "engine/options/segment.hpp"
 #include "io/json.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
+#include <memory>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -20,8 +22,6 @@ using io::between;
 using io::positive;
 
 namespace {
-
-constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
 
 template <class Visit>
 void each_potential(EachPotential& all, Visit visit) {
@@ -36,31 +36,17 @@ std::string key_of(const char* parameter) {
 }
 
 template <class P>
-void bind_potential(io::Schema& schema, P& potential) {
-    P::parameters(potential,
-                  [&](const char* name, const char* unit, double& value, const char* meaning) {
-                      schema.number(key_of<P>(name), value, unit, positive(), meaning);
-                  });
+void bind_potential(io::Schema& schema, P& potential, const std::vector<io::Schema::Need>& needs) {
+    P::parameters(
+        potential, [&](const char* name, const char* unit, double& value, const char* meaning) {
+            schema.number(key_of<P>(name), value, unit, positive(), meaning).needs = needs;
+        });
 }
 
-/// Computes the sites and layers that the scene gives as lengths.
-void make_counts(Scene& scene, io::Problems& problems) {
-    const auto count = [&](const char* key, const std::optional<double>& length, int low, int high,
-                           int& into) {
-        if (!length) return;
-        const double whole = std::round(*length / scene.surface.spacing);
-        if (whole >= low && whole <= high)
-            into = static_cast<int>(whole);
-        else
-            problems.add(
-                io::Problem{scene.positions.where(key),
-                            fmt::format("{} = {:.6g} Å is {:.6g} spacings", key, *length, whole),
-                            fmt::format("{} to {} are allowed, of {:.6g} Å each", low, high,
-                                        scene.surface.spacing),
-                            "give another length, or the number itself"});
-    };
-    count("surface.sites", scene.width, fewest_sites, most_sites, scene.surface.sites);
-    count("block.thickness", scene.height, 1, most_layers, scene.block.thickness);
+/// Returns the first word of a member of drive.path.
+std::string segment_name(const std::string& member) {
+    const std::size_t first = std::min(member.find_first_not_of(' '), member.size());
+    return member.substr(first, member.find(' ', first) - first);
 }
 
 } // namespace
@@ -73,20 +59,21 @@ std::string Scene::Interface::potential_name() const {
         potentials);
 }
 
-std::vector<std::pair<std::string, std::string>> keys_of_potentials() {
-    std::vector<std::pair<std::string, std::string>> keys;
-    EachPotential all;
-    each_potential(all, [&]<class P>(P& p) {
-        P::parameters(p, [&](const char* name, const char*, double, const char*) {
-            keys.emplace_back("interface." + key_of<P>(name), P::name);
-        });
-    });
-    keys.emplace_back("interface.table", Tabulated::name);
-    return keys;
+bool Scene::only_relaxes() const {
+    return drive.path.size() == 1 && segment_name(drive.path.front()) == word(Segment::relax);
+}
+
+bool Scene::is_dynamic() const {
+    return drive.mode == DriveMode::dynamic &&
+           std::none_of(drive.path.begin(), drive.path.end(), [](const std::string& member) {
+               return segment_name(member) == word(Segment::relax);
+           });
 }
 
 io::Schema bind(Scene& scene) {
     io::Schema schema;
+    const auto kept = std::make_shared<const Needs>(scene); // the closures of the needs look at it
+    const Needs& needs = *kept;
 
     auto& surface = scene.surface;
     schema.section("surface", "The rigid, rough substrate.");
@@ -102,68 +89,115 @@ io::Schema bind(Scene& scene) {
                            "rounded to whole spacings");
     schema.number("spacing", surface.spacing, "Å", positive(),
                   "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
-    schema.number(
-        "lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
-        "block spacing over substrate spacing; 1.618 is incommensurate (rounded to whole atoms)");
     schema
-        .number("rms", surface.rms, "Å", at_least(0.0),
-                "rms height; a map from a file is scaled to it only if the scene gives it")
-        .omitted = [&scene] { return scene.surface.reads_file() && !scene.gives_rms(); };
-    schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H");
-    schema.number("rolloff", surface.rolloff, "", at_least(1.0),
-                  "q0 / q_L: C(q) is constant below");
-    schema.number_or("q_max", surface.q_max, "nyquist", "", at_least(1.0),
-                     "q1 / q_L: C(q) is zero above; \"nyquist\" is sites/2, and no surface has "
-                     "shorter waves");
+        .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
+                "block spacing over substrate spacing; 1.618 is incommensurate (rounded to whole "
+                "atoms)")
+        .needs = {
+        needs.heights("the atoms stand where their file says",
+                      "leave it out: the file has its own spacing"),
+        needs.refusing({[&scene] { return scene.interface.kind != InterfaceKind::wall; }, ""},
+                       "with a wall",
+                       "a wall has a height below each site, and no lattice of its own",
+                       "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
+    io::Schema::Key& rms =
+        schema.number("rms", surface.rms, "Å", at_least(0.0),
+                      "rms height; a map from a file is scaled to it only if the scene gives it");
+    rms.omitted = [&scene] { return scene.surface.reads_file() && !scene.gives_rms(); };
+    rms.needs = {needs.rough, needs.heights("the atoms stand where their file says",
+                                            "leave it out, and scale the file")};
+    schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H").needs = {
+        needs.self_affine};
+    schema.number("rolloff", surface.rolloff, "", at_least(1.0), "q0 / q_L: C(q) is constant below")
+        .needs = {needs.self_affine};
+    schema
+        .number_or("q_max", surface.q_max, "nyquist", "", at_least(1.0),
+                   "q1 / q_L: C(q) is zero above; \"nyquist\" is sites/2, and no surface has "
+                   "shorter waves")
+        .needs = {needs.self_affine};
     schema.removed({"surface.cutoff", "", "it is called surface.q_max",
                     "write q_max with the same number; without it the spectrum ends at Nyquist"});
-    schema.choice<Amplitudes>("amplitudes", surface.amplitudes,
-                              {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
-                              "random amplitudes and phases, or random phases alone");
-    schema.integer("seed", surface.seed, at_least(0),
-                   "seed of the surface: the same seed makes a bitwise identical surface");
-    schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap");
-    schema.key(
-        "file", surface.file,
-        "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of numbers; "
-        "for kind = \"atoms\": HDF5 with /position, /type and the block's periodic /box; other "
-        "formats are converted first (asperity convert); looked for beside the scene, then in the "
-        "working directory");
-    schema.number_or("file_size", surface.file_size, "auto", "Å", positive(),
-                     "edge of the map; \"auto\": what the file says, else the box");
-    schema.key("file_unit", surface.file_unit,
-               "unit of the map's heights; \"auto\": what the file says, else Å");
-    schema.choice<Detrend>(
-        "detrend", surface.detrend,
-        {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
-        "what is taken off a map from a file: nothing, the mean plane, or that "
-        "and the jumps between opposite edges");
-    schema.choice<MapMissing>("file_missing", surface.file_missing,
-                              {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
-                              "points of the map without a height: refused, or filled by Laplace's "
-                              "equation");
-    schema.choice<MapCrop>("file_crop", surface.file_crop,
-                           {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
-                           "a map that is not square: refused, or its middle taken");
-    schema.choice<LineNoise>("line_noise", surface.line_noise,
-                             {{"keep", LineNoise::keep},
-                              {"align-rows", LineNoise::align_rows},
-                              {"isotropic", LineNoise::isotropic}},
-                             "noise of a scan from line to line: kept; the median steps between "
-                             "lines taken off; the waves across the lines scaled down to the "
-                             "spectrum along them");
-    schema.choice<Resample>("resample", surface.resample,
-                            {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
-                            "how a map that has not N x N values is brought onto the lattice");
+    schema
+        .choice<Amplitudes>("amplitudes", surface.amplitudes,
+                            {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
+                            "random amplitudes and phases, or random phases alone")
+        .needs = {needs.self_affine};
+    schema
+        .integer("seed", surface.seed, at_least(0),
+                 "seed of the surface: the same seed makes a bitwise identical surface")
+        .needs = {needs.self_affine};
+    schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap")
+        .needs = {
+        needs.heights("the atoms stand where their file says", "leave it out, and curve the file")};
+    schema
+        .key(
+            "file", surface.file,
+            "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of "
+            "numbers; "
+            "for kind = \"atoms\": HDF5 with /position, /type and the block's periodic /box; other "
+            "formats are converted first (asperity convert); looked for beside the scene, then in "
+            "the "
+            "working directory")
+        .needs = {needs.file};
+    schema
+        .number_or("file_size", surface.file_size, "auto", "Å", positive(),
+                   "edge of the map; \"auto\": what the file says, else the box")
+        .needs = {needs.heights("the file says how wide its periodic box is", "leave it out"),
+                  needs.map};
+    schema
+        .key("file_unit", surface.file_unit,
+             "unit of the map's heights; \"auto\": what the file says, else Å")
+        .needs = {
+        needs.heights("files of atoms say their unit, or are in Å",
+                      "leave it out; give /position and /box of the file an attribute unit"),
+        needs.map};
+    schema
+        .choice<Detrend>(
+            "detrend", surface.detrend,
+            {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
+            "what is taken off a map from a file: nothing, the mean plane, or that "
+            "and the jumps between opposite edges")
+        .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
+                  needs.map};
+    schema
+        .choice<MapMissing>("file_missing", surface.file_missing,
+                            {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
+                            "points of the map without a height: refused, or filled by Laplace's "
+                            "equation")
+        .needs = {needs.map};
+    schema
+        .choice<MapCrop>("file_crop", surface.file_crop,
+                         {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
+                         "a map that is not square: refused, or its middle taken")
+        .needs = {needs.map};
+    schema
+        .choice<LineNoise>("line_noise", surface.line_noise,
+                           {{"keep", LineNoise::keep},
+                            {"align-rows", LineNoise::align_rows},
+                            {"isotropic", LineNoise::isotropic}},
+                           "noise of a scan from line to line: kept; the median steps between "
+                           "lines taken off; the waves across the lines scaled down to the "
+                           "spectrum along them")
+        .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
+                  needs.map};
+    schema
+        .choice<Resample>("resample", surface.resample,
+                          {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
+                          "how a map that has not N x N values is brought onto the lattice")
+        .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
+                  needs.map};
 
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
-    schema.choice<BlockModel>(
-        "model", block.model,
-        {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
-        "on a dynamic path: every atom, or coarser with depth; on a quasi-static path the block is "
-        "the waves "
-        "of its lattice");
+    schema
+        .choice<BlockModel>(
+            "model", block.model,
+            {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
+            "on a dynamic path: every atom, or coarser with depth; on a quasi-static path the "
+            "block is "
+            "the waves "
+            "of its lattice")
+        .needs = {needs.dynamic};
     schema.removed({"block.model", "spectral",
                     "a quasi-static path is always one of waves, and a dynamic path never",
                     "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
@@ -172,30 +206,51 @@ io::Schema bind(Scene& scene) {
                   "Young's modulus E");
     schema.number("poisson", block.poisson, "", io::Range{-1.0, 0.5, true, true},
                   "Poisson's ratio");
-    schema.number("atom_mass", block.atom_mass, "u", positive(), "mass of an atom");
+    schema.number("atom_mass", block.atom_mass, "u", positive(), "mass of an atom").needs = {
+        needs.dynamic};
     schema.count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
                            "in lattice layers, or a length (\"33 nm\"), rounded to whole layers; N "
                            "where the scene does not say");
-    schema.integer("layers_per_level", block.layers_per_level, between(2, 1024),
-                   "thickness of each level of the multiscale block, in its own cells");
-    schema.choice<Strain>("strain", block.strain,
-                          {{"linear", Strain::linear}, {"finite", Strain::finite}},
-                          "small strain, or geometrically exact springs");
-    schema.rows<2>("prony", block.prony,
-                   {{{"modulus over young", "", positive(), "0.5"},
-                     {"relaxation time", "ps", positive(), "\"1 ns\""}}},
-                   "branches of a block that relaxes, on a quasi-static path, as in [[9.0, \"1 "
-                   "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
-                   "modulus, and drive.velocity says how fast time passes");
-    schema.rows<3>(
-        "layers", block.layers,
-        {{{"thickness", "Å", positive(), "\"2 nm\""},
-          {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
-          {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
-        "coatings between the block's own material and its surface, on a quasi-static "
-        "path, from the surface upwards; a thickness is rounded to whole lattice layers");
-    schema.number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
-                  "tension of the block's surface, on a quasi-static path");
+    schema
+        .integer("layers_per_level", block.layers_per_level, between(2, 1024),
+                 "thickness of each level of the multiscale block, in its own cells")
+        .needs = {needs.dynamic, needs.multiscale};
+    schema
+        .choice<Strain>("strain", block.strain,
+                        {{"linear", Strain::linear}, {"finite", Strain::finite}},
+                        "small strain, or geometrically exact springs")
+        .needs = {needs.refusing(
+        needs.dynamic, "on a quasi-static path",
+        "on such a path the block is a sum of waves, and at finite strain waves do not add up",
+        "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"")};
+    schema
+        .rows<2>("prony", block.prony,
+                 {{{"modulus over young", "", positive(), "0.5"},
+                   {"relaxation time", "ps", positive(), "\"1 ns\""}}},
+                 "branches of a block that relaxes, on a quasi-static path, as in [[9.0, \"1 "
+                 "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
+                 "modulus, and drive.velocity says how fast time passes")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
+                                 "only the block of a quasi-static path can relax",
+                                 "take drive.mode = \"quasistatic\", or leave prony out"),
+                  {[&scene] { return !scene.only_relaxes(); },
+                   "drive.path is one relaxation, and its state is the relaxed one"}};
+    constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
+                                    "its surface, has them";
+    schema
+        .rows<3>("layers", block.layers,
+                 {{{"thickness", "Å", positive(), "\"2 nm\""},
+                   {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
+                   {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
+                 "coatings between the block's own material and its surface, on a quasi-static "
+                 "path, from the surface upwards; a thickness is rounded to whole lattice layers")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
+                                 "take drive.mode = \"quasistatic\", or leave layers out")};
+    schema
+        .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
+                "tension of the block's surface, on a quasi-static path")
+        .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
+                                 "take drive.mode = \"quasistatic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "
@@ -211,57 +266,85 @@ io::Schema bind(Scene& scene) {
     std::vector<std::pair<std::string, int>> names;
     each_potential(interface.potentials,
                    [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
-    schema.choice<int>("potential", interface.potential, names,
-                       "potential of the pairs, or of the atoms for which a smeared wall stands");
-    each_potential(interface.potentials, [&](auto& p) { bind_potential(schema, p); });
-    schema.key("table", interface.table,
-               "file of potential = \"table\": text of distances in Å and energies in eV; of more "
-               "columns a "
-               "line above names them (\"# r F V\"); looked for beside the scene, then in the "
-               "working directory");
-    schema.number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
-                     "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
-                     "four times the distance "
-                     "at which the potential is zero, with interface.pairs that of each type; of a "
-                     "table its last distance, if that is less");
+    schema
+        .choice<int>("potential", interface.potential, names,
+                     "potential of the pairs, or of the atoms for which a smeared wall stands")
+        .needs = {needs.pairs};
+    each_potential(interface.potentials, [&]<class P>(P& p) {
+        bind_potential(schema, p, {needs.pairs, needs.potential(P::name)});
+    });
+    schema
+        .key("table", interface.table,
+             "file of potential = \"table\": text of distances in Å and energies in eV; of more "
+             "columns a "
+             "line above names them (\"# r F V\"); looked for beside the scene, then in the "
+             "working directory")
+        .needs = {needs.pairs, needs.potential(Tabulated::name)};
+    schema
+        .number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
+                   "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
+                   "four times the distance "
+                   "at which the potential is zero, with interface.pairs that of each type; of a "
+                   "table its last distance, if that is less")
+        .needs = {needs.pairs};
     schema.removed({"interface.morse_r0", "",
                     "it is the place of the minimum, and interface.r0 where the energy is zero",
                     "write interface.morse_r_min with the same number"});
-    schema.list(
-        "pairs", interface.pairs, {},
-        "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C morse "
-        "0.02 1.5 3.9 "
-        "10\"] with the potential's name and the cutoff, if they are not those above, and its "
-        "parameters in the order above; units may follow. []: the potential above, for atoms of "
-        "one "
-        "type");
-    schema.key("tail", interface.tail, "continuum correction beyond the cutoff");
+    schema
+        .list(
+            "pairs", interface.pairs, {},
+            "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C "
+            "morse "
+            "0.02 1.5 3.9 "
+            "10\"] with the potential's name and the cutoff, if they are not those above, and its "
+            "parameters in the order above; units may follow. []: the potential above, for atoms "
+            "of "
+            "one "
+            "type")
+        .needs = {
+        needs.refusing({[&scene] { return scene.surface.kind == SurfaceKind::atoms; }, ""},
+                       "without a substrate of atoms from a file",
+                       "the atoms of other substrates are of one type, with interface.potential",
+                       "leave it out, or take surface.kind = \"atoms\"")};
+    schema.key("tail", interface.tail, "continuum correction beyond the cutoff").needs = {
+        needs.pairs, needs.heights("the tail is that of one layer of known density",
+                                   "take a larger interface.cutoff, and tail = false")};
     schema.key("frictionless", interface.frictionless,
                "quasi-static paths: no lateral tractions, normal displacements only");
-    schema.choice<WallLawKind>(
-        "law", interface.law,
-        {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
-        "law of a wall: an attraction exp(-gap/range) over a linear repulsion, or the substrate's "
-        "atoms smeared over their layer (potential, cutoff, tail)");
+    schema
+        .choice<WallLawKind>(
+            "law", interface.law,
+            {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
+            "law of a wall: an attraction exp(-gap/range) over a linear repulsion, or the "
+            "substrate's "
+            "atoms smeared over their layer (potential, cutoff, tail)")
+        .needs = {needs.wall};
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
                     "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
                     "scene does not say"});
-    schema.number(
-        "adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
-        "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction");
-    schema.number("range", interface.range, "Å", positive(), "of the exponential law");
-    schema.number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-                     "stiffness of the exponential law's repulsion; \"auto\": nearly a hard wall, "
-                     "a thousand times the stiffness of the block for its shortest wave, 500 π E* "
-                     "/ spacing, and at least 50 adhesion / "
-                     "range²");
+    schema
+        .number("adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
+                "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction")
+        .needs = {needs.exponential};
+    schema.number("range", interface.range, "Å", positive(), "of the exponential law").needs = {
+        needs.exponential};
+    schema
+        .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
+                   "stiffness of the exponential law's repulsion; \"auto\": nearly a hard wall, "
+                   "a thousand times the stiffness of the block for its shortest wave, 500 π E* "
+                   "/ spacing, and at least 50 adhesion / "
+                   "range²")
+        .needs = {needs.exponential};
 
-    schema.choice<EdgePinning>(
-        "edge_pinning", interface.edge_pinning,
-        {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
-        "whether a pull-off of a sphere runs although its force is more than 1.3 times too large: "
-        "the spacing does not resolve the range, and rows of sites hold the edge of the contact");
+    schema
+        .choice<EdgePinning>("edge_pinning", interface.edge_pinning,
+                             {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
+                             "whether a pull-off of a sphere runs although its force is more than "
+                             "1.3 times too large: "
+                             "the spacing does not resolve the range, and rows of sites hold the "
+                             "edge of the contact")
+        .needs = {needs.exponential};
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");
@@ -275,42 +358,69 @@ io::Schema bind(Scene& scene) {
                 "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
                 "where that is controlled), \"slide x 5 Å\" (or y, at the same height), \"hold 20 "
                 "ps\" (dynamic, or with block.prony)");
-    schema.number(
-        "velocity", drive.velocity, "m/s", positive(),
-        "speed of the top plane (dynamic), or of what drive.control prescribes (with block.prony)");
-    schema.choice<Control>(
-        "control", drive.control, {{"top", Control::top}, {"mean-height", Control::mean_height}},
-        "what a quasi-static path prescribes: the height of the top plane, or the mean height of "
-        "the lowest layer, with which the block never jumps as a whole");
+    schema
+        .number("velocity", drive.velocity, "m/s", positive(),
+                "speed of the top plane (dynamic), or of what drive.control prescribes (with "
+                "block.prony)")
+        .needs = {needs.time};
+    schema
+        .choice<Control>("control", drive.control,
+                         {{"top", Control::top}, {"mean-height", Control::mean_height}},
+                         "what a quasi-static path prescribes: the height of the top plane, or the "
+                         "mean height of "
+                         "the lowest layer, with which the block never jumps as a whole")
+        .needs = {
+        needs.refusing(needs.equilibria, "on a dynamic path",
+                       "a dynamic path prescribes the top plane; the mean height of the lowest "
+                       "layer follows from the motion of the block",
+                       "take drive.mode = \"quasistatic\", or control = \"top\""),
+        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
     schema.removed({"drive.hold", "", "it is called drive.control",
                     "write control = \"top\" or \"mean-height\""});
     schema.removed({"drive.states", "", "a run reports one state at zero load",
                     "leave it out; `asperity states SCENE` searches for further states"});
-    schema.number("displacement_step", drive.displacement_step, "Å", positive(),
-                  "largest displacement from point to point of a quasi-static path, of what "
-                  "drive.control prescribes");
-    schema.number_or(
-        "stiffness", drive.stiffness, "none", "N/m", positive(),
-        "of the spring that holds the top plane of the whole box, as the cantilever of "
-        "an instrument does, on a quasi-static path: the drive moves its far end; "
-        "\"none\": the drive moves the top plane");
+    schema
+        .number("displacement_step", drive.displacement_step, "Å", positive(),
+                "largest displacement from point to point of a quasi-static path, of what "
+                "drive.control prescribes")
+        .needs = {needs.equilibria};
+    schema
+        .number_or("stiffness", drive.stiffness, "none", "N/m", positive(),
+                   "of the spring that holds the top plane of the whole box, as the cantilever of "
+                   "an instrument does, on a quasi-static path: the drive moves its far end; "
+                   "\"none\": the drive moves the top plane")
+        .needs = {
+        needs.refusing(needs.equilibria, "N/m on a dynamic path",
+                       "a spring holds the top plane of a quasi-static path",
+                       "take drive.mode = \"quasistatic\", or leave stiffness out"),
+        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
-    schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet");
-    schema.number("damping", drive.damping, "1/ps", at_least(0.0),
-                  "rate Γ of the force -m Γ v, v relative to the top plane");
-    schema.number("damping_from", drive.damping_from, "", between(0.0, 1.0),
-                  "fraction of the thickness above which damping acts");
-    schema.number_or(
-        "ramp", drive.ramp, "auto", "ps", at_least(0.0),
-        "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
-        "transit of the block");
+    schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet").needs = {
+        needs.dynamic};
+    schema
+        .number("damping", drive.damping, "1/ps", at_least(0.0),
+                "rate Γ of the force -m Γ v, v relative to the top plane")
+        .needs = {needs.dynamic};
+    schema
+        .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
+                "fraction of the thickness above which damping acts")
+        .needs = {needs.dynamic, needs.damping};
+    schema
+        .number_or(
+            "ramp", drive.ramp, "auto", "ps", at_least(0.0),
+            "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
+            "transit of the block")
+        .needs = {needs.dynamic};
     schema.number("load", drive.load, "MPa", any(),
                   "pressure at which an approach ends, or under which \"relax\" finds the state; "
                   "the state after an approach carries none");
-    schema.number("temperature", drive.temperature, "K", at_least(0.0),
-                  "above 0: Langevin thermostat");
-    schema.integer("seed", drive.seed, at_least(0), "of the thermal noise");
+    schema
+        .number("temperature", drive.temperature, "K", at_least(0.0),
+                "above 0: Langevin thermostat")
+        .needs = {needs.dynamic};
+    schema.integer("seed", drive.seed, at_least(0), "of the thermal noise").needs = {
+        needs.dynamic, needs.temperature};
     schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
                           "stop after so many steps (points of a quasi-static path)");
     schema
@@ -325,21 +435,30 @@ io::Schema bind(Scene& scene) {
 
     auto& theory = scene.theory;
     schema.section("theory", "Persson's theory for the same surface.");
-    schema.number_or("delta_gamma", theory.delta_gamma, "flat", "meV/Å^2", positive(),
-                     "\"flat\": the flat reference of this scene's interface");
-    schema.number("beta", theory.beta, "", io::Range{0.0, 1.0, true, false},
-                  "correction to the elastic energy");
-    schema.choice<AreaFactor>("area_factor", theory.area_factor,
-                              {{"gaussian", AreaFactor::gaussian},
-                               {"small-slope", AreaFactor::small_slope},
-                               {"none", AreaFactor::none},
-                               {"lattice", AreaFactor::lattice}},
-                              "how the true area follows from the slope");
-    schema.choice<TheorySpectrum>(
-        "spectrum", theory.spectrum,
-        {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
-        "spectrum of the theory: that which the scene asks for, or that of the surface itself");
-    schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface");
+    schema
+        .number_or("delta_gamma", theory.delta_gamma, "flat", "meV/Å^2", positive(),
+                   "\"flat\": the flat reference of this scene's interface")
+        .needs = {needs.one_layer};
+    schema
+        .number("beta", theory.beta, "", io::Range{0.0, 1.0, true, false},
+                "correction to the elastic energy")
+        .needs = {needs.one_layer};
+    schema
+        .choice<AreaFactor>("area_factor", theory.area_factor,
+                            {{"gaussian", AreaFactor::gaussian},
+                             {"small-slope", AreaFactor::small_slope},
+                             {"none", AreaFactor::none},
+                             {"lattice", AreaFactor::lattice}},
+                            "how the true area follows from the slope")
+        .needs = {needs.one_layer};
+    schema
+        .choice<TheorySpectrum>(
+            "spectrum", theory.spectrum,
+            {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
+            "spectrum of the theory: that which the scene asks for, or that of the surface itself")
+        .needs = {needs.one_layer};
+    schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface")
+        .needs = {needs.one_layer};
     schema.removed({"theory.renormalised", "", "the renormalised theory is no part of a run",
                     "leave it out; `asperity theory`, sweeps and reports compute it"});
 
@@ -371,10 +490,16 @@ io::Schema bind(Scene& scene) {
 
     auto& output = scene.output;
     schema.section("output", "What is written.");
-    schema.number_or("trajectory", output.trajectory, "none", "", at_least(1),
-                     "steps between frames of the lowest layer (H5MD, in run.h5)");
-    schema.key("velocities", output.velocities,
-               "whether the frames of the trajectory hold velocities too");
+    schema
+        .number_or("trajectory", output.trajectory, "none", "", at_least(1),
+                   "steps between frames of the lowest layer (H5MD, in run.h5)")
+        .needs = {needs.refusing(
+        needs.dynamic, "", "frames are taken from time steps, and a quasi-static path has none",
+        "leave it out: the maps of output.fields hold the states")};
+    schema
+        .key("velocities", output.velocities,
+             "whether the frames of the trajectory hold velocities too")
+        .needs = {needs.trajectory};
     schema.list(
         "fields", output.fields,
         {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},
@@ -385,7 +510,8 @@ io::Schema bind(Scene& scene) {
         {"output.fields", "zero-load", "the state can carry a load", "write \"relaxed\""});
     schema.removed({"output.fields", "after-zero-load:", "it is the time after the approach",
                     "write \"after-approach:N\""});
-    schema.integer("series", output.series, at_least(1), "steps between rows of the series");
+    schema.integer("series", output.series, at_least(1), "steps between rows of the series")
+        .needs = {needs.dynamic};
     schema.number_or_none("checkpoint", output.checkpoint, "s", positive(),
                           "wall time between checkpoints");
 
@@ -393,62 +519,8 @@ io::Schema bind(Scene& scene) {
                        "What `asperity sweep` varies: any key above, with a list of values or a "
                        "range start:stop:step. Other commands pass over it.",
                        "surface.rms = [1, 2, 3]", &scene.sweep});
+    schema.keep(kept);
     return schema;
-}
-
-Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::vector<std::string>& overrides, io::Problems& problems) {
-    Scene scene;
-    scene.file = file;
-    scene.name = std::filesystem::path(file).stem().string();
-    if (scene.name.empty()) scene.name = "scene";
-    bind(scene).read(text, file, overrides, scene.positions, problems);
-    make_counts(scene, problems);
-    if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
-    if (scene.interface.kind == InterfaceKind::wall &&
-        !scene.positions.is_set("interface.frictionless"))
-        scene.interface.frictionless = true;
-    return scene;
-}
-
-Scene read_scene_text(const std::string& text, const std::string& file,
-                      const std::vector<std::string>& overrides) {
-    io::Problems problems;
-    Scene scene = read_scene_text(text, file, overrides, problems);
-    problems.throw_if_any();
-    return scene;
-}
-
-Scene read_scene(const std::string& file, const std::vector<std::string>& overrides) {
-    return read_scene_text(io::read_scene_file(file), file == io::standard_input ? "stdin" : file,
-                           overrides);
-}
-
-std::string scene_toml(const Scene& scene, bool with_docs) {
-    Scene copy = scene;
-    return bind(copy).toml(with_docs);
-}
-
-io::Json scene_json(const Scene& scene) {
-    Scene copy = scene;
-    return bind(copy).json();
-}
-
-io::Json scene_units(const Scene& scene) {
-    Scene copy = scene;
-    return bind(copy).units();
-}
-
-std::string scene_markdown() {
-    Scene defaults;
-    return "# The scene file\n\n"
-           "Written by `asperity defaults --markdown`; do not edit. A scene is a TOML file. A "
-           "quantity is a "
-           "number in the unit named, or a string with a unit of the same kind (\"0.3 nm\", \"100 "
-           "meV\", "
-           "\"5 m/s\", \"77.2 GPa\"). Every key may be left out. `--set section.key=value` "
-           "overrides one.\n" +
-           bind(defaults).markdown();
 }
 
 } // namespace asperity

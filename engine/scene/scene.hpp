@@ -11,10 +11,12 @@
 #pragma once
 
 #include "engine/options/device_choice.hpp"
+#include "engine/options/drive_options.hpp"
+#include "engine/options/output_options.hpp"
+#include "engine/options/theory_options.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
 #include "kernels/pair_potential.hpp"
-#include "theory/area_factor.hpp"
 
 #include <array>
 #include <optional>
@@ -39,10 +41,6 @@ enum class WallLawKind { smeared, exponential };
 /// Treatment of rows of sites that hold the edge of a contact.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
-/// Quantity that a quasi-static path moves from point to point.
-enum class Control { top, mean_height };
-using theory::AreaFactor;
-enum class TheorySpectrum { target, realised };
 enum class Precision { double_precision, mixed };
 /// Returns a tuple with one of each kind of PairPotential (never called).
 template <class... P>
@@ -51,6 +49,9 @@ using EachPotential = decltype(one_of_each(PairPotential()));
 
 /// Prefix of an entry of output.fields: "after-approach:140", 140 ps after the end of the approach.
 inline constexpr std::string_view after_approach = "after-approach:";
+
+/// Bounds of the numbers of sites and layers.
+inline constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
 
 /// A scene, with one struct for each section.
 struct Scene {
@@ -132,25 +133,15 @@ struct Scene {
         double tolerance = 2.5e-4;       ///< fraction of the smallest force that decides the state
     } drive;
 
-    struct Theory {
-        std::optional<double> delta_gamma; ///< meV/Å^2; empty: the flat reference
-        double beta = 0.45;
-        AreaFactor area_factor = AreaFactor::gaussian;
-        TheorySpectrum spectrum = TheorySpectrum::target;
-        bool clip = true;
-    } theory;
+    TheoryOptions theory;
 
     struct Numerics {
         Precision precision = Precision::double_precision;
         DeviceChoice device;
     } numerics;
 
-    struct Output {
-        std::optional<long long> trajectory; ///< steps between frames; empty: none
-        bool velocities = false;             ///< velocities in the frames too
+    struct Output : OutputOptions {
         std::vector<std::string> fields = {"relaxed"};
-        long long series = 100;    ///< steps between rows
-        double checkpoint = 600.0; ///< s of wall time; 0 ("none"): none
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
@@ -164,6 +155,10 @@ struct Scene {
     std::string name = "scene"; ///< the file's name without folder and ending
     io::Positions positions;
 
+    /// Returns true if the path is dynamic: time steps, not equilibria.
+    bool is_dynamic() const;
+    /// Returns true if the path is one relaxation.
+    bool only_relaxes() const;
     /// Returns the edge of the box, Å
     double edge() const { return surface.sites * surface.spacing; }
     /// Returns an empty list of problems with this scene's positions.
@@ -172,11 +167,14 @@ struct Scene {
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
 
-/// Returns the keys of the parameters of potentials, each with the potential's name.
-std::vector<std::pair<std::string, std::string>> keys_of_potentials();
-
 /// Returns every key, bound to the fields of this scene (which must outlive the schema).
 io::Schema bind(Scene& scene);
+
+/// Adds the keys whose values are refused for want of what they need (the column `needs` of
+/// bind()).
+void refuse_unmet_needs(const Scene& scene, io::Problems& problems);
+/// Returns notes on the keys that are set and have no effect, one sentence for each reason.
+std::vector<std::string> notes_on_idle_keys(const Scene& scene);
 
 /// Reads the keys of a scene. Overrides are "section.key=value". Throws io::SceneError with the
 /// mistakes in single keys; resolve() (engine/case/case.hpp) checks the keys together.

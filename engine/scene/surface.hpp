@@ -44,6 +44,8 @@ struct SurfaceOptions {
     LineNoise line_noise =
         LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
     double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
+
+    bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
 };
 
 /// Makes the flat or self-affine surface of the options. Throws std::invalid_argument if they

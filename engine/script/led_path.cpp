@@ -36,7 +36,7 @@ Case quasistatic(const Case& c) {
         refuse("Statics", fmt::format("on {} ranks", c.ranks),
                "it is one process, on all its threads",
                "start it without mpirun; runs take ranks (asperity.run)");
-    if (!c.in_time) return c;
+    if (!c.effects.dynamic) return c;
     Scene scene = c.scene;
     scene.drive.mode = DriveMode::quasistatic;
     return resolve(scene);
@@ -51,8 +51,9 @@ Surface checked_surface(const Case& c) {
 
 LedPath::LedPath(const Case& c)
     : case_(quasistatic(c)), surface_(checked_surface(case_)), grid_(case_.grid(0)),
-      interface_(surface_, grid_.tile(0), case_.scene.surface.spacing, case_.simulation.interface),
-      block_(case_.simulation.block, Communicator(), case_.scene.interface.frictionless) {
+      interface_(surface_, grid_.tile(0), case_.simulation.block.spacing,
+                 case_.simulation.interface),
+      block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
     if (const double spring = case_.simulation.drive.stiffness; spring > 0.0)
         block_.set_machine(spring);
     before_.mean_height = reference_height();
@@ -77,7 +78,7 @@ void LedPath::set_hold(double time) {
         refuse(
             "hold", "has no effect on this block",
             "it does not relax, so that force balance does not change with time",
-            case_.scene.block.prony.empty()
+            case_.simulation.block.branches.empty()
                 ? "give the block branches (block.prony)"
                 : "take drive.path = [\"approach\"] in the scene: of one relaxation the state is "
                   "the relaxed one");
@@ -177,7 +178,7 @@ LedPath::Point LedPath::now() const {
     if (!points_) return before_;
     Point p{points_->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double edge = case_.scene.surface.sites, sites = edge * edge;
+    const double edge = case_.simulation.block.sites, sites = edge * edge;
     p.instabilities = points_->dissipation().events;
     p.contact_fraction = static_cast<double>(p.in_contact) / sites;
     p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
@@ -209,7 +210,7 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{case_.scene.surface.sites, {}, block_.drive()};
+    State state{case_.simulation.block.sites, {}, block_.drive()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
@@ -225,7 +226,7 @@ LedPath::State LedPath::copy() const {
 }
 
 void LedPath::restore(const State& state) {
-    const int sites = case_.scene.surface.sites;
+    const int sites = case_.simulation.block.sites;
     if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
                fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
@@ -277,7 +278,8 @@ void LedPath::hold(Held held) {
 /// Begins the path unless it has begun.
 void LedPath::begin() {
     if (points_) return;
-    hold(held_.value_or(case_.scene.drive.control == Control::top ? Held::top : Held::mean_height));
+    hold(held_.value_or(case_.simulation.drive.control == Control::top ? Held::top
+                                                                       : Held::mean_height));
     PathOptions options =
         path_options(case_, interface_, [this](long long iteration, double residual) {
             return watch_ && watch_(iteration, residual);

@@ -32,7 +32,7 @@ void require_finite(const char* name, const VectorPlane<const double>& field) {
 }
 
 Surface checked_surface(const Case& c, const Communicator& ranks) {
-    if (!c.in_time)
+    if (!c.effects.dynamic)
         refuse("Simulation", fmt::format("cannot step the scene \"{}\"", c.scene.name),
                "drive.mode = \"quasistatic\", or drive.path = [\"relax\"], finds force balance "
                "without steps",
@@ -109,7 +109,7 @@ void SteppedPath::one_step(bool last) {
     const long long number = path_.steps();
     const bool observed = std::any_of(observers_.begin(), observers_.end(),
                                       [&](const Observer& o) { return number % o.period == 0; });
-    const bool due = number % case_.scene.output.series == 0;
+    const bool due = number % case_.output.series == 0;
     try {
         moved_ = true;
         const Path::Wish wish{.energies = due || observed || last};

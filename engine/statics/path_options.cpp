@@ -12,9 +12,9 @@ namespace asperity {
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report) {
     PathOptions o;
-    o.along =
-        c.scene.drive.control == Control::top ? Constraint::Of::top : Constraint::Of::mean_height;
-    o.step = std::min(c.scene.drive.displacement_step, c.longest_step);
+    o.along = c.simulation.drive.control == Control::top ? Constraint::Of::top
+                                                         : Constraint::Of::mean_height;
+    o.step = c.simulation.drive.displacement_step;
     o.tolerance = c.tolerance;
     o.scales = c.scales;
     o.load = c.simulation.drive.load_force;

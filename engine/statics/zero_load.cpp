@@ -44,7 +44,7 @@ std::string rounding_note(const Case& c, double height) {
     return fmt::format("drive.tolerance = {:.2g} asks for {:.1e} eV/Å, and the rounding of numbers "
                        "alone leaves about {:.1e} eV/Å: a relaxation may not come to an end; take "
                        "{:.1g} or more",
-                       c.scene.drive.tolerance, c.tolerance, floor, floor / c.scales.force);
+                       c.tolerance / c.scales.force, c.tolerance, floor, floor / c.scales.force);
 }
 
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
@@ -52,8 +52,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
     // A site's part of the load is the scale if the load is larger than the scale of forces.
-    const double sites = static_cast<double>(c.scene.surface.sites) * c.scene.surface.sites;
-    options.tolerance = c.tolerance * std::max(1.0, load / (sites * c.scales.force));
+    options.tolerance = c.tolerance * std::max(1.0, load / (c.sites() * c.scales.force));
     options.scales = c.scales;
     options.report = stop;
     Phases own;                                                // apart from the lines of the step

@@ -35,7 +35,7 @@ WaveStiffness wave_stiffness(const BlockOptions& block, double q, double angle) 
 /// Returns the stiffness of waves up to Nyquist, averaged over directions.
 Json lattice_stiffness(const Case& c) {
     const BlockOptions& block = c.simulation.block;
-    const double low = 2.0 * std::numbers::pi / c.scene.edge();
+    const double low = 2.0 * std::numbers::pi / c.edge();
     const double high = std::numbers::pi / block.spacing;
     constexpr int waves = 48;
     // The lattice has the symmetry of the square: directions in an eighth of the circle, Gauss.
@@ -124,9 +124,9 @@ theory::FlatInterface flat_interface(const Case& c) {
     const InterfaceOptions& options = c.simulation.interface;
     const theory::PairInteraction pair = pair_interaction(options.potential, options.tail);
     const double spacing = c.simulation.block.spacing;
-    if (c.substrate() == c.scene.surface.sites)
+    if (c.substrate() == c.simulation.block.sites)
         return theory::FlatInterface::hollow_sites(pair, spacing);
-    return theory::FlatInterface::all_registries(pair, spacing, c.scene.edge() / c.substrate());
+    return theory::FlatInterface::all_registries(pair, spacing, c.edge() / c.substrate());
 }
 
 Json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum, bool realised) {
@@ -140,8 +140,8 @@ Json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum, bool r
     return {{"q_L", spectrum.q_L()},
             {"spectrum", pieces},
             {"realised", realised},
-            {"pressure", c.scene.drive.load * units::megapascal},
-            {"friction", !c.scene.interface.frictionless},
+            {"pressure", c.simulation.drive.load_force / c.area()},
+            {"friction", c.effects.lateral.on},
             {"stiffness", lattice_stiffness(c)},
             {"flat", flat}};
 }

@@ -33,12 +33,12 @@ auto with_scene_errors(const F& work) {
 }
 
 /// Returns the power law of the scene, from q_L up to q1 or to the limit of the grid.
-Spectrum target_of(const Scene& scene, TheoryCase& out) {
-    const auto& s = scene.surface;
-    const double q_L = 2.0 * std::numbers::pi / scene.edge();
-    const double nyquist = 0.5 * substrate_sites(s.sites, s.lattice_ratio);
-    double cutoff = s.q_max.value_or(nyquist);
-    if (scene.theory.clip && cutoff > nyquist) {
+Spectrum target_of(const Case& c, TheoryCase& out) {
+    const SurfaceOptions& s = c.surface;
+    const double q_L = 2.0 * std::numbers::pi / s.length;
+    const double nyquist = 0.5 * s.sites;
+    double cutoff = s.cutoff;
+    if (c.theory.clip && cutoff > nyquist) {
         out.notes.push_back(fmt::format("the spectrum ends at Nyquist, q1 = {:.6g} q_L, like the "
                                         "surface (theory.clip = false: at {:.6g} q_L)",
                                         nyquist, cutoff));
@@ -48,7 +48,7 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
     out.q0 = rolloff * q_L;
     if (!(cutoff > 1.0))
         throw io::SceneError(io::Problem{
-            scene.positions.where("surface.q_max"),
+            c.scene.positions.where("surface.q_max"),
             fmt::format("surface.q_max = {:.6g} leaves the theory no roughness", cutoff),
             "it needs a band of wavevectors from q_L to q1 > q_L",
             "give a larger q_max, more sites, or kind = \"flat\""});
@@ -59,7 +59,7 @@ Spectrum target_of(const Scene& scene, TheoryCase& out) {
 /// Returns ring averages of the map: bin k holds the waves between (k - 1/2) and (k + 1/2) q_L. The
 /// first ring starts at q_L, the longest wave there is, and the last ends at Nyquist; each ring has
 /// a C with the variance of its waves.
-Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out) {
+Spectrum realised_of(const Case& c, const Surface& surface, TheoryCase& out) {
     out.origin = surface.origin;
     const auto& bins = surface.statistics.spectrum;
     const double q_unit = 2.0 * std::numbers::pi / surface.length;
@@ -79,7 +79,7 @@ Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out
     const double rms = surface.statistics.rms;
     if (C.empty() || !(variance > 0.0))
         throw io::SceneError(
-            io::Problem{scene.positions.where("theory.spectrum"),
+            io::Problem{c.scene.positions.where("theory.spectrum"),
                         "theory.spectrum = \"realised\" finds no roughness in the surface",
                         fmt::format("its rms is {:.4g} Å on {} sites", rms, surface.sites),
                         "give a rough surface of at least 4 sites, or kind = \"flat\""});
@@ -88,39 +88,37 @@ Spectrum realised_of(const Scene& scene, const Surface& surface, TheoryCase& out
         out.notes.push_back(fmt::format("{:.2g} % of the height variance lies beyond Nyquist, in "
                                         "the corners of the grid, and is not in the theory",
                                         100.0 * lost));
-    const bool scaled = scene.surface.kind == SurfaceKind::self_affine ||
-                        (scene.gives_rms() && scene.surface.rms > 0.0);
+    const bool scaled = c.surface.kind == SurfaceKind::self_affine || c.surface.rms > 0.0;
     const Spectrum spectrum = Spectrum::rings(edges, C);
     if (!scaled) return spectrum;
-    return spectrum.with_rms_height(scene.surface.rms * std::sqrt(variance) / rms);
+    return spectrum.with_rms_height(c.surface.rms * std::sqrt(variance) / rms);
 }
 
 Spectrum spectrum_of(const Case& c, const Surface* surface, TheoryCase& out) {
-    const Scene& scene = c.scene;
-    const auto& s = scene.surface;
-    const double q_L = 2.0 * std::numbers::pi / scene.edge();
+    const SurfaceOptions& s = c.surface;
+    const double q_L = 2.0 * std::numbers::pi / s.length;
     const bool measured = s.kind == SurfaceKind::file;
     if (!measured && (s.kind == SurfaceKind::flat || s.rms == 0.0))
         return Spectrum::self_affine(
             {.q_L = q_L, .q0 = q_L, .q1 = 2.0 * q_L, .hurst = 0.8, .h_rms = 0.0});
-    if (!theory_needs_surface(c)) return target_of(scene, out);
-    if (measured && scene.theory.spectrum == TheorySpectrum::target)
+    if (!theory_needs_surface(c)) return target_of(c, out);
+    if (measured && c.theory.spectrum == TheorySpectrum::target)
         out.notes.push_back("a measured map has no target spectrum");
     if (!measured) out.q0 = std::max(1.0, s.rolloff) * q_L;
-    if (surface) return realised_of(scene, *surface, out);
-    return realised_of(scene, surface_of(c), out);
+    if (surface) return realised_of(c, *surface, out);
+    return realised_of(c, surface_of(c), out);
 }
 
 } // namespace
 
 bool theory_needs_surface(const Case& c) {
-    const auto& s = c.scene.surface;
+    const SurfaceOptions& s = c.surface;
     return s.kind == SurfaceKind::file || (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
-                                           c.scene.theory.spectrum == TheorySpectrum::realised);
+                                           c.theory.spectrum == TheorySpectrum::realised);
 }
 
 NoTheory no_theory(const Case& c) {
-    if (c.scene.surface.kind == SurfaceKind::atoms)
+    if (c.surface.kind == SurfaceKind::atoms)
         return {"surface.kind",
                 "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
                 "are of one layer with heights, whose flat reference they divide by",
@@ -137,25 +135,23 @@ NoTheory no_theory(const Case& c) {
 }
 
 TheoryCase theory_case(const Case& c, const Surface* surface) {
-    const Scene& scene = c.scene;
     if (const NoTheory none = no_theory(c); !none.why.empty())
-        throw io::SceneError(io::Problem{scene.positions.where(none.key),
+        throw io::SceneError(io::Problem{c.scene.positions.where(none.key),
                                          "no theory applies to this scene", none.why, none.fix});
     TheoryCase out;
     out.flat = c.flat.work_of_adhesion;
-    out.delta_gamma = scene.theory.delta_gamma.value_or(out.flat);
-    out.radius = scene.surface.radius;
+    out.delta_gamma = c.theory.delta_gamma.value_or(out.flat);
+    out.radius = c.radius();
     with_scene_errors([&] {
         out.contact.spectrum = spectrum_of(c, surface, out);
-        out.contact.contact_modulus =
-            theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
+        out.contact.contact_modulus = c.simulation.block.contact_modulus();
         out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
-        out.contact.pressure = scene.drive.load * units::megapascal;
-        out.contact.beta = scene.theory.beta;
-        out.contact.area_factor = scene.theory.area_factor;
-        if (scene.theory.area_factor == AreaFactor::lattice && !c.simulation.interface.wall)
+        out.contact.pressure = c.simulation.drive.load_force / c.area();
+        out.contact.beta = c.theory.beta;
+        out.contact.area_factor = c.theory.area_factor;
+        if (c.theory.area_factor == AreaFactor::lattice && !c.simulation.interface.wall)
             out.contact.tilt_cost =
-                flat_interface(c).tilt_cost(c.flat.separation, !scene.interface.frictionless);
+                flat_interface(c).tilt_cost(c.flat.separation, c.effects.lateral);
         theory::check(out.contact);
     });
     return out;

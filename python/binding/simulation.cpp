@@ -154,7 +154,7 @@ void bind_fields(Class& simulation) {
             },
             "sites of this rank as an index [y, x]: u.z is whole[tile]; without comm, all sites")
         .def_property_readonly(
-            "spacing", [](const Sim& sim) { return sim.scene_case().scene.surface.spacing; },
+            "spacing", [](const Sim& sim) { return sim.scene_case().simulation.block.spacing; },
             "distance of the sites, Å");
 }
 

@@ -42,20 +42,19 @@ void bind_inner(Class& statics) {
             "_case", // what a search needs of it, in the units of the engine
             [](const LedPath& s) {
                 const Case& c = s.scene_case();
-                const bool atoms = c.scene.surface.kind == SurfaceKind::atoms;
-                return py::dict(
-                    "name"_a = c.scene.name, "scene"_a = scene_toml(c.scene, false),
-                    "area"_a = c.area(), "load"_a = c.simulation.drive.load_force,
-                    "step"_a = std::min(c.scene.drive.displacement_step, c.longest_step),
-                    "tension"_a = c.largest_tension * units::gigapascal,
-                    "modulus"_a = c.simulation.block.contact_modulus(),
-                    // Atoms anywhere can bind more than a flat layer does.
-                    "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
-                    "spacing"_a = c.scene.surface.spacing, "scale"_a = c.flat.work_of_adhesion,
-                    "separation"_a = c.flat.separation,
-                    "wall"_a = c.scene.interface.kind == InterfaceKind::wall,
-                    "lateral"_a = !c.scene.interface.frictionless &&
-                                  c.scene.interface.kind != InterfaceKind::wall);
+                const bool atoms = c.surface.kind == SurfaceKind::atoms;
+                return py::dict("name"_a = c.scene.name, "scene"_a = scene_toml(c.scene, false),
+                                "area"_a = c.area(), "load"_a = c.simulation.drive.load_force,
+                                "step"_a = c.simulation.drive.displacement_step,
+                                "tension"_a = c.largest_tension * units::gigapascal,
+                                "modulus"_a = c.simulation.block.contact_modulus(),
+                                // Atoms anywhere can bind more than a flat layer does.
+                                "deepest"_a = atoms ? HUGE_VAL : c.flat.work_of_adhesion * 1e-3,
+                                "spacing"_a = c.simulation.block.spacing,
+                                "scale"_a = c.flat.work_of_adhesion,
+                                "separation"_a = c.flat.separation,
+                                "wall"_a = c.simulation.interface.wall.has_value(),
+                                "lateral"_a = c.effects.lateral.on);
             })
         .def_property_readonly(
             "_substrate_height",

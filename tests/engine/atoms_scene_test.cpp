@@ -5,7 +5,7 @@
 // surface, boxes are compared, and what does not go together is refused.
 #include "engine/case/case.hpp"
 #include "engine/plan/plan.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
 

@@ -21,8 +21,6 @@ namespace {
 const std::vector<Segment> cycle = {Segment{Segment::approach}, Segment{Segment::pull_off}};
 
 TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
-    const Scene scene = read_scene_text(
-        "[surface]\nsites = 10\nspacing = 10\nradius = 1000\n[interface]\ncutoff = 10\n", "s.toml");
     PathSeries path;
     for (int i = 0; i < 40; ++i) {
         const bool out = i >= 15;
@@ -34,10 +32,10 @@ TEST(Paths, OfASphereTellItsRadiusAndItsMeanForce) {
         path.contact_fraction.push_back(i == 20 ? 0.04 : 0.01);
     }
     io::Result result;
-    add_sphere_path(path, cycle, scene, result);
+    add_sphere_path(path, cycle, 100.0, 1000.0, result);
     EXPECT_FALSE(result.number("contact_radius.pull_off")) << "the path has not come to its end";
     result.set("work_of_drive.pull_off", 8.0);
-    add_sphere_path(path, cycle, scene, result);
+    add_sphere_path(path, cycle, 100.0, 1000.0, result);
     const io::Json json = result.json();
     EXPECT_NEAR(io::find(json, "contact_radius.pull_off")->get<double>(),
                 std::sqrt(0.04 * 1e4 / M_PI), 1e-9);
@@ -57,11 +55,9 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
         path.force.push_back(row >= from && row < from + count ? -1.0 : 0.0);
         path.contact_fraction.push_back(0.1);
     }
-    Scene scene;
-    scene.surface.radius = 100.0;
     io::Result result;
     result.set("work_of_drive.pull_off", 1.0);
-    add_sphere_path(path, cycle, scene, result);
+    add_sphere_path(path, cycle, 1331.2, 100.0, result);
     const std::optional<double> value = result.number(key);
     EXPECT_TRUE(value) << key.quantity->name << " is missing";
     return value.value_or(std::nan(""));

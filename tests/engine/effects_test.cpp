@@ -109,7 +109,7 @@ TEST(Effects, OffMakesNoCall) {
                         "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
                state = {"block.thickness=16", "drive.path=relax"};
     const std::vector<Trace> traces = {
-        {&Effects::inertia,
+        {&Effects::dynamic,
          {"block.thickness=16", "drive.max_steps=20"},
          "",
          "drive.mode=quasistatic",

@@ -7,7 +7,7 @@
 #include "engine/case/case.hpp"
 #include "engine/path/path.hpp"
 #include "engine/run/recorder.hpp"
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 #include "engine/scene/scene.hpp"
 #include "engine/units.hpp"
 #include "io/hdf5_file.hpp"

@@ -156,14 +156,13 @@ TEST(Scene, Paths) {
         read_case_text("drive.path = [\"approach\", \"load 1 GPa\", \"height 1.2 nm\", "
                        "\"slide y -5\", \"hold 20 ps\", \" pull-off \"]",
                        "s.toml");
-    ASSERT_EQ(guided.path.size(), 6u);
-    EXPECT_EQ(guided.path[1].amount, 1000.0);
-    EXPECT_EQ(guided.path[2].amount, 12.0);
-    EXPECT_EQ(guided.path[3].amount, -5.0);
-    EXPECT_EQ(guided.path[3].axis, 1);
-    EXPECT_EQ(guided.path[4].amount, 20.0);
-    EXPECT_EQ(guided.path[5].kind, Segment::pull_off);
-    EXPECT_EQ(guided.simulation.drive.path[4].amount, 20000.0) << "fs";
+    ASSERT_EQ(guided.path().size(), 6u);
+    EXPECT_DOUBLE_EQ(guided.path()[1].amount, 1000.0 * units::megapascal * guided.area()) << "eV/Å";
+    EXPECT_EQ(guided.path()[2].amount, 12.0);
+    EXPECT_EQ(guided.path()[3].amount, -5.0);
+    EXPECT_EQ(guided.path()[3].axis, 1);
+    EXPECT_EQ(guided.path()[4].amount, 20000.0) << "fs";
+    EXPECT_EQ(guided.path()[5].kind, Segment::pull_off);
     EXPECT_TRUE(guided.effects.sliding);
 }
 
@@ -318,6 +317,18 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.rms = 1", "surface.rms has no effect"));
     EXPECT_TRUE(said("surface.kind = \"flat\"\nsurface.seed = 2", "surface.seed has no effect"));
     EXPECT_TRUE(said("drive.displacement_step = 0.1", "drive.displacement_step has no effect"));
+    // Every key that needs another one says so.
+    for (const auto& [key, value, reason] :
+         {std::array{"surface.file_missing", "\"fill\"", "surface.kind is not \"file\""},
+          {"surface.file_crop", "\"middle\"", "surface.kind is not \"file\""},
+          {"interface.edge_pinning", "\"allow\"", "there is no wall with the exponential law"},
+          {"drive.seed", "2", "drive.temperature is 0"},
+          {"drive.damping_from", "0.5\ndrive.damping = 0", "drive.damping is 0"},
+          {"block.layers_per_level", "3\nblock.model = \"lattice\"",
+           "block.model is not \"multiscale\""}})
+        EXPECT_TRUE(said(fmt::format("{} = {}", key, value),
+                         fmt::format("{} has no effect: {}", key, reason)))
+            << key;
     const std::string mixed = "numerics.precision = \"mixed\"\n";
     EXPECT_FALSE(said(mixed, "numerics.precision"));
     for (const char* with : {"surface.lattice_ratio = 1.618",
@@ -329,7 +340,7 @@ TEST(Scene, Notes) {
     EXPECT_TRUE(said(still + "drive.velocity = 2", "drive.velocity has no effect"));
     EXPECT_TRUE(said(still + "drive.temperature = 300", "drive.temperature has no effect"));
     EXPECT_TRUE(said(still + "drive.velocity = 2\ndrive.timestep = 20\nblock.model = \"lattice\"",
-                     "drive.velocity, drive.timestep and block.model have no effect"));
+                     "block.model, drive.velocity and drive.timestep have no effect"));
     EXPECT_FALSE(said(still + "drive.displacement_step = 0.1", "has no effect"));
     EXPECT_TRUE(said("surface.sites = 500", "halved 2 times"));
     EXPECT_FALSE(said("", "halved"));

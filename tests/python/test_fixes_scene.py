@@ -13,7 +13,7 @@ import pytest
 
 from following import ask, followed, not_followed
 
-SOURCES = ("engine/scene/", "engine/options/", "engine/setup/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
+SOURCES = ("engine/scene/", "engine/options/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
            "io/scene_reader", "io/scene_toml", "io/table_file", "io/units")
 EXCUSED = {
     "the attraction did not reach the pull": "followed in test_fixes_commands.py",

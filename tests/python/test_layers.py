@@ -4,6 +4,7 @@
 within one."""
 
 import ast
+import re
 from pathlib import Path
 
 import asperity
@@ -58,3 +59,29 @@ def test_imports_from_above_are_seen():
                        ("running.scene", "def f():\n    from ..studies import grid"), ("units", "from .running.program import call"),
                        ("results.result", "from ..nowhere import x"), ("errors", "from . import units")):
         assert wrong(text, name), text
+
+
+ENGINE = Path(__file__).resolve().parents[2] / "engine"
+ABOVE_THE_CASE = ("theory", "dynamics", "statics", "path", "run", "plan", "script", "commands")
+# A key of the scene that is read; one that is written makes a scene, which resolve() makes a case of.
+RAW = re.compile(r"\bscene\.(surface|block|interface|drive|theory|numerics|output)\.(?!\w+( = |\.\w+ = ))\w+")
+# One body rigid: E/(1-nu^2).
+CONTACT_MODULUS = re.compile(r"\(1\.0? - [\w.]*(poisson|nu)\w* \* [\w.]*(poisson|nu)\w*\)")
+
+
+def sources(*folders):
+    return [f for folder in folders for f in sorted((ENGINE / folder).glob("*.[hc]pp"))]
+
+
+def test_nothing_above_the_case_reads_a_raw_scene():
+    files = [*sources(*ABOVE_THE_CASE), *(ENGINE.parent / "python/binding").glob("*.[hc]pp")]
+    assert len(files) > 60
+    found = [f"{f.name}: {line.strip()}" for f in files for line in f.read_text().splitlines()
+             if RAW.search(line) and "scene.surface.sites = scene.block.thickness = " not in line]
+    assert not found, "take it from the case: " + "; ".join(found)
+    assert RAW.search("c.scene.drive.load > 0.0") and not RAW.search("scene.drive.mode = DriveMode::quasistatic;")
+
+
+def test_the_contact_modulus_has_one_home():
+    found = [f.name for f in ENGINE.rglob("*.[hc]pp") if CONTACT_MODULUS.search(f.read_text())]
+    assert found == ["block_options.hpp"]

@@ -250,7 +250,7 @@ def test_contact_is_what_the_interface_counts(state_run, tmp_path):
 
 def test_theory_and_states(state_run, tmp_path):
     found = page(state_run.directory)
-    assert "Gap" in found.text and "inertia: a state of force balance" in found.text
+    assert "Gap" in found.text and "dynamic: a state of force balance" in found.text
     scene = tmp_path / "s.toml"
     scene.write_text("[surface]\nsites = 32\nrms = 0.5\n")
     command("theory", scene, "--out", tmp_path / "theory")

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/run/run_record.hpp"
+#include "engine/run/run_result.hpp"
 
 #include "engine/device/device_block.hpp"
 #include "engine/theory/theory_case.hpp"
@@ -48,10 +48,10 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
 }
 
 void add_path(const PathResults& results, const Case& c, io::Result& result) {
-    const std::optional<double> radius = c.scene.surface.radius;
+    const std::optional<double> radius = c.radius();
     const SegmentResults *in = results.last(Segment::approach),
                          *out = results.last(Segment::pull_off);
-    const bool warm = c.scene.drive.temperature > 0.0; // heat goes both ways
+    const bool warm = c.effects.temperature; // heat goes both ways
     const auto set = [&](const SegmentResults* s, io::Key drive, io::Key interface, io::Key lost,
                          io::Key kinetic, io::Key force, io::Key of_drive, io::Key of_interface,
                          io::Key of_lost) {
@@ -91,20 +91,18 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
 
 /// Adds the results of a curved scene at zero load: contact radius, and binding energy by JKR.
 void add_sphere(const Case& c, io::Result& result) {
-    const Scene& scene = c.scene;
-    if (!scene.surface.radius) return;
+    const std::optional<double> radius = c.radius();
+    if (!radius) return;
     const bool one_modulus = !c.effects.layers && !c.effects.surface_stress;
     if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.relaxed",
-                   scene.edge() * std::sqrt(*fraction / std::numbers::pi));
-    const bool pressed = c.starts_with(Segment::relax) && scene.drive.load != 0.0;
+        result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
+    const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
     if (!binding || pressed || !one_modulus) return;
-    const double energy = *binding / units::milli_per_unit * scene.edge() * scene.edge();
-    const double modulus =
-        theory::contact_modulus(scene.block.young * units::gigapascal, scene.block.poisson);
-    result.set("jkr.relaxed", units::milli_per_unit * theory::jkr::work_from_binding_energy(
-                                                          energy, *scene.surface.radius, modulus));
+    const double energy = *binding / units::milli_per_unit * c.area();
+    const double modulus = c.simulation.block.contact_modulus();
+    result.set("jkr.relaxed", units::milli_per_unit *
+                                  theory::jkr::work_from_binding_energy(energy, *radius, modulus));
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
@@ -115,7 +113,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
             if (value) result.set(key, i, *value);
         };
         result.set("segments[].segment", i, static_cast<long long>(s.number));
-        result.set("segments[].name", i, c.path[s.number].text);
+        result.set("segments[].name", i, c.path()[s.number].text);
         result.set("segments[].work_of_drive", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
@@ -202,8 +200,8 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
-    if (c.scene.interface.kind == InterfaceKind::atoms ||
-        c.scene.interface.law == WallLawKind::smeared)
+    const auto& wall = c.simulation.interface.wall;
+    if (!wall || !std::holds_alternative<ExponentialWall>(*wall))
         result.set("interface.cutoff", cutoff_of(c.simulation.interface.potential));
     result.set("run.ranks", c.ranks);
     result.set("run.threads", omp_get_max_threads());
@@ -224,8 +222,8 @@ std::string physics_of(const Case& c, const Surface& surface) {
     part["output"]["delayed"] = io::Json::array();
     for (const auto& [delay, name] : c.maps.after_approach)
         part["output"]["delayed"].push_back(name);
-    if (scene.surface.radius) part["output"]["series"] = scene.output.series; // averaged over time
-    part["output"]["velocities"] = scene.output.trajectory && scene.output.velocities;
+    if (c.radius()) part["output"]["series"] = c.output.series; // averaged over time
+    part["output"]["velocities"] = c.output.trajectory && c.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
     if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
     return io::json_text(part);
@@ -235,7 +233,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
     const Case& c = path.scene_case();
     const StepRecord& now = failed ? *failed : path.now();
     if (path.phases()) add_phases(*path.phases(), result);
-    if (c.in_time) result.set("run.device", describe_device(c.simulation.device));
+    if (c.effects.dynamic) result.set("run.device", describe_device(c.simulation.device));
     result.set("run.steps", failed ? failed->step : path.steps());
     if (const auto iterations = path.iterations()) result.set("run.iterations", *iterations);
     if (path.steps() > 0 || now.observed) {

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Options of Persson's theory.
+#pragma once
+
+#include "theory/area_factor.hpp"
+
+#include <optional>
+
+namespace asperity {
+
+using theory::AreaFactor;
+/// Spectrum of the theory: that which the scene asks for, or that of the surface made.
+enum class TheorySpectrum { target, realised };
+
+/// Options of Persson's theory.
+struct TheoryOptions {
+    std::optional<double> delta_gamma; ///< meV/Å^2; empty: the flat reference
+    double beta = 0.45;                ///< correction to the elastic energy
+    AreaFactor area_factor = AreaFactor::gaussian;
+    TheorySpectrum spectrum = TheorySpectrum::target;
+    bool clip = true; ///< clip the target spectrum at Nyquist
+};
+
+} // namespace asperity

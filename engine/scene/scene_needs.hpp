@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// What keys of a scene need of others: the column `needs` of bind(), from which refusals and notes
+// follow.
+#pragma once
+
+#include "engine/scene/scene.hpp"
+
+#include <string>
+#include <utility>
+
+namespace asperity {
+
+/// States of keys that others need.
+struct Needs {
+    using Need = io::Schema::Need;
+
+    explicit Needs(const Scene& s) : scene(s) {}
+    const Scene& scene;
+
+    Need self_affine{[this] { return scene.surface.kind == SurfaceKind::self_affine; },
+                     "surface.kind is not \"self-affine\""};
+    Need map{[this] { return scene.surface.kind == SurfaceKind::file; },
+             "surface.kind is not \"file\""};
+    Need file{[this] { return scene.surface.reads_file(); },
+              "surface.kind is neither \"file\" nor \"atoms\""};
+    Need rough{[this] { return scene.surface.kind != SurfaceKind::flat; },
+               "surface.kind is \"flat\""};
+    Need one_layer{[this] { return scene.surface.kind != SurfaceKind::atoms; },
+                   "surface.kind is \"atoms\""};
+    Need wall{[this] { return scene.interface.kind == InterfaceKind::wall; },
+              "interface.kind is not \"wall\""};
+    Need exponential{[this] {
+                         return scene.interface.kind == InterfaceKind::wall &&
+                                scene.interface.law == WallLawKind::exponential;
+                     },
+                     "there is no wall with the exponential law"};
+    Need pairs{[this] { return !exponential.is_met(); }, "the wall has the exponential law"};
+    Need dynamic{[this] { return scene.is_dynamic(); }, "no time passes on this path"};
+    Need time{[this] {
+                  return scene.is_dynamic() ||
+                         (!scene.block.prony.empty() && !scene.only_relaxes());
+              },
+              "no time passes on this path"};
+    Need equilibria{[this] { return !scene.is_dynamic(); }, "drive.mode is \"dynamic\""};
+    Need multiscale{[this] { return scene.block.model == BlockModel::multiscale; },
+                    "block.model is not \"multiscale\""};
+    Need damping{[this] { return scene.drive.damping > 0.0; }, "drive.damping is 0"};
+    Need temperature{[this] { return scene.drive.temperature > 0.0; }, "drive.temperature is 0"};
+    Need trajectory{[this] { return scene.output.trajectory.has_value(); },
+                    "output.trajectory is \"none\""};
+
+    /// Returns one_layer for a key whose value is refused over atoms anywhere.
+    Need heights(std::string why, std::string fix) const {
+        return refusing(one_layer, "with surface.kind = \"atoms\"", std::move(why), std::move(fix));
+    }
+    /// Returns a need with a refusal.
+    static Need refusing(Need need, std::string refused, std::string why, std::string fix) {
+        need.refused = std::move(refused);
+        need.why = std::move(why);
+        need.fix = std::move(fix);
+        return need;
+    }
+    /// Returns the need of the parameters of a potential.
+    Need potential(const std::string& name) const {
+        return {[this, name] {
+                    return scene.interface.potential_name() == name ||
+                           !scene.interface.pairs.empty();
+                },
+                "interface.potential is not \"" + name + "\""};
+    }
+};
+
+} // namespace asperity
