@@ -39,7 +39,8 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
             {"relaxing block", branches}, {"layers", layers},
-            {"surface stress", surface_stress}, {"spring of the machine", spring}, {"relaxation", relaxation},
+            {"surface stress", surface_stress}, {"spring of the machine", spring},
+            {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
     // clang-format on
