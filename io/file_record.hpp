@@ -9,9 +9,9 @@
 // come to its end. Claimed names are "unfinished" in the record, so that a run that is killed at
 // any moment can be resumed. At the end of the command the record gets the digest of each file.
 //
-// The record is the file .asperity-files.json of the directory. python/asperity/files/store.py reads and
-// writes the same record; the commands of Python also renew reports, tables and plots whose
-// digest is that of the record.
+// The record is the file .asperity-files.json of the directory. python/asperity/files/store.py
+// reads and writes the same record; the commands of Python also renew reports, tables and plots
+// whose digest is that of the record.
 #pragma once
 
 #include "io/files.hpp"

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Two flat surfaces of atoms at a separation u: the start of the renormalised theory
-// (python/asperity/theory/renormalised.py). A block site sees the substrate atoms in rings: `density` atoms per
-// area of the interface at the lateral distance R. With V(r) the pair energy, r² = R² + u², the
-// energy per area is
+// (python/asperity/theory/renormalised.py). A block site sees the substrate atoms in rings:
+// `density` atoms per area of the interface at the lateral distance R. With V(r) the pair energy,
+// r² = R² + u², the energy per area is
 //     φ(u) = Σ_R density V(r).
 // Sites over hollows have rings at R² = (i² + j²) a²/4 with i, j odd; if the two lattices differ,
 // every registry occurs and the sums become integrals over R. Units: any consistent set.

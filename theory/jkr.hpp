@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Johnson, Kendall and Roberts' adhesive sphere (its whole curve: python/asperity/theory/sphere.py).
+// Johnson, Kendall and Roberts' adhesive sphere (its whole curve:
+// python/asperity/theory/sphere.py).
 #pragma once
 
 namespace asperity::theory::jkr {
