@@ -200,7 +200,6 @@ std::string progress_phase(const Case& c, const std::string& segment, double for
 
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory) {
-    const Scene& scene = c.scene;
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
     fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
@@ -237,7 +236,6 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
 
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const PathResults& results, const std::string& directory) {
-    const Scene& scene = c.scene;
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
     const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;

@@ -121,7 +121,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         const double scale = i % 2 ? 1.0 : 1e-3;
         block.begin_step(dt);
         block.set_uniform(scale * next);
-        const auto [elastic, branches] = block.energies();
+        const auto [elastic, machine, branches] = block.energies();
         const double rate = (scale * next - w) / dt;
         double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
         for (std::size_t k = 0; k < two.size(); ++k) {
