@@ -64,7 +64,7 @@ def in_this_process(words, given="", cwd=None):
 def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
     """Runs the program, on `ranks` of the launcher or alone, with `given` as its standard input; the text that it
     prints. The exit code must be `expect`, and the text hold `says`. A command of the package runs in this process."""
-    if words[0] in OF_PYTHON and not ranks and env is None:
+    if words and words[0] in OF_PYTHON and not ranks and env is None:
         code, *streams = in_this_process(words, given, cwd)
         return as_expected(words, code, "".join(streams), expect, says)
     launcher = [*asperity.running.runs.launcher(2)[:-1], str(ranks)] if ranks else []

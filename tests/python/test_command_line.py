@@ -74,7 +74,7 @@ def test_processes_that_mpi_does_not_connect(place):
     (["run", "plain.toml", "--no-such-option"], "--no-such-option"),
     (["run", "plain.toml", "plain.toml"], "more than one scene"),
     (["run", "plain.toml", "--wall-limit", "soon"], "--wall-limit soon: is no length of time"),
-    (["run", "plain.toml", "--progress", "loud"], "the choices are auto, bar, lines and off\n    fix: give one"),
+    (["run", "plain.toml", "--progress", "loud"], "the choices are auto, bar, lines, json and off\n    fix: give one"),
     *((["run", "plain.toml", option, ""], f"{option}: is empty")
       for option in ("--resume", "--wall-limit", "--progress")),
     (["run", "plain.toml", "--resume", "gone.h5"], "there is no such file"),

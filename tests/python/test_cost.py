@@ -186,7 +186,7 @@ def test_the_settings_for_a_target_keep_it(tmp_path, monkeypatch, given, best):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "tiny.toml").write_text(TINY)
     words = ["cost", "tiny.toml", "--progress", "off", "--out", "cost", *(["--set", *given] if given else [])]
-    said = command(*words, "--target", "1%").splitlines()
+    said = command(*words, "--target", "2%").splitlines()
     assert said[-1].startswith("--set ")
 
     def quantities(*more):
@@ -202,7 +202,7 @@ def test_the_settings_for_a_target_keep_it(tmp_path, monkeypatch, given, best):
 
     reference, reached = quantities(*best), quantities(*said[-1].split()[1:])
     errors = {key: abs(reached[key] / value - 1.0) for key, value in reference.items()}
-    assert 0 < max(errors.values()) <= 0.01, errors
+    assert 0 < max(errors.values()) <= 0.02, errors
     told = float(next(line for line in said if "error" in line and "of the reference" in line).split("error")[1].split("%")[0])
     assert told / 100 == pytest.approx(max(errors.values()), rel=0.01)
 
