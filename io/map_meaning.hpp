@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What the numbers of a map's file mean: units, sizes, points without a height.
+// Meaning of the numbers of a map's file: units, sizes, points without a height.
 #pragma once
 
 #include "io/height_map.hpp"

@@ -3,17 +3,18 @@
 //
 // The directory that a command writes its result to, and its owner.
 //
-// Which one: what --out names, else results/<name>, then results/<name>-2, -3, ... A result that is
-// there is never written over. A run that has not come to its end leaves run.journal; a directory
-// that holds one is refused unless the run goes on (--resume) or is thrown away (--restart).
+// The directory is that of --out, else results/<name>, then results/<name>-2, -3, ... A result that
+// is there is never written over. A run that has not come to its end leaves run.journal; a
+// directory that holds one is refused unless the run goes on (--resume) or is thrown away
+// (--restart).
 //
-// Whose: one process at a time, by a flock on run.lock, which says host, process and since when.
+// One process at a time owns it, by a flock on run.lock, which says host, process and since when.
 // The system takes the flock back when its owner ends, however it does. The lock of another host is
 // refused without a flock too: not every file system carries flocks from host to host. Where it
 // knows none, whoever makes the file has it, and a file that is there is refused.
 // python/asperity/files/store.py takes the same lock.
 //
-// What may be replaced in it: nothing but files of a command that did not come to its end
+// No file in it is replaced but those of a command that did not come to its end
 // (file_record.hpp).
 #pragma once
 

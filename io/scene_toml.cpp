@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// From TOML text and overrides to the keys of a schema. The one unit that includes toml++.
+// Reads TOML text and overrides into the keys of a schema. The one unit that includes toml++.
 #include "io/scene_reader.hpp"
 
 #include "io/error.hpp"

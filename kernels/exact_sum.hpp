@@ -14,7 +14,7 @@
 // branch; needs round-to-nearest and no re-association by the compiler (this project never sets
 // -ffast-math).
 //
-// Why nothing rounds, for any number of terms:
+// Nothing rounds, for any number of terms:
 // - The coarse bin holds multiples of 2^-22, and below 2^31 these are fewer than 2^53.
 // - The fine part of a term is the rest after rounding to the coarse quantum: at most 2^-23, 2^27
 // fine quanta. carry() leaves at most as much in the fine bin. After it, longest_run = 2^24 terms

@@ -13,7 +13,7 @@
 // In a block of layers each cell has the a, b and d of its own material, and a plane between two
 // materials has what each side gives it: a from above, d from below.
 //
-// Why six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
+// Six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
 // plane components and within z, and odd where it couples z with x or y: its filters are cosines,
 // sin sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
 //

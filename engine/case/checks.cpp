@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What single keys cannot know: contradictions between them, what is not available yet, and what is
-// worth a note.
+// Checks over several keys: contradictions between them, combinations that are not available, and
+// notes.
 #include "engine/case/potential_table.hpp"
 #include "engine/case/resolving.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// How wrong tables of potentials make a scene: the error of the spline between their rows and the
-// noise of the rows, summed over the pairs of two flat surfaces at any distance, over the work of
-// adhesion. To first order a binding energy is wrong by the errors of the pairs of its state, which
-// that bounds.
+// Errors that tables of potentials bring into a scene: the error of the spline between their rows
+// and the noise of the rows, summed over the pairs of two flat surfaces at any distance, over the
+// work of adhesion. To first order a binding energy is wrong by the errors of the pairs of its
+// state, which that bounds.
 #include "engine/case/potential_table.hpp"
 #include "engine/case/resolving.hpp"
 

@@ -3,7 +3,7 @@
 //
 // The end of the program, with and without an error.
 //
-// Under mpirun every rank runs the same command; rank 0 alone prints. All ranks meet an error in a
+// Every rank of mpirun runs the same command; rank 0 alone prints. All ranks meet an error in a
 // scene alike, or rank 0 meets it for all of them: they agree on the code and end in order. Any
 // other error ends them all at once (abort), because the others may be waiting for this one.
 #pragma once

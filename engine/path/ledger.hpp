@@ -8,7 +8,7 @@
 //      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
 //      approach
 //
-// Of every segment of a quasi-static path, wherever it starts and ends,
+// A segment of a quasi-static path, wherever it starts and ends, satisfies
 //
 //     work of the drive = stored + lost + dissipated in the block,
 //

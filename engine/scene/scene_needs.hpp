@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What keys of a scene need of others: the column `needs` of bind(), from which refusals and notes
-// follow.
+// Needs of a scene's keys of each other: the column `needs` of bind(), from which refusals and
+// notes follow.
 #pragma once
 
 #include "engine/scene/scene.hpp"

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What is noted of the points of a quasi-static path.
+// Records of the points of a quasi-static path.
 #include "engine/statics/quasistatic.hpp"
 
 #include "decomposition/global_sum.hpp"

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What becomes of a step of a quasi-static path (quasistatic.hpp): a function of the last point,
-// the one tried, the force on the way and what may be wrong.
+// Decision on a step of a quasi-static path (quasistatic.hpp): a function of the last point, the
+// one tried, the force on the way and the errors of the energies.
 #pragma once
 
 #include "engine/statics/force_trail.hpp"

@@ -20,7 +20,7 @@
 // it steadily, without a jump. So the number of iterations does not depend on how steep the law is
 // beside the block: over rubber an attraction is ten thousand times as steep.
 //
-// Where every site has come to rest the residual force of the state u is (L - S) (z - u) and what
+// If every site has come to rest, the residual force of the state u is (L - S) (z - u) and what
 // the attraction at u differs by from that at z, so L |z - u| and the latter measure it. beta
 // follows Nesterov's sequence and starts anew where the step turns against the gradient. The number
 // of iterations goes with the root of the number of sites across the box; each takes a transform

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What may be wrong with the work of a segment of a quasi-static path and with the energy that it
-// has dissipated.
+// Errors of the work of a segment of a quasi-static path and of the energy that it has dissipated.
 //
 // A step that passes an instability has a work that is known to half the step h times the jump of
 // the force. And it starts relaxing up to h beyond the instability: if another patch becomes

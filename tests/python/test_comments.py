@@ -14,6 +14,8 @@ ROOT = Path(__file__).resolve().parents[2]
 FOLDERS = ("engine", "decomposition", "kernels", "io", "theory")
 REFUSED = ("of whether what where below from under as told both like likewise none not "
            "it its this that these those they which who why when how").split()
+# Words with which no paragraph at the head of a file begins.
+HEADLESS = "of whether what where below from under as whose which why how when".split()
 VERBS = set("""
 adds allocates allows appends asks begins brings builds calls catches checks claims clears closes collects combines compares computes
 continues converts copies counts creates cuts deletes derives displaces draws drifts ends estimates exchanges explains
@@ -78,7 +80,18 @@ def comments(text):
         at += 1
 
 
+def paragraphs_of_head(text):
+    """Line and text of each paragraph of the comment at the head of a file."""
+    lines = text.split("\n")
+    head = [line[2:] for line in lines[:next((n for n, line in enumerate(lines) if not line.startswith("//")), 0)]]
+    starts = [n for n, line in enumerate(head) if line.strip() and (n == 0 or not head[n - 1].strip())]
+    return [(n + 1, head[n].strip()) for n in starts if not head[n].startswith("  ")]  # not a formula
+
+
 def problems_of(text, name):
+    for line, words in paragraphs_of_head(text):
+        if words[0].isupper() and words.split()[0].lower().strip(":,") in HEADLESS:
+            yield f"{name}:{line}: a paragraph begins with '{words.split()[0]}': {words[:70]}"
     for line, words, declaration, documents in comments(text):
         first = re.match(r"[\"'(`\[]*([A-Za-z_]+)\b(?!\()", words)
         if not first or "SPDX" in words:
