@@ -69,9 +69,10 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                          : "look at run.h5 whether the surfaces touch at all");
     const double area = c.area();
     ZeroLoad z;
-    z.binding_energy = -units::milli_per_unit * (s.interface_energy + s.elastic_energy) / area;
+    const double elastic = s.elastic_energy - s.machine_energy; // without that of what loads it
+    z.binding_energy = -units::milli_per_unit * (s.interface_energy + elastic) / area;
     z.pairwise = -units::milli_per_unit * s.interface_energy / area;
-    z.elastic = units::milli_per_unit * s.elastic_energy / area;
+    z.elastic = units::milli_per_unit * elastic / area;
     z.contact_fraction = c.fraction(s.in_contact);
     z.repulsive_fraction = c.fraction(s.repulsive);
     z.mean_height = reference_height + s.mean_height;

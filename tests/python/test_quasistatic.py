@@ -149,3 +149,19 @@ def test_a_path_that_never_adheres_says_so(place):
     said = command("run", "rough.toml", "--progress", "off", "--set", *stiff)
     assert "the solids do not stick (below 1 % of flat on flat)" in said
     assert "do not stick" not in command("run", "rough.toml", "--progress", "off", "--out", "sticky", "--set", *stiff[:3], "drive.path=relax")
+
+
+def test_a_spring_of_the_machine_leaves_states_as_they_are_and_resumes_to_the_same_bits(place):
+    sets = ["surface.sites=16", "block.thickness=16", "interface.kind=wall", 'drive.path=["relax", "pull-off"]', "drive.load=20"]
+    run("rigid", *sets)
+    run("sprung", *sets, "drive.stiffness=0.5")
+    rigid, sprung = asperity.load("rigid"), asperity.load("sprung")
+    for name in ("binding_energy", "relaxed.elastic_energy", "contact_fraction"):
+        assert sprung.number(name) == rigid.number(name), name  # the load's state, without the spring's energy
+    assert sprung.number("energy.damped") > 2 * rigid.number("energy.damped")  # a soft spring jumps out of contact
+    drive, top, force = (sprung.series[name] for name in ("drive_displacement", "top_displacement", "top_force"))
+    assert (top - drive) * 0.5 / 16.021766208 == pytest.approx(force, abs=1e-6 * abs(force).max())
+    run("stopped", *sets, "drive.stiffness=0.5", "drive.max_steps=20")
+    resume("stopped", *sets, "drive.stiffness=0.5")
+    again = asperity.load("stopped")
+    assert (again.series["top_force"] == force).all() and again.number("energy.work") == sprung.number("energy.work")
