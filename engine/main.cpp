@@ -104,6 +104,13 @@ std::vector<Command> all_commands() {
              points.scene = scene_file(given, points.overrides);
              return on_root(world, [&] { return theory_points_command(points); });
          }},
+        {"hold",
+         "for programs: the lock of a result directory, sent through the socket that is the "
+         "standard input",
+         {{"DIR", "", "the directory", &Arguments::out}},
+         [](const Arguments& given, const Communicator& world) {
+             return on_root(world, [&] { return hold_command(given.out); });
+         }},
         {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
         {"cost",
          "what accuracy costs in run time: a scene with each of its numerical settings varied",

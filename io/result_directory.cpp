@@ -8,19 +8,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
-#include <ctime>
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <span>
 #include <string_view>
 
-#include <fcntl.h>
-#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 namespace asperity::io {
@@ -124,36 +117,6 @@ void remove_left_over(const Directory& directory, const ResultRequest& request) 
             directory.remove(file);
 }
 
-// The lock.
-
-std::string host_name() {
-    char name[256] = "";
-    ::gethostname(name, sizeof name - 1);
-    return name;
-}
-
-/// Holder of a lock as its file says; empty if the file does not say, or is incomplete.
-struct Holder {
-    std::string host, process, since;
-};
-
-Holder read_lock(int fd) {
-    char text[4096] = "", host[256], process[32], since[64], end = '\0';
-    read_some(fd, std::as_writable_bytes(std::span(text).first(sizeof text - 1)), 0);
-    if (std::sscanf(text, "host %255s process %31s since %63[^\n]%c", host, process, since, &end) <
-        4)
-        return {};
-    return {host, process, since};
-}
-
-/// Returns true if a file begins as the text of a lock does, as far as it was written.
-bool is_lock(int fd) {
-    constexpr std::string_view first = "host ";
-    char text[first.size()];
-    const std::ptrdiff_t n = read_some(fd, std::as_writable_bytes(std::span(text)), 0);
-    return n >= 0 && first.starts_with(std::string_view(text, static_cast<std::size_t>(n)));
-}
-
 } // namespace
 
 ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string& path)
@@ -168,7 +131,8 @@ ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string
 // If this constructor throws, the destructor undoes its work: the other constructor has ended.
 ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
-    lock();
+    lock_.emplace(directory_, ::getpid());
+    if (!lock_->note().empty()) notes_.push_back(lock_->note());
     remove_left_over(directory_, request); // also of a run that had come to its end
     check(request, directory_);
     record_.claim(request.files, request.inputs);
@@ -193,64 +157,9 @@ ResultDirectory::~ResultDirectory() {
         record_.release(std::uncaught_exceptions() == 0 && !directory_.exists(run_file::journal));
     } catch (const std::exception&) { // the files stay unfinished in the record
     }
-    if (is_lock_in_place()) ::unlinkat(directory_.fd(), run_file::lock, 0);
-    lock_ = Descriptor();
+    lock_.reset(); // removes its file
     std::error_code ignored;
     if (made_) fs::remove(path(), ignored); // an empty directory alone is removed
-}
-
-void ResultDirectory::lock() {
-    const std::string file = directory_ / run_file::lock;
-    Holder holder;
-    for (bool mine = false; !mine;) {
-        lock_ = directory_.open(run_file::lock, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
-        const bool made = static_cast<bool>(lock_);
-        if (!made && errno == EEXIST) lock_ = directory_.open(run_file::lock, O_RDWR | O_NOFOLLOW);
-        if (!lock_ && errno == ENOENT) continue; // given back just now
-        if (!lock_) fail_by_system(file, "cannot be written");
-        const bool kept = ::flock(lock_.get(), LOCK_EX | LOCK_NB) == 0;
-        const bool by_other = !kept && errno == EWOULDBLOCK;
-        if (kept && !is_lock_in_place()) continue; // given back just now
-        if (!made && !is_lock(lock_.get())) {
-            lock_ = Descriptor(); // the file stays in its place
-            throw SceneError(Problem{file, "is there already and is not replaced",
-                                     "it is not the lock of a run: it does not begin with a host",
-                                     "move it away, or name another directory (--out)"});
-        }
-        holder = read_lock(lock_.get());
-        const bool here = holder.host == host_name();
-        // On a file system without such locks the process that makes the file has the lock.
-        mine = made ? !by_other : kept && (holder.host.empty() || here);
-        if (mine) break;
-        lock_ = Descriptor(); // the file stays in its place
-        throw FileError(
-            path(), "is in use by another process",
-            holder.process.empty() ? file + " does not say by whom"
-                                   : fmt::format("process {} on host {} has had it since {} ({})",
-                                                 holder.process, holder.host, holder.since, file),
-            by_other && here
-                ? "wait for its end, stop it, or name another directory: --out"
-                : "wait for its end, or name another directory (--out); where it is certain that "
-                  "no such process lives, remove " +
-                      file);
-    }
-    if (!holder.process.empty())
-        notes_.push_back(fmt::format("{}: process {}, which has had it since {}, is gone", path(),
-                                     holder.process, holder.since));
-    const std::time_t now = std::time(nullptr);
-    const std::string text = fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S}\n",
-                                         host_name(), ::getpid(), fmt::localtime(now));
-    if (::ftruncate(lock_.get(), 0) != 0 ||
-        !write_all(lock_.get(), std::as_bytes(std::span(text)), 0))
-        fail_by_system(file, "cannot be written");
-}
-
-bool ResultDirectory::is_lock_in_place() const {
-    struct stat mine {
-    }, there{};
-    return ::fstat(lock_.get(), &mine) == 0 &&
-           ::fstatat(directory_.fd(), run_file::lock, &there, AT_SYMLINK_NOFOLLOW) == 0 &&
-           mine.st_ino == there.st_ino && mine.st_dev == there.st_dev;
 }
 
 } // namespace asperity::io

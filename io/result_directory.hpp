@@ -8,20 +8,18 @@
 // directory that holds one is refused unless the run goes on (--resume) or is thrown away
 // (--restart).
 //
-// One process at a time owns it, by a flock on run.lock, which says host, process and since when.
-// The system takes the flock back when its owner ends, however it does. The lock of another host is
-// refused without a flock too: not every file system carries flocks from host to host. Where it
-// knows none, whoever makes the file has it, and a file that is there is refused.
-// python/asperity/files/store.py takes the same lock.
+// One process at a time owns it (directory_lock.hpp).
 //
 // No file in it is replaced but those of a command that did not come to its end
 // (file_record.hpp).
 #pragma once
 
+#include "io/directory_lock.hpp"
 #include "io/file_record.hpp"
 #include "io/files.hpp"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,13 +55,11 @@ public:
 
 private:
     ResultDirectory(const ResultRequest& request, const std::string& path);
-    void lock();
-    bool is_lock_in_place() const;
 
     std::vector<std::string> notes_;
     bool made_; ///< by this object
     Directory directory_;
-    Descriptor lock_;
+    std::optional<DirectoryLock> lock_;
     FileRecord record_;
 };
 
@@ -77,7 +73,7 @@ inline constexpr const char* checkpoint_next = "checkpoint-next.part"; ///< whol
 inline constexpr const char* journal = "run.journal";
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* checkpoint_before = "checkpoint-before.h5";
-inline constexpr const char* lock = "run.lock";
+inline constexpr const char* lock = DirectoryLock::name;
 /// All but the lock.
 inline constexpr std::array all = {
     journal, checkpoint, checkpoint_before, checkpoint_damaged, checkpoint_next,

@@ -161,7 +161,8 @@ bool is_for_programs(int argc, char** argv) {
         if (word == takes::json.name || word == takes::progress.name + "=json" || progress)
             return true;
     }
-    return argc > 1 && std::string_view(argv[1]) == "theory-points";
+    const std::string_view command = argc > 1 ? argv[1] : "";
+    return command == "theory-points" || command == "hold";
 }
 
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,

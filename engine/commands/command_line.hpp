@@ -87,8 +87,8 @@ Option out(const std::string& otherwise);
 /// was not found. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
-/// Returns true if a program asks for this call: with --json, --progress json or `theory-points`.
-/// Errors are then printed as JSON.
+/// Returns true if a program asks for this call: with --json, --progress json, `theory-points` or
+/// `hold`. Errors are then printed as JSON.
 bool is_for_programs(int argc, char** argv);
 /// Reads the command line and carries out the command; answers --help and --version. Returns the
 /// exit code. Throws io::SceneError if the call cannot be understood.

@@ -56,5 +56,9 @@ struct TheoryPoints {
 /// Prints the theories of the points (`asperity theory-points`). Throws io::FileError if the input
 /// cannot be read.
 int theory_points_command(const TheoryPoints& what);
+/// Takes the lock of a result directory and sends it through the Unix socket that is the standard
+/// input (`asperity hold`). Throws io::SceneError if the standard input is no socket, and
+/// io::FileError if the directory is in use.
+int hold_command(const std::string& directory);
 
 } // namespace asperity

@@ -9,6 +9,7 @@
 #include "engine/run/series.hpp"
 #include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
+#include "io/directory_lock.hpp"
 #include "io/error.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
@@ -33,6 +34,7 @@
 #include <fftw3.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 namespace asperity {
 
@@ -314,6 +316,12 @@ int schema_command(bool results, const Communicator& world) {
         }
     }
     fmt::print("{}\n", io::json_text(all));
+    return io::exit_code::done;
+}
+
+int hold_command(const std::string& directory) {
+    const int owner = io::process_behind(STDIN_FILENO);
+    io::DirectoryLock(io::Directory(directory), owner).hand_over(STDIN_FILENO);
     return io::exit_code::done;
 }
 

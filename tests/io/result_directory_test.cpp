@@ -14,6 +14,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -115,6 +116,35 @@ TEST(ResultDirectory, IsOfOneOfManyThatTakeItAtOnce) {
         EXPECT_NE(WEXITSTATUS(status), 2) << "two had it";
     }
     EXPECT_FALSE(std::filesystem::exists(path + "/run.lock"));
+}
+
+TEST(DirectoryLock, BelongsToTheProcessThatItIsHandedTo) {
+    const Scratch scratch;
+    const std::string file = scratch / "run.lock";
+    int ends[2];
+    ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+    Descriptor ours(ends[0]);
+    const Descriptor theirs(ends[1]);
+    EXPECT_EQ(process_behind(theirs.get()), ::getpid());
+    const auto try_to_take = [&] { DirectoryLock(Directory(scratch / "."), 7); };
+    const pid_t child = ::fork();
+    if (child == 0) {
+        DirectoryLock(Directory(scratch / "."), process_behind(theirs.get()))
+            .hand_over(theirs.get());
+        ::_exit(0);
+    }
+    ::waitpid(child, nullptr, 0);
+    EXPECT_TRUE(holds(contents(file), fmt::format("process {}\n", ::getpid()))) << contents(file);
+    EXPECT_THROW(try_to_take(), FileError);
+    ours = Descriptor(); // with the message in it, which holds the file
+    EXPECT_NO_THROW(try_to_take());
+    EXPECT_FALSE(std::filesystem::exists(file));
+    // A pipe has nobody to hand anything to.
+    ASSERT_EQ(::pipe(ends), 0);
+    const Descriptor out(ends[0]), in(ends[1]);
+    EXPECT_THROW(process_behind(out.get()), SceneError);
+    EXPECT_THROW(DirectoryLock(Directory(scratch / "."), 7).hand_over(in.get()), FileError);
+    EXPECT_FALSE(std::filesystem::exists(file)) << "it was not handed over";
 }
 
 TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {

@@ -17,8 +17,7 @@ from pathlib import Path
 import pytest
 
 import asperity
-from asperity.files import store
-from asperity.running import pool
+from asperity.running import lock, pool
 from asperity.studies.sweeps import load_sweep
 from conftest import ROOT, command, held, is_told, rows, running, wait_for
 
@@ -180,7 +179,7 @@ def test_a_point_waits_for_the_run_that_another_worker_left(place):
     task = [words, str(place), str(place / "point"), "1", True, str(place / "going")]
 
     def hold():
-        with store.in_use(place / "point"):
+        with lock.in_use(place / "point"):
             held.set()
             time.sleep(1.0)
 

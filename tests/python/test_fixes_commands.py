@@ -165,6 +165,7 @@ COMMANDS = [
     ("name another: asperity init (NAME.toml)", lambda: bad("init", "s.toml"), lambda name: good("init", name)),
     ("name another place", lambda: bad("init", "gone/s.toml"), lambda: good("init", "x.toml")),
     (r"write one JSON array a line: (\[.*\])", lambda: told(bad("theory-points", "t.toml", "--points", blank("p"))), lambda line: (Path("p").write_text(line), good("theory-points", "t.toml", "--points", "p"))),
+    ("start the command with one as its standard input", lambda: told(bad("hold", ".", given="")), lambda: in_use(lambda: True)),
     ("check the path and its permissions", lambda: told(bad("theory-points", "t.toml", "--points", "gone")), lambda: (Path("p").write_text("[]\n"), good("theory-points", "t.toml", "--points", "p"))),
     ("take a larger height", lambda: bad(*run("--out", "o", "--set", "drive.mode=quasistatic", "drive.control=mean-height", "drive.path=height -1", scene="t.toml")),
      lambda: good(*run("--out", "p", "--set", "drive.mode=quasistatic", "drive.control=mean-height", "drive.path=height 4", scene="t.toml"))),
@@ -318,7 +319,7 @@ def without(file, name):
 
 def in_use(call):
     """What is said while another process has the directory o."""
-    lines = "import pathlib, sys, asperity.files.store as store\nwith store.in_use(pathlib.Path('o')):\n print('there', flush=True)\n sys.stdin.read()"
+    lines = "import pathlib, sys, asperity.running.lock as lock\nwith lock.in_use(pathlib.Path('o')):\n print('there', flush=True)\n sys.stdin.read()"
     with subprocess.Popen([sys.executable, "-c", lines], stdin=subprocess.PIPE, stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}) as other:
         other.stdout.readline()
         return call()

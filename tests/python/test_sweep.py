@@ -24,7 +24,7 @@ from asperity.files import store
 from asperity.plots import sweep as plots
 from asperity.plots.style import csv, drawn
 from asperity.reports import sentences
-from asperity.running import pool, program
+from asperity.running import lock, pool, program
 from asperity.studies import grid
 from asperity.studies.sweeps import load_sweep, load_sweeps
 from asperity.studies.tables import text_of
@@ -432,15 +432,26 @@ def test_a_damaged_point_is_told_and_run_again(place):
 
 
 def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
-    lock = tmp_path / "run.lock"
-    with store.in_use(tmp_path):
-        lock.unlink()  # by somebody who is certain that no such process lives
-        lock.write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
-    assert "elsewhere" in lock.read_text()
-    lock.unlink()
-    with store.in_use(tmp_path):
-        assert lock.exists()
-    assert not lock.exists()
+    file = tmp_path / "run.lock"
+    with lock.in_use(tmp_path):
+        file.unlink()  # by somebody who is certain that no such process lives
+        file.write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
+    assert "elsewhere" in file.read_text()
+    file.unlink()
+    with lock.in_use(tmp_path):
+        assert f"process {os.getpid()}\n" in file.read_text()  # not the program, which has ended
+        with pytest.raises(asperity.InputOutputError, match=f"process {os.getpid()} on host"):
+            lock.in_use(tmp_path).__enter__()
+        assert lock.is_used(tmp_path)
+    assert not file.exists() and not lock.is_used(tmp_path)
+
+
+def test_a_process_that_is_started_meanwhile_does_not_keep_the_lock(tmp_path):
+    with lock.in_use(tmp_path):
+        child = subprocess.Popen(["sleep", "60"], close_fds=False)
+    with lock.in_use(tmp_path):
+        child.kill()
+        child.wait()
 
 
 @pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all"), ("/../", "root of all")])

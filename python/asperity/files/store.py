@@ -23,9 +23,7 @@ import json
 import math
 import os
 import re
-import socket
 import stat
-import time
 import zlib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -116,7 +114,25 @@ def _record(place: Path) -> dict[str, str] | None:
 
 
 def is_named(place: Path, name: str) -> bool:
-    """Returns True if the record of a directory names a file."""
+    """Returns True if the record of a directory names a file.
+
+    Parameters
+    ----------
+    place : Path
+        Directory.
+    name : str
+        Name of the file.
+
+    Returns
+    -------
+    bool
+        True for a file that a command wrote there.
+
+    Raises
+    ------
+    SceneError
+        The record is damaged.
+    """
     return name in (_record(place) or {})
 
 
@@ -156,7 +172,7 @@ def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew
     if not stat.S_ISREG(there.st_mode):
         return "it is no regular file"
     if name == LOCK:
-        return "" if _is_lock(path.read_bytes()) else NO_LOCK
+        return "" if b"host ".startswith(path.read_bytes()[:5]) else NO_LOCK
     if record is None:
         return (f"the directory has no record ({RECORD}) of the files that Asperity wrote: the file is another program's, "
                 "or of a version without records")
@@ -170,10 +186,28 @@ def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew
 
 
 def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> list[dict[str, str]]:
-    """Returns the files of these names that must not be replaced, each as a problem for SceneError.of().
+    """Returns the files that must not be replaced.
 
-    renew: files that the record names and that are as they were written may be replaced. inputs: files that the command
-    reads, which are never replaced. Raises InputOutputError for a file that cannot be read.
+    Parameters
+    ----------
+    place : Path
+        Directory to write to.
+    names : Iterable[str]
+        Names of the files to be written.
+    renew : bool
+        True: files that the record names and that are as they were written may be replaced.
+    inputs : Inputs
+        Files that the command reads, which are never replaced.
+
+    Returns
+    -------
+    list[dict[str, str]]
+        The files, as problems of SceneError.of().
+
+    Raises
+    ------
+    InputOutputError
+        A file cannot be read.
     """
     names, inputs, record = list(names), list(inputs), _record(place)
     problems = []
@@ -190,8 +224,22 @@ def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: In
 
 
 def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
-    """Checks that no file is in the way of a command that will write these names, by directory. Raises SceneError with all
-    files that are."""
+    """Checks that no file is in the way of a command.
+
+    Parameters
+    ----------
+    places : Mapping[Path, Iterable[str]]
+        Names of the files to be written, by directory.
+    renew : bool
+        True: files that the record names and that are as they were written may be replaced.
+    inputs : Inputs
+        Files that the command reads, which are never replaced.
+
+    Raises
+    ------
+    SceneError
+        Files are in the way; all are named.
+    """
     problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
     if problems:
         raise SceneError.of(problems)
@@ -220,7 +268,20 @@ class Outputs:
             self.digests[name] = _digest_of(beside)
 
     def write(self, name: str, content: str | bytes) -> None:
-        """Writes a file whole, or leaves the old one."""
+        """Writes a file whole, or leaves the old one.
+
+        Parameters
+        ----------
+        name : str
+            Name that was claimed.
+        content : str | bytes
+            Content of the file.
+
+        Raises
+        ------
+        InputOutputError
+            The file cannot be written.
+        """
         with self.replacing(name) as beside:
             beside.write_bytes(content.encode() if isinstance(content, str) else content)
 
@@ -234,7 +295,29 @@ class Outputs:
 def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> Iterator[Outputs]:
     """Opens a directory, made if it is missing, for the files that a command is about to write. Their names are claimed in
     the record before, and their digests noted there after the work; of work that ends in an exception they stay
-    unfinished. The arguments are those of in_the_way(). Raises SceneError with all files that are in the way."""
+    unfinished.
+
+    Parameters
+    ----------
+    place : Path
+        Directory to write to.
+    names : Iterable[str]
+        Names of the files to be written.
+    renew : bool
+        True: files that the record names and that are as they were written may be replaced.
+    inputs : Inputs
+        Files that the command reads, which are never replaced.
+
+    Yields
+    ------
+    Outputs
+        The open directory.
+
+    Raises
+    ------
+    SceneError
+        Files are in the way; all are named.
+    """
     written, before = Outputs(place, names), {}
     require_free({place: written.names}, renew, inputs)
     made = [path for path in (place, *place.parents) if not path.exists()]
@@ -274,7 +357,20 @@ def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Input
 
 
 def set_aside(place: Path, names: Iterable[str]) -> None:
-    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free."""
+    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free.
+
+    Parameters
+    ----------
+    place : Path
+        Directory.
+    names : Iterable[str]
+        Names of the files.
+
+    Raises
+    ------
+    InputOutputError
+        A file cannot be renamed.
+    """
     for path in (place / name for name in names if os.path.lexists(place / name)):
         first = path.with_name(f"{path.stem}-damaged{path.suffix}")
         try:
@@ -284,7 +380,20 @@ def set_aside(place: Path, names: Iterable[str]) -> None:
 
 
 def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
-    """Returns lines of comma-separated values: numbers with so many digits, numbers that are not finite as empty fields."""
+    """Returns lines of comma-separated values.
+
+    Parameters
+    ----------
+    rows : Iterable[Iterable[str | float]]
+        Lines; numbers that are not finite become empty fields.
+    digits : int
+        Digits of the numbers.
+
+    Returns
+    -------
+    str
+        The text of the file.
+    """
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows(
         [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
@@ -292,7 +401,25 @@ def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
 
 
 def chosen(out: str | None, otherwise: str) -> Path:
-    """Returns the directory that --out names, or else the default one. Raises SceneError for a name that can be no directory."""
+    """Returns the directory of a command.
+
+    Parameters
+    ----------
+    out : str | None
+        Directory that the user names; None: none.
+    otherwise : str
+        Default directory.
+
+    Returns
+    -------
+    Path
+        The directory, which may not exist yet.
+
+    Raises
+    ------
+    SceneError
+        The name can be no directory.
+    """
     place = Path(otherwise if out is None else out)
     if out == "":
         raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
@@ -306,112 +433,30 @@ def chosen(out: str | None, otherwise: str) -> Path:
 
 
 def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
-    """Returns the first path that is not taken of first, first-2, first-3, ..."""
+    """Returns the first path that is not taken of first, first-2, first-3, ...
+
+    Parameters
+    ----------
+    first : Path
+        Path without a number.
+    taken : Callable[[Path], bool]
+        Returns True for a path that is taken.
+
+    Returns
+    -------
+    Path
+        The path.
+    """
     others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))
     return next(place for place in itertools.chain([first], others) if not taken(place))
 
 
 LOCK = "run.lock"
-"""The same file, content and rules as of the directory of a run (io/result_directory.hpp), so that runs and sweeps
-keep each other out as well."""
-
-
+"""Lock of a directory of results, which the program takes (running/lock.py)."""
 NO_LOCK = "it is not the lock of a run: it does not begin with a host"
 RUN_FILES = ("run.journal", "checkpoint.h5", "checkpoint-before.h5", "checkpoint-damaged.h5", "checkpoint-next.part",
              "run.h5", "result.json", "last-good.h5")
 """What a run may write into its directory (io/result_directory.hpp)."""
-
-
-def _is_lock(content: bytes) -> bool:
-    """Returns True if a file begins as the text of a lock does, as far as it was written."""
-    return content[:5] == b"host "[:len(content)]
-
-
-def _in_place(handle: int, path: Path) -> bool:
-    with contextlib.suppress(FileNotFoundError):
-        return os.path.samestat(os.fstat(handle), os.lstat(path))
-    return False
-
-
-def _take(place: Path) -> int:
-    """Opens the lock of a directory and keeps it; raises InputOutputError where another process has it."""
-    path, host = place / LOCK, socket.gethostname()
-    while True:
-        made = True
-        try:
-            handle = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW, 0o666)
-        except FileExistsError:
-            made = False
-            try:
-                handle = os.open(path, os.O_RDWR | os.O_NOFOLLOW)
-            except FileNotFoundError:  # given back just now
-                continue
-        kept = by_other = False
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            kept = True
-        except BlockingIOError:
-            by_other = True
-        except OSError:  # a file system without such locks: whoever makes the file has it
-            pass
-        if not kept or _in_place(handle, path):
-            break
-        os.close(handle)  # given back just now
-    content = os.read(handle, 4096)
-    if not made and not _is_lock(content):
-        os.close(handle)
-        raise SceneError(str(path), "is there already and is not replaced", NO_LOCK,
-                         "move it away, or name another directory (--out)")
-    lines = content.decode("utf-8", "replace").splitlines()
-    holder = {key: value for key, _, value in (line.partition(" ") for line in lines)}
-    if "since" not in holder:
-        holder = {}
-    here = holder.get("host") == host
-    if by_other if made else not kept or (holder and not here):
-        os.close(handle)
-        raise InputOutputError(
-            str(place), "is in use by another process",
-            f"process {holder['process']} on host {holder['host']} has had it since {holder['since']} ({path})"
-            if {"process", "host"} <= set(holder) else f"{path} does not say by whom",
-            "wait for its end, stop it, or name another directory: --out" if by_other and here else
-            f"wait for its end, or name another directory (--out); where it is certain that no such process lives, "
-            f"remove {path}")
-    os.ftruncate(handle, 0)
-    since = time.strftime("%Y-%m-%d %H:%M:%S")
-    os.pwrite(handle, f"host {host}\nprocess {os.getpid()}\nsince {since}\n".encode(), 0)
-    return handle
-
-
-@contextlib.contextmanager
-def in_use(place: Path) -> Iterator[None]:
-    """Makes a directory, and keeps other sweeps and runs out of it; it goes again if nothing was written into it."""
-    made = [path for path in (place, *place.parents) if not path.exists()]
-    directory(place)
-    try:
-        handle = _take(place)
-    except OSError as error:
-        raise _refuse(place / LOCK, error) from None
-    try:
-        yield
-    finally:
-        with contextlib.suppress(OSError):
-            if _in_place(handle, place / LOCK):
-                os.unlink(place / LOCK)
-        os.close(handle)
-        with contextlib.suppress(OSError):  # something is in it
-            for path in made:
-                path.rmdir()
-
-
-def kept(place: Path) -> bool:
-    """Returns True if another process has the directory in use."""
-    if not (place / LOCK).exists():
-        return False
-    try:
-        with in_use(place):
-            return False
-    except InputOutputError:
-        return True
 
 
 _JSON_END = re.compile(rb',\n  "digest": "crc32:([0-9a-f]{8})"\n}\n\Z')
