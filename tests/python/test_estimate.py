@@ -14,8 +14,9 @@ from asperity.running import program
 from asperity.running.pool import DONE, FAILED, Outcome
 from asperity.running.scene import scene_file
 from asperity.studies import estimate_parts
-from asperity.studies.estimate_parts import FLAT, coarser, finer, limit, mean, plan_of, solved, standard_error, widened
+from asperity.studies.estimate_parts import coarser, finer, limit, mean, plan_of, solved, standard_error, widened
 from asperity.studies.estimates import Found, Number, load_estimate
+from asperity.studies.quantities import FLAT
 from asperity.studies.variations import Variation, Variations
 from conftest import command
 

@@ -11,7 +11,7 @@ import asperity
 from asperity.plots import sweep as sweep_plots
 from asperity.reports import run as report, sentences
 from asperity.running import program
-from asperity.studies import estimate_parts, tables
+from asperity.studies import quantities, tables
 from conftest import command
 
 ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
@@ -77,8 +77,8 @@ def companions(place, names):
 def test_wherever_a_loss_is_named_its_companions_are():
     places = {
         "results": list(program.quantities()),
-        "estimate": [q.path for q in estimate_parts.FLAT],
-        "estimate of a sphere": [q.path for q in estimate_parts.CURVED],
+        "estimate": [q.path for q in quantities.FLAT],
+        "estimate of a sphere": [q.path for q in quantities.CURVED],
         "table of a sweep": [name for _, name, _ in tables.OF_SIMULATION],
         "segments in a report": list(report.SEGMENT_COLUMNS),
     }

@@ -15,9 +15,10 @@ from asperity.maps import missing_waves
 from asperity.reports import estimate as report_estimate
 from asperity.results.result import Values
 from asperity.running.pool import PoolOptions
-from asperity.studies.estimate_parts import CURVED, FLAT, coarser, finer, stated
+from asperity.studies.estimate_parts import coarser, finer, stated
 from asperity.studies.estimates import Estimate, Estimating, surface_made
 from asperity.studies.map_scene import scene_of
+from asperity.studies.quantities import CURVED, FLAT
 from asperity.studies.stated_number import Found, Number, with_error
 
 SCENE = {"surface": {"sites": 128, "spacing": 10.0, "radius": None}, "interface": {"kind": "wall", "law": "exponential", "range": 3.0},

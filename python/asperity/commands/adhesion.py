@@ -17,7 +17,7 @@ from ..files import store
 from ..reports import estimate as report_estimate
 from ..reports.run import run_page_files, write_run_page
 from ..results.result import Result
-from ..running import program
+from ..running import lock, program
 from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
 from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating, require_free_runs
 from ..studies.map_scene import MapScene, scene_of, stem_of
@@ -137,7 +137,7 @@ def _place(file: str) -> str:
 
 def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     """Carries out the estimate and writes its page and that of its run."""
-    with store.in_use(making.place):
+    with lock.in_use(making.place):
         found, complete = making.carry_out()
         if complete and found is not None:
             report_estimate.write(found)
@@ -147,7 +147,30 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
 
 
 def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
-    """Carries out `asperity adhesion`. Returns the exit code."""
+    """Carries out `asperity adhesion`.
+
+    Parameters
+    ----------
+    file : str
+        Map of heights.
+    young : str
+        Young's modulus of the half-space with its unit.
+    poisson : float
+        Its Poisson's ratio.
+    work : str
+        Work of adhesion of flat surfaces with its unit.
+    out : str | None
+        Result directory; None: the default one.
+    options : PoolOptions
+        Options of the runs.
+    **more : Any
+        Further arguments of map_scene.scene_of().
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
     place = store.chosen(out, _place(file))
     _require_free(place, file)
     made = scene_of(file, young, poisson, work, place, **more)

@@ -4,23 +4,37 @@
 
 from __future__ import annotations
 
-from ..errors import SceneError
-from ..files import store
 from ..plots.sweep import plot_files, write_plots
 from ..reports import estimate as report_estimate
 from ..reports.cost import FILES, answer_of, text_of, write
-from ..running import program
+from ..running import lock
 from ..running.pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
-from ..running.scene import inputs_of
-from ..studies.cost import TARGETS, Cost, target_of
-from ..studies.cost_parameters import cost_case
+from ..studies.cost import Costing, target_of
 from ..studies.estimates import Estimating
 from ..studies.sweeps import TABLES, Carried
-from ..studies.variations import Runs
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
-    """Carries out `asperity sweep`. Returns the exit code: 75 if stopped early, else that of the first failure."""
+    """Carries out `asperity sweep`.
+
+    Parameters
+    ----------
+    scenes : list[str]
+        Scene files.
+    sets : list[str]
+        Overrides and axes, each "key=values".
+    out : str | None
+        Result directory; None: the default one.
+    theory_only : bool
+        True: no simulation.
+    options : PoolOptions
+        Options of the runs.
+
+    Returns
+    -------
+    int
+        The exit code: 75 if stopped early, else that of the first failure.
+    """
     done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True), plot_files(not theory_only))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
@@ -49,40 +63,77 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
                  target: str | None = None) -> int:
-    """Carries out `asperity cost`. Returns the exit code: 75 if stopped early, that of the reference if it failed, 3 if
-    nothing keeps the target."""
-    asked = None if target is None else target_of(target)
-    found = program.check(scene, overrides)
-    case = cost_case(found["scene"], found.get("longest_timestep", 0.0), parameters, same_experiment=asked is not None)
-    if found["problems"]:
-        raise SceneError.of(found["problems"])
-    cost = Cost(case, asked)
-    directory = store.chosen(out, f"results/{found['name']}-cost")
-    print(f"reference: {case.reference_text}", flush=True)
-    store.require_free({directory: FILES}, inputs=inputs_of(scene, found["scene"]))
-    with store.in_use(directory):
-        runs = Runs(scene, overrides, directory, options)
-        complete = runs.run(cost.rows)
-        reference = cost.rows[0].outcome
+    """Carries out `asperity cost`.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    overrides : list[str]
+        Overrides.
+    parameters : list[str]
+        Only these; none: all.
+    out : str | None
+        Result directory; None: the default one.
+    options : PoolOptions
+        Options of the runs.
+    target : str, optional
+        Relative error to keep, "1%".
+
+    Returns
+    -------
+    int
+        The exit code: 75 if stopped early, that of the reference if it failed, 3 if nothing keeps the target.
+    """
+    def say(text: str) -> None:
+        print(text, flush=True)
+
+    costing = Costing(scene, overrides, out, options, parameters, None if target is None else target_of(target), say, FILES)
+    cost = costing.cost
+    say(f"reference: {costing.case.reference_text}")
+    with lock.in_use(costing.place):
+        complete = costing.carry_out()
+        reference = costing.reference
         if complete and reference.status == FAILED:
             print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
-        cost.compare()
-        complete = complete and cost.choose(TARGETS if asked is None else (asked,), runs.run)
-        written = write(cost, directory)
+        written = write(cost, costing.place)
     print(text_of(cost))
-    print(f"in {directory}:" + "".join(f" {name}" for name in written))
+    print(f"in {costing.place}:" + "".join(f" {name}" for name in written))
     if not complete:
         print("Stopped early: the same command goes on from here.")
         return STOPPED
-    if asked is not None:
+    if target is not None:
         print("\n" + answer_of(cost))
-    return 0 if asked is None or cost.chosen else PHYSICS
+    return 0 if target is None or cost.chosen else PHYSICS
 
 
 def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                      parts: list[str], plan: bool) -> int:
-    """Carries out `asperity estimate`. Returns the exit code: 75 if stopped early, that of the scene if it failed."""
+    """Carries out `asperity estimate`.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    overrides : list[str]
+        Overrides.
+    out : str | None
+        Result directory; None: the default one.
+    options : PoolOptions
+        Options of the runs.
+    seeds : int | None
+        Surfaces of a self-affine scene; None: 8, or 4 with a path.
+    parts : list[str]
+        Only these parts of the error; none: all.
+    plan : bool
+        True: only tells what would be run.
+
+    Returns
+    -------
+    int
+        The exit code: 75 if stopped early, that of the scene if it failed.
+    """
     def say(text: str) -> None:
         print(text, flush=True)
 
@@ -90,7 +141,7 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
     say(making.told())
     if plan:
         return 0
-    with store.in_use(making.place):
+    with lock.in_use(making.place):
         found, complete = making.carry_out()
         outcome = making.plan.scene.outcome
         if complete and found is None:

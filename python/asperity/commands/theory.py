@@ -15,7 +15,7 @@ from .. import terminal
 from ..errors import SceneError
 from ..files import store
 from ..results.result import Values
-from ..running import program
+from ..running import lock, program
 from ..running.scene import inputs_of
 from ..studies.stated_number import cut, with_error
 from ..theory import theories
@@ -112,7 +112,24 @@ def _text(point: Values) -> str:
 
 
 def theory_command(file: str, overrides: list[str], out: str | None, as_json: bool) -> int:
-    """Returns the exit code. as_json: prints what result.json would hold as one line and writes nothing."""
+    """Carries out `asperity theory`.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    overrides : list[str]
+        Overrides.
+    out : str | None
+        Result directory; None: the default one.
+    as_json : bool
+        True: prints what result.json would hold as one line and writes nothing.
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
     start = time.monotonic()
     point = theories.points(file, [overrides], profile=True)[0]
     program.complaints([point])
@@ -132,7 +149,7 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
         return 0
     place, said = _directory(out, values.text("name"))
     names = ("theory.h5", "result.json")
-    with store.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
+    with lock.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
         _write_profile(written, profile)
         written.write("result.json", store.sealed_json(point))
     print(text)

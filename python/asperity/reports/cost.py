@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from pathlib import Path
 
+import numpy as np
 from matplotlib.axes import Axes
 
 from .. import terminal
@@ -26,7 +27,22 @@ GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"
 
 
 def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
-    """Draws the largest error of a question ("state", "path") over the processor time of each setting that was run."""
+    """Draws the largest error of a question over the processor time of each setting that was run.
+
+    Parameters
+    ----------
+    cost : Cost
+        Rows with their errors.
+    question : str
+        "state" or "path".
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
     for label, parameters, colour, marker in GROUPS:
         if some := [r for r in rows if r.parameter in parameters]:
@@ -40,6 +56,7 @@ def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
 
 
 def csv_of(cost: Cost) -> str:
+    """Returns the content of cost.csv."""
     return store.csv_text([
         ["parameter", "value", "setting", "processor_seconds", "ratio", *QUANTITIES, *(f"error_{q}" for q in ASKED),
          *(f"front_{q}" for q in ASKED)],
@@ -52,7 +69,20 @@ FILES = ["cost.csv", *(file for question in ASKED for file in figures.files_of(f
 
 
 def write(cost: Cost, directory: Path) -> list[str]:
-    """Writes the files and returns their names."""
+    """Writes cost.csv and the figures.
+
+    Parameters
+    ----------
+    cost : Cost
+        Rows with their errors.
+    directory : Path
+        Directory to write to.
+
+    Returns
+    -------
+    list[str]
+        The names of the files.
+    """
     written = ["cost.csv"]
     with store.outputs(directory, FILES) as out:
         out.write("cost.csv", csv_of(cost))
@@ -64,9 +94,24 @@ def write(cost: Cost, directory: Path) -> list[str]:
     return written
 
 
-def percent(error: float) -> str:
-    """Returns a relative error in percent with three digits; "-": none."""
-    return "-" if math.isnan(error) else f"{100 * error:.3g}"
+def percent(error: float, least: float = 0.0) -> str:
+    """Spells a relative error in percent with three digits.
+
+    Parameters
+    ----------
+    error : float
+        Relative error.
+    least : float
+        Least error that can be told: one site.
+
+    Returns
+    -------
+    str
+        "0.81"; "-" for NaN; "< 0.4" below the least error.
+    """
+    if math.isnan(error):
+        return "-"
+    return f"{100 * error:.3g}" if abs(error) >= least else f"< {100 * least:.2g}"
 
 
 def text_of(cost: Cost) -> str:
@@ -74,7 +119,8 @@ def text_of(cost: Cost) -> str:
     parts = ["\nErrors in %, against the reference: γ and works over flat on flat. * marks a setting if no "
              "other is faster\nand more accurate: first star for the state at zero load (γ, contact), second for the whole path.\n"]
     rows: list[list[str]] = []
-    last = ""
+    last, reference = "", cost.rows[0]
+    least = np.abs(errors_of(reference.numbers + reference.grains, reference.numbers))
     for row in cost.rows:
         if row.parameter != last and last:
             rows.append([])
@@ -84,7 +130,7 @@ def text_of(cost: Cost) -> str:
             rows.append([*cells, "failed"])
             continue
         times = [f"{row.seconds:.2f} s", f"{row.seconds / (cost.rows[1].seconds or NAN):.2f}"]
-        rows.append([*cells, *map(percent, errors_of(row.numbers, cost.rows[0].numbers)),
+        rows.append([*cells, *(percent(error, grain) for error, grain in zip(errors_of(row.numbers, reference.numbers), least)),
                      *("-" if "nan" in time else time for time in times),
                      "".join("*" if f else " " for f in row.front.values())])
     parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
@@ -110,11 +156,11 @@ def answer_of(cost: Cost) -> str:
     target, varied = f"{100 * cost.target:.6g} %", "varied: " + ", ".join(p.name for p in cost.case.parameters)
     row, question = cost.chosen, cost.case.bases[0].question
     if row is None:
-        tried = any(r.parameter == "combination" for r in cost.rows)
         best = "none could be measured" if math.isnan(cost.smallest) else (
-            f"the smallest error {'of those tried' if tried else 'that they add up to'} is {percent(cost.smallest)} %")
+            f"the smallest error of those tried is {percent(cost.smallest)} %")
         return (f"No settings keep {target}: {best} ({varied}).\n"
                 "Ask for more, or start from a scene with finer settings.")
     return (f"The cheapest settings within {target} ({varied}): error {percent(row.error[question])} % of the reference,\n"
             f"{row.seconds:.2f} s: {row.seconds / cost.rows[1].seconds:.2f} of the scene's time, "
-            f"{row.seconds / cost.rows[0].seconds:.2f} of the reference's.\n--set {' '.join(row.setting)}")
+            f"{row.seconds / cost.rows[0].seconds:.2f} of the reference's.\n"
+            + (f"--set {' '.join(row.setting)}" if row.setting else "The scene as it is: nothing is to be set."))

@@ -3,7 +3,7 @@
 """Studies: many runs of a scene, and the numbers that follow from them.
 
     grid, tables, sweeps                         sweeps over keys of a scene
-    variations                                   a scene with one setting varied at a time, and its runs
+    quantities, variations                       quantities that are stated; a scene with one setting varied at a time, and its runs
     estimate_parts, stated_number, estimates     numbers with their errors
     cost_parameters, cost                        what each setting costs and what error it makes
     map_scene                                    the scene of a measured map

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 """`asperity cost`: runs the reference, the scene as it is, every value of every parameter (cost_parameters.py), and then
 combinations: a value of each parameter, the cheapest whose own errors add up to no more than a target. For a target of
-the user a combination is chosen once it was run and its error against the reference is within the target.
+the user the cheapest settings are chosen of all that were run, the scene as it is among them, and whose error against
+the reference is within the target. An area is known to one site at best.
 """
 
 from __future__ import annotations
@@ -11,35 +12,75 @@ import contextlib
 import functools
 import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
 from ..errors import SceneError
-from .cost_parameters import ASKED, Base, CostCase, Row
-from .variations import NAN, joined
+from ..running.pool import FAILED, Outcome, PoolOptions
+from .cost_parameters import ASKED, Base, CostCase, Row, cost_case
+from .variations import NAN, Study, joined
 
 TARGETS = (0.05, 0.01, 0.001)
 TRIES = 4  # combinations that are run for a target
 
 
 def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Returns the signed relative errors."""
+    """Computes signed relative errors.
+
+    Parameters
+    ----------
+    measured, reference : np.ndarray
+        Numbers of numbers_of().
+
+    Returns
+    -------
+    np.ndarray
+        The errors; NaN where the reference is zero or a number is missing.
+    """
     return (measured - reference) / np.where(reference == 0, NAN, np.abs(reference))
 
 
-def largest_error(measured: np.ndarray, reference: np.ndarray, question: str) -> float:
-    """Returns the largest absolute error of the quantities that the reference has; NaN if the measured run lacks one of
-    them."""
+def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, grains: np.ndarray | float = 0.0) -> float:
+    """Returns the largest absolute relative error of the quantities that the reference has, each at least its grain.
+
+    Parameters
+    ----------
+    measured, reference : np.ndarray
+        Numbers of numbers_of().
+    question : str
+        "state" or "path".
+    grains : np.ndarray | float
+        Least errors of the numbers, from grains_of().
+
+    Returns
+    -------
+    float
+        The error; NaN if the measured run lacks a quantity, or the reference has none.
+    """
     if question == "path" and np.isnan(reference[ASKED["state"]:]).all():
         return NAN  # a reference that followed no path says nothing of one
     asked = slice(ASKED[question])
-    errors = np.abs(errors_of(measured, reference)[asked])[~np.isnan(reference[asked]) & (reference[asked] != 0)]
+    errors = np.maximum(np.abs(errors_of(measured, reference)), np.abs(errors_of(reference + grains, reference)))
+    errors = errors[asked][~np.isnan(reference[asked]) & (reference[asked] != 0)]
     return float(errors.max(initial=0.0)) if errors.size else NAN  # NaN if one of them is
 
 
 def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarray:
-    """Returns the points that no other point beats in run time and error at once; NaN is never among them."""
+    """Finds the points that no other point beats in run time and error at once.
+
+    Parameters
+    ----------
+    seconds : Sequence[float]
+        Times, s.
+    errors : Sequence[float]
+        Relative errors.
+
+    Returns
+    -------
+    np.ndarray
+        True for each point on the front; NaN is never on it.
+    """
     s, e = np.asarray(seconds, float), np.asarray(errors, float)
     beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
@@ -53,16 +94,34 @@ class Cost:
         self.rows = [Row("reference", "reference", case.reference, compared=False), Row("scene", "as it is", []),
                      *(row for parameter in case.parameters for row in parameter.rows)]
         self.cheapest: dict[str, list[Row | None]] = {}
-        self.chosen: Row | None = None  # for the target of the user
-        self.smallest = NAN  # error: measured, or sum of own errors if none was run
+
+    @property
+    def candidates(self) -> list[tuple[float, Row]]:
+        """Rows that may be chosen for the target of the user, each with its error. The reference is not one, nor is the value
+        of a parameter that has no error of its own by definition."""
+        own = {id(parameter.rows[-1]) for parameter in self.case.parameters if not parameter.exact}
+        errors = [(row.error[self.case.bases[0].question], row) for row in self.rows if row.compared and id(row) not in own]
+        return [(error, row) for error, row in errors if not math.isnan(error)]
+
+    @property
+    def chosen(self) -> Row | None:
+        """The cheapest settings that keep the target of the user; None: none of those that were run."""
+        return min((row for error, row in self.candidates if self.target and error <= self.target), key=lambda row: row.seconds,
+                   default=None)
+
+    @property
+    def smallest(self) -> float:
+        """The smallest error of the settings that were run; NaN: none."""
+        return min((error for error, _ in self.candidates), default=NAN)
 
     def answered(self, question: str) -> bool:
+        """Returns True if a setting has an error for a question, "state" or "path"."""
         return any(r.compared and not math.isnan(r.error[question]) for r in self.rows)
 
     def compare(self) -> None:
         """Computes errors, fronts and cheapest settings of the rows that exist."""
         for row in self.rows:
-            row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q) for q in ASKED}
+            row.error = {q: largest_error(row.numbers, self.rows[0].numbers, q, self.rows[0].grains) for q in ASKED}
         for question in ASKED:
             errors = [r.error[question] if r.compared else NAN for r in self.rows]
             for row, front in zip(self.rows, pareto_front([r.seconds for r in self.rows], errors).tolist()):
@@ -71,8 +130,20 @@ class Cost:
                                            default=None) for t in TARGETS]
 
     def combinations(self, base: Base) -> list[tuple[float, float, Row]]:
-        """Returns combinations of one value of each part, the cheapest first: time over that of the reference runs, sum of own
-        errors, the row to run."""
+        """Returns combinations of one value of each part, the cheapest first.
+
+        Parameters
+        ----------
+        base : Base
+            Starting point of the combinations.
+
+        Returns
+        -------
+        list[tuple[float, float, Row]]
+            For each its time over that of the reference runs, the sum of own relative errors (at least the grain), and the
+            row to run.
+        """
+        least = largest_error(self.rows[0].numbers, self.rows[0].numbers, base.question, self.rows[0].grains)
         parts: dict[str, list[tuple[float, float, Row]]] = {p.part: [] for p in self.case.parameters if p.part in base.parts}
         for parameter in (p for p in self.case.parameters if p.part in parts):
             reference = parameter.rows[-1]
@@ -87,7 +158,7 @@ class Cost:
             times, errors, rows = zip(*some)
             label = ", ".join(filter(None, [base.label, *(row.label for row in rows)]))
             setting = functools.reduce(joined, (row.own for row in rows), base.setting)
-            found.append((math.prod(times), sum(errors), Row("combination", label, setting)))
+            found.append((math.prod(times), max(least, sum(errors)), Row("combination", label, setting)))
         return sorted(found, key=lambda one: one[0])
 
     def _add(self, rows: list[Row], run: Callable[[list[Row]], bool]) -> bool:
@@ -100,8 +171,21 @@ class Cost:
         return complete
 
     def choose(self, targets: tuple[float, ...], run: Callable[[list[Row]], bool]) -> bool:
-        """Runs the cheapest combination of each base that may keep each target, side by side, and then further ones of
-        those that missed. False: stopped before the end."""
+        """Runs the cheapest combination of each base that may keep each target, side by side, and then further ones of those
+        that missed.
+
+        Parameters
+        ----------
+        targets : tuple[float, ...]
+            Relative errors.
+        run : Callable[[list[Row]], bool]
+            Runs rows; returns False if it was stopped.
+
+        Returns
+        -------
+        bool
+            False if it was stopped before the end.
+        """
         varied = {parameter.part for parameter in self.case.parameters}
         bases = [base for base in self.case.bases if varied.intersection(base.parts)]  # --parameters may leave out all of one
         searches = [(base, target, self.combinations(base)) for base in bases for target in targets]
@@ -111,22 +195,19 @@ class Cost:
     def _search(self, base: Base, target: float, every: list[tuple[float, float, Row]],
                 run: Callable[[list[Row]], bool]) -> bool:
         left = [one for one in every if one[1] <= target]
-        measured: list[float] = []
-        self.smallest = min((one[1] for one in every), default=NAN)
-        while left and len(measured) < TRIES:
+        tried = 0
+        while left and tried < TRIES:
             _, added, row = left[0]
             if not self._add([row], run):
                 return False
             row = next(r for r in self.rows if r.parameter == "combination" and r.setting == row.setting)
-            measured.append(row.error[base.question])
-            self.smallest = float(np.fmin.reduce(measured))
-            if measured[-1] <= target:
-                self.chosen = row
+            tried, error = tried + 1, row.error[base.question]
+            if error <= target:
                 break
             # Own errors added up to less than it has, or its run failed: the next has to promise half. Where none does,
             # one that promises less takes the place of one that failed.
             half = [one for one in left if one[1] <= 0.5 * added]
-            left = half or [one for one in left if one[1] < added and math.isnan(measured[-1])]
+            left = half or [one for one in left if one[1] < added and math.isnan(error)]
         return True
 
 
@@ -139,3 +220,29 @@ def target_of(text: str) -> float:
             return target
     raise SceneError(f"--target {text}", "is no error to keep",
                      "a relative error is needed, above 0 and below 100 %", "for example --target 1%, or --target 0.01")
+
+
+class Costing(Study):
+    """The cost of a scene's settings in a directory, planned; `carry_out` measures it."""
+
+    def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, parameters: Iterable[str] = (),
+                 target: float | None = None, say: Callable[[str], None] = print, files: Iterable[str] = ()):
+        """Plans the runs. parameters: only these; target: relative error; files: names that the caller will write there. Raises
+        SceneError."""
+        super().__init__(scene, overrides, out, "cost", options, say, files)
+        self.case = cost_case(self.varied, list(parameters), same_experiment=target is not None)
+        self.cost = Cost(self.case, target)
+
+    @property
+    def reference(self) -> Outcome:
+        """The outcome of the reference."""
+        return self.cost.rows[0].outcome
+
+    def carry_out(self) -> bool:
+        """Carries out the runs and compares them, unless the reference fails. False: stopped before the end."""
+        cost = self.cost
+        complete = self.runs.run(cost.rows)
+        if complete and self.reference.status == FAILED:
+            return True
+        cost.compare()
+        return complete and cost.choose(TARGETS if cost.target is None else (cost.target,), self.runs.run)

@@ -10,28 +10,36 @@ for a target it is the same experiment with the best numerics.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import SceneError
 from ..results.result import Values
 from ..running.pool import DONE, Outcome
-from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
+from .quantities import grain_of, number_of
+from .variations import AT_REST, NAN, Choice, Setting, Study, Variation, Variations, joined
 
-QUANTITIES = ("gamma", "contact", "approach", "pull-off", "force")
-"""What is compared: binding energy at zero load over flat, contact fraction there, works of the two branches over flat,
-largest attraction of the pull-off (eV/Å). Flat is that of the same interaction: a cutoff takes adhesion from both."""
+QUANTITIES = {"gamma": "binding_energy", "contact": "contact_fraction", "approach": "work_of_drive.approach",
+              "pull-off": "work_of_drive.pull_off", "force": "pull_off_force"}
+"""Quantities that are compared, and their paths in result.json. Energies are compared over those of flat surfaces with the same
+interaction: a cutoff takes adhesion from both."""
 # What a setting can be asked for: the relaxed state (the first two quantities), or all of the path too.
 ASKED = {"state": 2, "path": len(QUANTITIES)}
 
 
+def _scales(result: Values) -> np.ndarray:
+    flat = result.number("delta_gamma", NAN) or NAN
+    return np.array([1.0 if path in ("contact_fraction", "pull_off_force") else flat for path in QUANTITIES.values()])
+
+
 def numbers_of(result: Values) -> np.ndarray:
     """Returns one number for each quantity; NaN if there is none."""
-    flat, *numbers = (result.number(key, NAN) for key in ("delta_gamma", "binding_energy", "contact_fraction",
-                      "work_of_drive.approach", "work_of_drive.pull_off", "pull_off_force"))
-    flat = flat or NAN
-    return np.array(numbers) / (flat, 1.0, flat, flat, 1.0)
+    return np.array([number_of(result, path) for path in QUANTITIES.values()]) / _scales(result)
+
+
+def grains_of(result: Values) -> np.ndarray:
+    """Returns the least error of each number of numbers_of()."""
+    return np.array([grain_of(result, path, number_of(result, path)) for path in QUANTITIES.values()]) / _scales(result)
 
 
 @dataclass(eq=False)
@@ -42,13 +50,15 @@ class Row(Variation):
     own: Setting = field(default_factory=list)
     compared: bool = True  # its error is one of settings: not the reference, not another solid
     numbers: np.ndarray = field(default_factory=lambda: np.full(len(QUANTITIES), NAN))
+    grains: np.ndarray = field(default_factory=lambda: np.zeros(len(QUANTITIES)))
     error: dict[str, float] = field(default_factory=lambda: dict.fromkeys(ASKED, NAN))
     front: dict[str, bool] = field(default_factory=lambda: dict.fromkeys(ASKED, False))
 
     def take(self, outcome: Outcome) -> None:
+        """Takes the outcome of the run, and its numbers if the run is done."""
         super().take(outcome)
         if outcome.status == DONE:
-            self.numbers = numbers_of(outcome.result)
+            self.numbers, self.grains = numbers_of(outcome.result), grains_of(outcome.result)
 
 
 class Parameter(NamedTuple):
@@ -73,27 +83,41 @@ class Base(NamedTuple):
 
 
 class CostCase(NamedTuple):
+    """Reference of a scene, parameters that are varied, and starting points of combinations."""
+
     reference: Setting
     reference_text: str
     parameters: list[Parameter]
     bases: list[Base]
 
 
-def _chosen(parameters: list[Parameter], names: list[str] | None) -> list[Parameter]:
-    there = [parameter.name for parameter in parameters]
-    for name in names or []:
-        if name not in there:
-            raise SceneError(f"--parameters {name}", "is none of them", "this scene has " + ", ".join(there),
-                             "name some of these, or leave --parameters out for all of them")
+def _chosen(parameters: list[Parameter], names: list[str]) -> list[Parameter]:
+    Study.require_known(names, parameters, "--parameters")
     return [parameter for parameter in parameters if not names or parameter.name in names]
 
 
-def cost_case(keys: dict[str, Any], longest_timestep: float, names: list[str] | None = None,
-              same_experiment: bool = False) -> CostCase:
-    """Returns the case of a scene. keys: the scene as it is used; longest_timestep: its stability limit, fs; names: of the
-    parameters, none: all; same_experiment: only numerical parameters, and the reference is the scene with these at their best.
-    Raises SceneError."""
-    scene = Variations(keys, longest_timestep)
+def cost_case(scene: Variations, names: list[str], same_experiment: bool) -> CostCase:
+    """Makes the case of a scene.
+
+    Parameters
+    ----------
+    scene : Variations
+        Settings of the scene that can be varied.
+    names : list[str]
+        Parameters to vary; none: all that the scene has.
+    same_experiment : bool
+        True: only numerical parameters are varied, and the reference is the scene with these at their best.
+
+    Returns
+    -------
+    CostCase
+        The reference, the parameters and the bases of combinations.
+
+    Raises
+    ------
+    SceneError
+        The scene has no parameter of a name, or is at finite strain without same_experiment.
+    """
     if not same_experiment:
         scene.refuse_finite_strain("measure the same scene at small strain, or with --target")
     own, dynamic, moves, length = scene.own, scene.dynamic, scene.moves, scene.length

@@ -20,82 +20,57 @@ from scipy.special import stdtrit
 from ..results.result import Values
 from ..running.pool import DONE
 from ..units import GIGAPASCAL
+from .quantities import Quantity, convergence_of, grain_of, number_of
 from .stated_number import INFINITE, Found, Number
 from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
 
 GROUPS = ("convergence", "truncation", "discretisation", "geometry", "rate", "realisation")
 
 
-class Quantity(NamedTuple):
-    path: str
-    """Of result.json; binding_energy_ratio: over delta_gamma; pull_off_stress: pull_off_force over the area."""
-    symbol: str
-    name: str
-    order: float
-    """Of the error of a finite spacing, as measured (docs/howto/estimate.md)."""
-
-
-FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
-        Quantity("binding_energy_ratio", "γ_eff/Δγ", "the same over that of flat surfaces", 2),
-        Quantity("contact_fraction", "A/A₀", "contact area fraction", 1),
-        Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
-        Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
-        Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
-        Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
-        Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
-CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
-          Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
-
-
-def number_of(result: Values, path: str) -> float:
-    """Returns a number of a result; NaN if the result has none of this path."""
-    if path == "binding_energy_ratio":
-        return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
-    if path == "pull_off_stress":
-        edge = result.number("scene.surface.sites", NAN) * result.number("scene.surface.spacing", NAN)
-        return result.number("pull_off_force", NAN) / edge**2 / (1e-3 * GIGAPASCAL)
-    return result.number(path, NAN)
-
-
-def convergence_of(result: Values, path: str) -> float:
-    """Returns the bound that a result states for the error of its solver; NaN if it states none."""
-    parent, _, leaf = path.rpartition(".")
-    if path == "binding_energy_ratio":
-        return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
-    if leaf == "cycle":
-        return sum(result.number(f"{parent}.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
-    return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
-
-
 def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
     """Returns the number of a result with its possible range, without parts of its error.
 
-    A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works have
-    one sign. No more than Δγ can be gained over a wall, where each site has one height."""
+    A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works
+    have one sign. No more than Δγ can be gained over a wall, where each site has one height.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity to state.
+    unit : str
+        Unit of the value.
+    value : float
+        Number of the result.
+    result : Values
+        Contents of result.json.
+
+    Returns
+    -------
+    Number
+        The number.
+    """
     flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
     sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
     unpressed = keys.number("drive.load", 0.0) == 0.0 and not any(
         one.split()[0] not in ("relax", "approach", "pull-off", "hold") for one in map(str, keys.find("drive.path") or []))
     wall = keys.text("interface.kind") == "wall"
-    least, most, grain, unresolved = 0.0, INFINITE, 0.0, ""
+    least, most, unresolved = 0.0, INFINITE, ""
     if q.path in ("binding_energy", "binding_energy_ratio") or q.path.startswith("work_of_drive."):
         size = flat if q.path != "binding_energy_ratio" else 1.0
         most = size if wall and q.path.startswith("binding_energy") else INFINITE
-        grain = 1e-6 * size
         if q.path == "work_of_drive.approach":
             least, most = -size if wall else -INFINITE, 0.0
         if not unpressed:
             least, most = -INFINITE, most if q.path.startswith("binding_energy") else INFINITE
     elif q.path == "contact_fraction":
-        most, grain = 1.0, 1.0 / sites**2
+        most = 1.0
         unresolved = f"contact of {round(value * sites**2)} of {round(sites**2)} sites"
     elif q.path == "contact_radius.relaxed":
-        most, grain = sites * spacing / math.sqrt(math.pi), spacing**2 / (2.0 * math.pi * max(value, spacing))
+        most = sites * spacing / math.sqrt(math.pi)
     elif q.path == "pull_off_stress" and wall and keys.text("interface.law") == "exponential":
         most = flat / 1e3 / keys.number("interface.range", NAN) / (1e-3 * GIGAPASCAL)
-    elif q.path == "lost.cycle":
-        grain = 1e-6 * flat
-    return Number(q.path, q.symbol, q.name, unit, value, least=least, most=most, grain=grain, unresolved=unresolved)
+    return Number(q.path, q.symbol, q.name, unit, value, least=least, most=most, grain=grain_of(result, q.path, value),
+                  unresolved=unresolved)
 
 
 Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
@@ -103,8 +78,21 @@ Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
 
 
 def finer(ratio: float, order: float | None = None) -> Rule:
-    """Makes the rule of one row, finer by the ratio. order: None: that of the quantity. A number that would change its sign
-    on the way to the limit is not at its order yet: its value in the row is taken."""
+    """Makes the rule of one row, finer by a ratio. A number that would change its sign on the way to the limit is not at its
+    order yet: its value in the row is taken.
+
+    Parameters
+    ----------
+    ratio : float
+        Setting of the base over that of the row.
+    order : float, optional
+        Order of the error in the setting; None: that of the quantity.
+
+    Returns
+    -------
+    Rule
+        The rule.
+    """
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(rows[0] - base + (beyond if (rows[0] + beyond) * rows[0] >= 0.0 else 0.0), abs(beyond))
@@ -112,7 +100,20 @@ def finer(ratio: float, order: float | None = None) -> Rule:
 
 
 def coarser(ratio: float, order: float | None = None) -> Rule:
-    """Makes the rule of one row, coarser by the ratio and so cheaper than the base; otherwise as finer()."""
+    """Makes the rule of one row, coarser by a ratio and so cheaper than the base; otherwise as finer().
+
+    Parameters
+    ----------
+    ratio : float
+        Setting of the row over that of the base.
+    order : float, optional
+        Order of the error in the setting; None: that of the quantity.
+
+    Returns
+    -------
+    Rule
+        The rule.
+    """
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(beyond if (base + beyond) * base >= 0.0 else 0.0, abs(beyond))
@@ -120,12 +121,46 @@ def coarser(ratio: float, order: float | None = None) -> Rule:
 
 
 def limit(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Takes the number of the last row; its last change is the standard error."""
+    """Takes the number of the last row; its last change is the standard error.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Numbers of the rows.
+    _ : list[Values]
+        Results of the rows, not used.
+
+    Returns
+    -------
+    Found
+        Shift and standard error, in the unit of the number.
+    """
     return Found(rows[-1] - base, abs(rows[-1] - (rows[-2] if len(rows) > 1 else base)))
 
 
 def solved(q: Quantity, base: float, rows: np.ndarray, results: list[Values]) -> Found:
-    """Takes the row of a better solution; the error is the bound that the row states, or its change."""
+    """Takes the row of a better solution; the error is the bound that the row states, or its change.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Numbers of the rows.
+    results : list[Values]
+        Results of the rows.
+
+    Returns
+    -------
+    Found
+        Shift and standard error, in the unit of the number.
+    """
     stated = convergence_of(results[0], q.path)
     return Found(rows[0] - base, max(abs(rows[0] - base), stated if stated == stated else 0.0))
 
@@ -138,14 +173,44 @@ def standard_error(values: np.ndarray) -> float:
 
 
 def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Averages over rows of other surfaces of the same statistics."""
+    """Averages over rows of other surfaces of the same statistics.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Numbers of the rows.
+    _ : list[Values]
+        Results of the rows, not used.
+
+    Returns
+    -------
+    Found
+        Shift and standard error, in the unit of the number.
+    """
     values = np.array([base, *rows])
     return Found(float(values.mean()) - base, standard_error(values))
 
 
 def widened(count: int, wider: bool) -> Rule:
-    """Makes the rule of `count` rows of other surfaces of the base's width, then some of half or twice the width. The error falls between
-    the inverse of the width (waves that are missing) and of the area (means over a finite one)."""
+    """Makes the rule of rows of other surfaces of the base's width, then some of half or twice the width. The error falls
+    between the inverse of the width (waves that are missing) and of the area (means over a finite one).
+
+    Parameters
+    ----------
+    count : int
+        Rows of the base's width.
+    wider : bool
+        True: the others are twice as wide.
+
+    Returns
+    -------
+    Rule
+        The rule.
+    """
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         here, there = np.array([base, *rows[:count]]), rows[count:]
         difference = float(there.mean() - here.mean()) if wider else float(here.mean() - there.mean())
@@ -157,18 +222,53 @@ def widened(count: int, wider: bool) -> Rule:
 
 
 def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map."""
+    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Numbers of the quarters.
+    _ : list[Values]
+        Results of the rows, not used.
+
+    Returns
+    -------
+    Found
+        No shift, and the standard error in the unit of the number.
+    """
     return Found(0.0, standard_error(rows))
 
 
 def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
+    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Number of the mirrored map.
+    _ : list[Values]
+        Results of the rows, not used.
+
+    Returns
+    -------
+    Found
+        No shift, and the standard error in the unit of the number.
+    """
     return Found(0.0, 0.5 * abs(rows[0] - base))
 
 
 @dataclass(eq=False)
 class Part:
-    """rows: what is run; of none `what` says why. relative: of a part without rows, its error over the number."""
+    """A part of the error. rows: runs that show it; without rows `what` says why. relative: error of a part without rows, over
+    the number."""
 
     name: str
     group: str
@@ -187,6 +287,7 @@ class Part:
         return ""
 
     def found(self, q: Quantity) -> Found | None:
+        """Returns the shift and error of a quantity by this part; None if the part was not measured."""
         if self.relative and self.base:
             value = number_of(self.base.outcome.result, q.path)
             return None if math.isnan(value) else Found(0.0, abs(self.relative * value))
@@ -199,6 +300,8 @@ class Part:
 
 
 class Plan(NamedTuple):
+    """The scene, its quasi-static twin, and the parts of the error."""
+
     scene: Variation
     rest: Variation | None
     """The quasi-static scene, which the parts of a dynamic path take as their base."""
@@ -224,7 +327,22 @@ def is_coarse(scene: Variations) -> bool:
 
 
 def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
-    """Returns the setting of the same surface and block at another spacing."""
+    """Returns the setting of the same surface and block at another spacing.
+
+    Parameters
+    ----------
+    scene : Variations
+        Settings of the scene.
+    factor : float
+        Spacing over that of the scene.
+    also : SpacingAlso
+        Makes what is set too.
+
+    Returns
+    -------
+    Setting
+        The setting.
+    """
     own, kind = scene.own, scene.scene.text("surface.kind")
     waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else []
     return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
@@ -232,8 +350,24 @@ def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
 
 
 def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
-    """Plans the parts of a scene. seeds: surfaces of a self-affine one, itself included. maps: parts of a measured surface, which
-    take the base of the others."""
+    """Plans the parts of a scene's errors.
+
+    Parameters
+    ----------
+    scene : Variations
+        Settings of the scene.
+    seeds : int
+        Surfaces of a self-affine scene, itself included.
+    spacing_also : SpacingAlso
+        Makes what is set too with another spacing.
+    maps : tuple[Part, ...]
+        Parts of a measured surface, which take the base of the others.
+
+    Returns
+    -------
+    Plan
+        The plan, its parts in the order of GROUPS.
+    """
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])
     if scene.dynamic and not scene.finite:

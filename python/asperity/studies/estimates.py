@@ -21,14 +21,15 @@ from ..errors import BY_CODE, Error, InternalError, SceneError, Stopped
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
-from ..running import program
+from ..running import lock, program
 from ..running.pool import DONE, PoolOptions, in_the_way_of_run, refuse_jobs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from ..terminal import duration
 from ..units import GIGAPASCAL
-from .estimate_parts import CURVED, FLAT, Part, Plan, SpacingAlso, edges, finer, number_of, places, plan_of, stated
+from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
+from .quantities import CURVED, FLAT, number_of
 from .stated_number import Found, Number
-from .variations import Runs, Setting, Variation, Variations
+from .variations import Setting, Study, Variation, Variations
 
 RESULT = "estimate.json"
 START = 0.3
@@ -58,6 +59,7 @@ class Estimate:
 
     @property
     def first(self) -> Number:
+        """The number that the estimate is made for: the binding energy, or the first that the scene has."""
         return next(iter(self.numbers.values()))
 
     def number(self, path: str = "") -> Number:
@@ -89,6 +91,7 @@ class Estimate:
                 if p["failed"] or p["what"].startswith(("not varied", "left out"))]
 
     def json(self) -> dict[str, Any]:
+        """Returns the content of estimate.json."""
         return {"name": self.name, "numbers": {path: {
             "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": _finite(n.estimate),
             "standard_error": _finite(n.error), "below": _finite(n.below), "least": _finite(n.least), "most": _finite(n.most),
@@ -266,7 +269,20 @@ def _seconds(scene: str, sets: list[str]) -> float:
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
-    """Estimates the time of a setting over that of the scene."""
+    """Estimates the time of a setting over that of the scene.
+
+    Parameters
+    ----------
+    setting : Setting
+        Keys and their values.
+    scene : Variations
+        Settings of the scene.
+
+    Returns
+    -------
+    float
+        The ratio of the times.
+    """
     set_to = dict(one.split("=", 1) for one in setting)
 
     def ratio(key: str) -> float:
@@ -310,7 +326,7 @@ def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
     return found
 
 
-class Estimating:
+class Estimating(Study):
     """The estimate of a scene in a directory, planned; `carry_out` makes it."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
@@ -318,23 +334,16 @@ class Estimating:
                  say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
         """Plans the estimate. withheld, condition: why the numbers OF_A_PATH are not stated, or what they hold for; also:
         names of files that the caller will write there."""
-        answer = program.check(scene, overrides)
-        keys = answer["scene"]
-        varied = Variations(keys, answer.get("longest_timestep", 0.0))
-        if answer["problems"]:
-            raise SceneError.of(answer["problems"])
+        super().__init__(scene, overrides, out, "estimate", options, say, [RESULT, *also])
+        keys, varied, self.notes = self.keys, self.varied, list(notes)
         path = keys["drive"]["path"]
         if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
                              "and no pull-off", 'for example --set drive.path=relax')
         if seeds is not None and not 2 <= seeds <= 1000:
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
-        self.name, self.keys, self.varied, self.notes = answer["name"], keys, varied, list(notes)
-        self.place = store.chosen(out, f"results/{self.name}-estimate")
-        self.inputs = inputs_of(scene, keys)
-        store.require_free({self.place: [RESULT, *also]}, inputs=self.inputs)
         self.withheld, self.condition = withheld, condition
-        pinning = answer.get("edge_pinning", 1.0)
+        pinning = self.answer.get("edge_pinning", 1.0)
         if varied.moves and pinning > PINNED and not withheld:
             self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
                              f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
@@ -347,17 +356,13 @@ class Estimating:
             map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
-        for name in only:
-            if name not in [part.name for part in self.plan.parts]:
-                raise SceneError(f"--parts {name}", "is none of them", "this scene has "
-                                 + ", ".join(part.name for part in self.plan.parts), "name some of these")
+        self.require_known(only, self.plan.parts, "--parts")
         for part in self.plan.parts if only else []:
             if part.name not in only and (part.rows or part.name == "waves"):
                 part.rows, part.what = [], "left out: --parts"
         self.rows = [self.plan.scene]
         for part in self.plan.parts:
             self.rows += [row for row in ([part.base, *part.rows] if part.rows and part.base else []) if row not in self.rows]
-        self.runs = Runs(scene, overrides, self.place, options, say)
         self.jobs = self.runs.jobs(self.rows)
 
     def told(self) -> str:
@@ -374,7 +379,13 @@ class Estimating:
         return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
 
     def carry_out(self) -> tuple[Estimate | None, bool]:
-        """Carries out the runs. Returns the estimate, None if the scene itself has no result, and False if stopped early."""
+        """Carries out the runs and writes estimate.json.
+
+        Returns
+        -------
+        tuple[Estimate | None, bool]
+            The estimate, None if the scene itself has no result; and False if stopped early.
+        """
         complete = self.runs.run(self.rows)
         if self.plan.scene.outcome.status != DONE:
             return None, complete
@@ -462,7 +473,7 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
         said: list[str] = []
         making = Estimating(file, assignments(overrides), None if out is None else str(out),
                             PoolOptions(jobs=jobs, progress="off"), seeds, parts, say=said.append)
-        with store.in_use(making.place):
+        with lock.in_use(making.place):
             found, complete = making.carry_out()
         if not complete:
             raise Stopped(f"{making.place}: the estimate stopped early", fix="the same call goes on from here")

@@ -27,6 +27,8 @@ LISTS = ("list", "rows")
 
 @dataclass
 class Axis:
+    """Values of one key, in their order."""
+
     key: str
     values: list[str]
     """as they stand behind --set"""
@@ -35,6 +37,7 @@ class Axis:
 
 
 def is_seed(key: str) -> bool:
+    """Returns True for a key whose values are random numbers' seeds: results are averaged over it."""
     return key.endswith(".seed")
 
 
@@ -102,7 +105,25 @@ def _first_list(values: str) -> str:
 
 
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
-    """Returns the axes among "key=values" and the scene's [sweep] (key, values, where), and the fixed overrides."""
+    """Separates the keys that are swept from those that are fixed.
+
+    Parameters
+    ----------
+    assignments : list[str]
+        Overrides of the command line, each "key=values".
+    of_scene : list[dict[str, str]]
+        Axes of the scene's [sweep], each with its key, values and where they stand.
+
+    Returns
+    -------
+    tuple[list[Axis], list[str]]
+        The axes, and the overrides that are fixed.
+
+    Raises
+    ------
+    SceneError
+        Values cannot be read, or a key is swept twice.
+    """
     schema = program.schema()
     found: dict[str, Axis] = {}
     fixed: list[str] = []

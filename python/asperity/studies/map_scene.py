@@ -129,8 +129,43 @@ class MapScene(NamedTuple):
 def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
              line_noise: str | None = None) -> MapScene:
-    """Writes the scene of a map and the map beside it. Raises SceneError for what no scene can be made of, before anything is
-    written."""
+    """Writes the scene of a map and the map beside it, after all checks.
+
+    Parameters
+    ----------
+    file : str
+        Map of heights.
+    young : object
+        Young's modulus of the half-space with its unit, "100 GPa".
+    poisson : float
+        Poisson's ratio of the half-space.
+    work : object
+        Work of adhesion of flat surfaces with its unit, "200 mJ/m2".
+    place : Path
+        Directory to write to.
+    reach : object
+        Range of the attraction with its unit; None: 3 Å, or what the spacing resolves.
+    size : object
+        Shorter edge of the map with its unit; None: as the file says.
+    unit : str, optional
+        Unit of the heights; None: as the file says.
+    channel : str, optional
+        Name or number of the map in a file with several.
+    sites : int, optional
+        Sites along an edge; None: as many as the map has points, 256 at most.
+    line_noise : str, optional
+        Treatment of noise from line to line (surface.line_noise).
+
+    Returns
+    -------
+    MapScene
+        The scene's file, and what its estimate must know.
+
+    Raises
+    ------
+    SceneError
+        No scene can be made of the map or an argument; nothing is written.
+    """
     sections: dict[str, dict[str, Any]] = {"block": {"young": _with_unit("E", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
                 "interface": {"kind": "wall", "adhesion": _with_unit("work", work),

@@ -24,7 +24,7 @@ import numpy
 
 from ..errors import PhysicsError, SceneError
 from ..files import store
-from ..running import program
+from ..running import lock, program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of
 from ..terminal import Progress, millijoules, table
@@ -52,12 +52,15 @@ class Search:
 
     @property
     def now(self) -> dict[str, float]:
+        """The last point of the search."""
         return self.log["points"][-1]
 
     def spread(self) -> float:
+        """Returns the range of the binding energies met so far, meV/Å²."""
         return float(numpy.ptp([p["energy"] for p in self.log["points"]]))
 
     def put(self, state: State) -> None:
+        """Sets the sites to a state and restarts the count of dissipated energy."""
         self.statics.restore(state)
         self._dissipated = 0.0
 
@@ -72,8 +75,20 @@ class Search:
         return lost
 
     def free(self, found: str, start: State | None = None) -> float | None:
-        """Relaxes the sites from `start`, or from where they are, and puts them back there. Returns the binding energy of
-        the state, meV/Å²; None if no state is found."""
+        """Relaxes the sites under the load, and puts them back where they were.
+
+        Parameters
+        ----------
+        found : str
+            Way in which the state is found, for the list of states.
+        start : State, optional
+            Where the relaxation starts; None: at the present place of the sites.
+
+        Returns
+        -------
+        float | None
+            The binding energy of the state, meV/Å²; None if no state is found.
+        """
         here = self.statics.copy()
         if start:
             self.put(start)
@@ -211,6 +226,7 @@ class Search:
         return largest / self.case["area"] / MEGAPASCAL if largest > 0.0 else None
 
     def result(self) -> dict[str, Any]:
+        """Returns the content of states.json. Raises PhysicsError if no state was found."""
         log = self.log
         if not log["states"]:
             raise PhysicsError(f"{self.case['name']}: no state was found under this load")
@@ -239,12 +255,14 @@ class Search:
                 "pressed_to": log["pressed_to"], "ended": log["ended"], "may_miss": misses, "units": UNITS}
 
     def save(self, out: store.Outputs) -> None:
+        """Writes the search, so that resume() continues it."""
         states = {**self.kept, "here": self.statics.copy()}
         with out.replacing(UNFINISHED) as beside, open(beside, "wb") as file:
             arrays: dict[str, Any] = {name: state.u for name, state in states.items()}
             numpy.savez(file, log=json.dumps([self.case["scene"], self.log, {n: s.top for n, s in states.items()}]), **arrays)
 
     def resume(self, place: Path) -> None:
+        """Reads a search that save() wrote. Raises SceneError if the file cannot be read or is of another scene."""
         try:
             with numpy.load(place) as kept:
                 scene, log, tops = json.loads(str(kept["log"]))
@@ -299,7 +317,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     written: store.Outputs | None = None
     with contextlib.ExitStack() as stack:
         if place:
-            stack.enter_context(store.in_use(place))
+            stack.enter_context(lock.in_use(place))
         if place and (place / RESULT).exists():
             raise SceneError(str(place), "already holds a result, states.json", "results are not written over",
                              "name another directory, or remove this one")
@@ -324,7 +342,26 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
 
 
 def states_command(scene: str, sets: list[str], out: str | None, starts: int, progress: str) -> int:
-    """Carries out `asperity states`. Returns the exit code."""
+    """Carries out `asperity states`.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    sets : list[str]
+        Overrides.
+    out : str | None
+        Result directory; None: the default one.
+    starts : int
+        Random starts.
+    progress : str
+        Mode of the progress: "auto", "bar", "lines" or "off".
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
     warnings.showwarning = lambda message, *_: print(f"note: {message}", file=sys.stderr)
     place, shown = Path(out if out is not None else f"results/{Path(scene).stem}-states"), Progress(progress)
     try:

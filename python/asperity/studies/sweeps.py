@@ -27,7 +27,7 @@ from .. import terminal
 from ..errors import Error, InputOutputError, SceneError
 from ..files import store
 from ..results.result import Result, Values, read_json
-from ..running import program
+from ..running import lock, program
 from ..running.pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from ..running.scene import SceneLike, inputs_of, scene_file
 from ..theory import theories
@@ -401,7 +401,7 @@ class Carried:
         inputs = [one for file in scenes for one in inputs_of(file, found[file]["scene"])]
         places = [self.place / name if several else self.place for name in names]
         with contextlib.ExitStack() as stack:
-            stack.enter_context(store.in_use(self.place))
+            stack.enter_context(lock.in_use(self.place))
             tables = {place: [*TABLE_FILES, *also] for place in (self.place, *places)}
             store.require_free(tables, renew=not theory_only, inputs=inputs)
             self.outputs = [stack.enter_context(store.outputs(place, TABLE_FILES)) for place in places]

@@ -98,6 +98,7 @@ class Columns(UserDict):
 
     @property
     def units(self) -> dict[str, str]:
+        """Unit of each column; "" for pure numbers."""
         return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}
 
     def frame(self):
@@ -182,6 +183,7 @@ class Table(Columns):
         return Columns(columns)
 
     def frame(self):
+        """Returns the table as a pandas DataFrame with the column "status" ("done", "failed", "waiting")."""
         return super().frame().assign(status=self.status)
 
 
@@ -209,7 +211,18 @@ def _status(words: list[str]) -> str:
 
 
 def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
-    """Returns heads, a row for all seeds of a point, and the meaning of the numbers."""
+    """Returns a table in words.
+
+    Parameters
+    ----------
+    table : Table
+        Table of a sweep.
+
+    Returns
+    -------
+    tuple[list[str], list[list[str]], str]
+        Heads of the columns, a row for all seeds of a point, and a sentence on what the numbers are.
+    """
     axes = [key for key in table.axes if not is_seed(key)]
     cells = [(head, table.average(column), digits)
              for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)

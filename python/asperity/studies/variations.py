@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """A scene varied in one of its settings at a time, by rule from the scene, and the runs of these variations. `cost` and
-`estimate` choose from them.
+`estimate` are two views of these runs: errors against time, and numbers with their errors.
 
 Each run is a process of its own in a directory of its own; those that are there are not run again.
 """
@@ -11,15 +11,17 @@ from __future__ import annotations
 import functools
 import json
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
 from ..errors import SceneError
+from ..files import store
 from ..results.result import Values
 from ..running import program
 from ..running.pool import DONE, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
+from ..running.scene import inputs_of
 
 NAN = float("nan")
 Setting = list[str]
@@ -32,7 +34,18 @@ LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r_min"}
 
 
 def joined(first: Setting, then: Setting) -> Setting:
-    """Returns the settings joined; later settings of a key replace earlier ones."""
+    """Returns the settings joined; later settings of a key replace earlier ones.
+
+    Parameters
+    ----------
+    first, then : Setting
+        Keys and their values.
+
+    Returns
+    -------
+    Setting
+        The settings of both, each key once.
+    """
     later = {one.partition("=")[0] for one in then}
     return [one for one in first if one.partition("=")[0] not in later] + then
 
@@ -49,6 +62,7 @@ class Variation:
     seconds: float = field(default=NAN, kw_only=True)  # of the processor
 
     def take(self, outcome: Outcome) -> None:
+        """Takes the outcome of the run, and its time if the run is done."""
         self.outcome = outcome
         if outcome.status == DONE:
             self.seconds = outcome.result.number("run.processor_seconds", NAN)
@@ -85,6 +99,7 @@ class Variations:
             raise SceneError.of(problems)
 
     def refuse_finite_strain(self, fix: str) -> None:
+        """Refuses a scene at finite strain, with this remedy. Raises SceneError."""
         self._refuse((("block.strain", self.finite, "errors are measured against the quasi-static path, and there is "
                        "none at finite strain", fix),))
 
@@ -105,12 +120,54 @@ class Variations:
 
     @staticmethod
     def worded(key: str, value: float) -> str:
+        """Spells a value of a key with its unit.
+
+        Parameters
+        ----------
+        key : str
+            Key of the scene, "section.key".
+        value : float
+            Number in the unit of the key.
+
+        Returns
+        -------
+        str
+            "2.6 Å", "32 layers".
+        """
         return f"{value:.6g} {program.schema()[key].get('unit') or 'layers' * (key == 'block.thickness')}".strip()
 
     def at(self, key: str, *values: float) -> list[Choice]:
+        """Returns choices of a key.
+
+        Parameters
+        ----------
+        key : str
+            Key of the scene.
+        values : float
+            Numbers in the unit of the key.
+
+        Returns
+        -------
+        list[Choice]
+            A choice for each value.
+        """
         return [(self.worded(key, v), [f"{key}={v:.6g}"]) for v in values]
 
     def scaled(self, key: str, *factors: float) -> list[Choice]:
+        """Returns choices of a key as multiples of the scene's value.
+
+        Parameters
+        ----------
+        key : str
+            Key of the scene.
+        factors : float
+            Values over that of the scene.
+
+        Returns
+        -------
+        list[Choice]
+            A choice for each factor.
+        """
         return self.at(key, *(f * self.own(key) for f in factors))
 
     def stable(self, *factors: float) -> list[Choice]:
@@ -119,17 +176,34 @@ class Variations:
                                                if f * self.own("drive.timestep") < 0.9 * self.longest_timestep))
 
     def cut(self, tail: bool, *cutoffs: float) -> list[Choice]:
+        """Returns choices of the cutoff.
+
+        Parameters
+        ----------
+        tail : bool
+            True: with the tail beyond the cutoff.
+        cutoffs : float
+            Cutoffs, Å.
+
+        Returns
+        -------
+        list[Choice]
+            A choice for each cutoff.
+        """
         return [(label + " + tail" * tail, [*setting, f"interface.tail={str(tail).lower()}"])
                 for label, setting in self.at("interface.cutoff", *cutoffs)]
 
     def layers(self, *counts: int) -> list[Choice]:
+        """Returns choices of the layers per level of a multiscale block."""
         return [(f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"]) for m in counts]
 
     @property
     def lattice(self) -> list[Choice]:
+        """Choice of a block without coarse levels."""
         return [("lattice", ["block.model=lattice"])]
 
     def precisions(self, *words: str) -> list[Choice]:
+        """Returns choices of numerics.precision."""
         return [(word, ["numerics.precision=" + word]) for word in words]
 
 
@@ -171,3 +245,52 @@ class Runs:
         for row, job in zip(rows, of_row):
             row.take(of_job[id(job)])
         return complete
+
+
+class Varied(Protocol):
+    """A group of variations by a name that can be asked for: a part of an error, a parameter."""
+
+    @property
+    def name(self) -> str:
+        """Name of the group on the command line."""
+
+
+class Study:
+    """A scene, checked, with its variations and their runs in a directory."""
+
+    def __init__(self, scene: str, overrides: list[str], out: str | None, kind: str, options: PoolOptions,
+                 say: Callable[[str], None], files: Iterable[str]):
+        """Checks the scene and its directory. kind: "cost", the end of the default directory's name; files: those that the study
+        will write there. Raises SceneError."""
+        self.answer = program.check(scene, overrides)
+        self.keys, self.name = self.answer["scene"], self.answer["name"]
+        self.varied = Variations(self.keys, self.answer.get("longest_timestep", 0.0))
+        if self.answer["problems"]:
+            raise SceneError.of(self.answer["problems"])
+        self.place, self.inputs = store.chosen(out, f"results/{self.name}-{kind}"), inputs_of(scene, self.keys)
+        store.require_free({self.place: files}, inputs=self.inputs)
+        self.runs = Runs(scene, overrides, self.place, options, say)
+
+    @staticmethod
+    def require_known(names: Iterable[str], groups: Iterable[Varied], option: str) -> None:
+        """Checks that groups of these names exist.
+
+        Parameters
+        ----------
+        names : Iterable[str]
+            Names that were asked for.
+        groups : Iterable[Varied]
+            Groups that the scene has.
+        option : str
+            Option of the command line, for the message: "--parts".
+
+        Raises
+        ------
+        SceneError
+            A name is none of them.
+        """
+        there = [group.name for group in groups]
+        for name in names:
+            if name not in there:
+                raise SceneError(f"{option} {name}", "is none of them", "this scene has " + ", ".join(there),
+                                 f"name some of these, or leave {option} out for all of them")

@@ -1,0 +1,110 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Quantities that `cost` and `estimate` state: where a result has each, and the least error that each can have."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from ..results.result import Values
+from ..units import GIGAPASCAL
+
+NAN = float("nan")
+
+
+class Quantity(NamedTuple):
+    """A number of a result that can be stated."""
+
+    path: str
+    """Of result.json; binding_energy_ratio: over delta_gamma; pull_off_stress: pull_off_force over the area."""
+    symbol: str
+    name: str
+    order: float
+    """Of the error of a finite spacing, as measured (docs/howto/estimate.md)."""
+
+
+FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
+        Quantity("binding_energy_ratio", "γ_eff/Δγ", "the same over that of flat surfaces", 2),
+        Quantity("contact_fraction", "A/A₀", "contact area fraction", 1),
+        Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
+        Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
+        Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
+        Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
+        Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
+CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
+          Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
+
+
+def number_of(result: Values, path: str) -> float:
+    """Returns a number of a result.
+
+    Parameters
+    ----------
+    result : Values
+        Contents of result.json.
+    path : str
+        Path of the number there, "binding_energy_ratio" or "pull_off_stress" (MPa).
+
+    Returns
+    -------
+    float
+        The number in the unit of its path; NaN if the result has none.
+    """
+    if path == "binding_energy_ratio":
+        return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
+    if path == "pull_off_stress":
+        edge = result.number("scene.surface.sites", NAN) * result.number("scene.surface.spacing", NAN)
+        return result.number("pull_off_force", NAN) / edge**2 / (1e-3 * GIGAPASCAL)
+    return result.number(path, NAN)
+
+
+def convergence_of(result: Values, path: str) -> float:
+    """Returns the bound that a result states for the error of its solver.
+
+    Parameters
+    ----------
+    result : Values
+        Contents of result.json.
+    path : str
+        Path of the number there, or "binding_energy_ratio".
+
+    Returns
+    -------
+    float
+        The bound in the unit of the number; NaN if the result states none.
+    """
+    parent, _, leaf = path.rpartition(".")
+    if path == "binding_energy_ratio":
+        return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
+    if leaf == "cycle":
+        return sum(result.number(f"{parent}.uncertainty.{way}", NAN) for way in ("approach", "pull_off"))
+    return result.number(path + "_uncertainty", result.number(f"{parent}.uncertainty.{leaf}", NAN))
+
+
+def grain_of(result: Values, path: str, value: float) -> float:
+    """Returns the least error of a number: one site of an area, 1e-6 Δγ of an energy per area.
+
+    Parameters
+    ----------
+    result : Values
+        Contents of result.json.
+    path : str
+        Path of the number there, or "binding_energy_ratio".
+    value : float
+        The number, in its unit.
+
+    Returns
+    -------
+    float
+        The least error in the unit of the number; 0 if it has none.
+    """
+    flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
+    sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
+    if path == "contact_fraction":
+        return 1.0 / sites**2
+    if path == "contact_radius.relaxed":
+        return spacing**2 / (2.0 * math.pi * max(value, spacing))
+    if path == "binding_energy_ratio":
+        return 1e-6
+    return 1e-6 * flat * (path in ("binding_energy", "lost.cycle") or path.startswith("work_of_drive."))
