@@ -249,6 +249,7 @@ def _after_the_first(code: int) -> int:
 
 
 def main(words: list[str]) -> int:
+    """Carries out a command line. Returns the exit code."""
     parser = _parser()
     commands = next(a for a in parser._actions if isinstance(a, argparse._SubParsersAction)).choices
     if not words or words[0] not in commands:

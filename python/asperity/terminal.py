@@ -18,7 +18,22 @@ PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
 
 def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)) -> str:
-    """Returns columns of text under their heads, numbers to the right; an empty row is a rule."""
+    """Returns a table for the terminal, numbers to the right.
+
+    Parameters
+    ----------
+    heads : list[str]
+        Heads of the columns.
+    rows : list[list[str]]
+        Cells of each row; an empty row is a rule.
+    left : tuple[int, ...]
+        Columns that are set to the left.
+
+    Returns
+    -------
+    str
+        The lines.
+    """
     width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) for i in range(len(heads))]
     rule = "  " + "─" * (sum(width) + 2 * len(width) - 2)
 
@@ -31,8 +46,21 @@ def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,))
 
 
 def number(value: float, decimals: int) -> str:
-    """Returns a number for people: with so many decimals, or with more if these would show less than three significant digits,
-    and with powers of ten if it is tiny or huge. The rule of io/terminal.cpp."""
+    """Spells a number for people: with so many decimals, or with more if these would show less than three significant digits,
+    and with powers of ten if it is tiny or huge. The rule of io/terminal.cpp.
+
+    Parameters
+    ----------
+    value : float
+        Number.
+    decimals : int
+        Decimals.
+
+    Returns
+    -------
+    str
+        The text.
+    """
     size = abs(value)
     if not math.isfinite(value):
         return "-"
@@ -83,8 +111,14 @@ def parse_duration(text: str) -> float:
 
 
 def launched() -> tuple[int, bool]:
-    """Returns the rank of this process, and True if a launcher says that it has started more than one. The rule is that of
-    launched_in_parallel() of the program (decomposition/communicator.hpp)."""
+    """Tells whether a launcher has started this process. The rule is that of launched_in_parallel() of the program
+    (decomposition/communicator.hpp).
+
+    Returns
+    -------
+    tuple[int, bool]
+        The rank of this process, and True if a launcher says that it has started more than one.
+    """
     for size, rank in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),
                        ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID")):
         if size in os.environ:
@@ -115,11 +149,13 @@ class Progress:
         self._drawn = False
 
     def due(self) -> bool:
+        """Returns True if it is time for the next update()."""
         elapsed = time.monotonic() - self._start
         wait = 0.2 if self.mode == "bar" else 2.0 if elapsed < 10 else 10.0 if elapsed < 100 else 0.1 * elapsed
         return self.mode != "off" and time.monotonic() - self._last >= wait
 
     def update(self, text: str) -> None:
+        """Shows a text in place of the last one."""
         self._last = time.monotonic()
         if self.mode == "bar":
             sys.stderr.write("\r\033[K" + text[: shutil.get_terminal_size((110, 24)).columns - 1])
@@ -129,12 +165,14 @@ class Progress:
         sys.stderr.flush()
 
     def say(self, sentence: str) -> None:
+        """Writes a sentence that stays."""
         if self.mode != "off":
             self.finish()
             sys.stderr.write(sentence + "\n")
             sys.stderr.flush()
 
     def finish(self) -> None:
+        """Removes the bar."""
         if self._drawn:
             sys.stderr.write("\r\033[K")
             sys.stderr.flush()

@@ -21,6 +21,25 @@ FARTHEST = 1e7
 
 
 def lammps(path: Path, content: str) -> dict:
+    """Reads the atoms of a LAMMPS data file.
+
+    Parameters
+    ----------
+    path : Path
+        File, for the messages.
+    content : str
+        Its text.
+
+    Returns
+    -------
+    dict
+        Positions (Å), types, box and notes.
+
+    Raises
+    ------
+    InputOutputError
+        The file is no data file in Å, or is damaged.
+    """
     lines = content.split("\n")
     units = re.search(r"units = (\w*)", lines[0])
     if lines[0].startswith("ITEM:") or (units and units[1] not in ("metal", "real")):
@@ -74,6 +93,8 @@ def _not_read(what: str, names: Iterable[str]) -> list[str]:
 
 
 def extended_xyz(path: Path) -> dict:
+    """Reads the atoms of a frame of extended XYZ, by ASE. Raises InputOutputError without ASE, and ValueError for a frame that
+    is not periodic along x and y in an orthogonal box, or several frames."""
     try:
         from ase.io import read
     except ImportError as error:
@@ -90,7 +111,25 @@ def extended_xyz(path: Path) -> dict:
 
 
 def folded(path: Path, atoms: dict) -> dict:
-    """Returns positions from the box's lower corner, folded into it, along x and y."""
+    """Folds atoms into their box, along x and y.
+
+    Parameters
+    ----------
+    path : Path
+        File, for the messages.
+    atoms : dict
+        Positions (Å) and the box.
+
+    Returns
+    -------
+    dict
+        The atoms with positions from the box's lower corner.
+
+    Raises
+    ------
+    InputOutputError
+        The atoms or their box have no size.
+    """
     place, width = numpy.array(atoms["position"], dtype=float), atoms["width"]
     if not (abs(place) <= FARTHEST).all() or not 0.0 < min(width[:2]) <= max(width) <= FARTHEST:
         raise refuse(path, "the atoms or their box have no size", f"coordinates up to {abs(place).max():g} Å in a box "

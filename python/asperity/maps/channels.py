@@ -37,7 +37,24 @@ class Channel:
 
 
 def refuse(where: object, what: str, why: object = "", fix: str = "correct it, or write it again") -> InputOutputError:
-    """Returns the error of a file that cannot be read."""
+    """Makes the error of a file that cannot be read.
+
+    Parameters
+    ----------
+    where : object
+        File, and the place in it.
+    what : str
+        Sentence on what is wrong.
+    why : object
+        Reason.
+    fix : str
+        Remedy.
+
+    Returns
+    -------
+    InputOutputError
+        The error, to be raised.
+    """
     return InputOutputError(str(where), what, str(why), fix)
 
 
@@ -49,7 +66,29 @@ def text_of(value: object) -> str | None:
 
 
 def length(where: object, unit: object, what: str, fix: str = "name the unit: --unit nm") -> float:
-    """Returns a unit of length in Å. Raises InputOutputError if it is none."""
+    """Returns a unit of length in Å.
+
+    Parameters
+    ----------
+    where : object
+        File, for the message.
+    unit : object
+        Unit as the file has it.
+    what : str
+        Subject of the message: what has the unit.
+    fix : str
+        Remedy.
+
+    Returns
+    -------
+    float
+        The length of the unit, Å.
+
+    Raises
+    ------
+    InputOutputError
+        It is no unit of length.
+    """
     said = text_of(unit)
     if said not in LENGTHS:
         raise refuse(where, f"the unit of its {what}, {said}, is none of length", "known: " + ", ".join(LENGTHS), fix)
@@ -57,7 +96,25 @@ def length(where: object, unit: object, what: str, fix: str = "name the unit: --
 
 
 def factor(where: object, scale: object) -> float:
-    """Returns how many units a number of the map stands for. Raises InputOutputError if that is not above zero."""
+    """Returns how many units a number of the map stands for.
+
+    Parameters
+    ----------
+    where : object
+        File, for the message.
+    scale : object
+        Scale as the file has it.
+
+    Returns
+    -------
+    float
+        The scale, above zero.
+
+    Raises
+    ------
+    InputOutputError
+        It is no number above zero.
+    """
     value = 1.0 if scale is None else float(numpy.asarray(scale).reshape(()))
     if not 0.0 < value < numpy.inf:
         raise refuse(where, f"its attribute scale = {value:g} is no factor", "a number of the map stands for so many units",
@@ -66,7 +123,22 @@ def factor(where: object, scale: object) -> float:
 
 
 def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
-    """Returns the maps of an array of two or three dimensions; of three the first one counts the frames."""
+    """Returns the maps of an array.
+
+    Parameters
+    ----------
+    name : str
+        Name of the array.
+    heights : Any
+        Array of two dimensions, or of three, of which the first one counts the frames.
+    told : dict[str, Any]
+        What the file says of all of them: unit, size, notes.
+
+    Returns
+    -------
+    list[Channel]
+        The maps.
+    """
     unit = text_of(told.get("unit"))
     if len(heights.shape) == 2:
         return [Channel(name, lambda: {"heights": heights[()], **told}, unit)]
@@ -77,9 +149,31 @@ def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
 
 
 def select(path: Path, channels: list[Channel], wanted: str | None, first: int | None = None, unit: str | None = None) -> dict:
-    """Reads one map of a file: the one wanted (by name, or number from 1), else `first`, else the only one in a unit of
-    length. unit: what the user says of it. Raises InputOutputError with the list of channels if none or several are
-    meant."""
+    """Reads one map of a file: the one wanted, else `first`, else the only one in a unit of length.
+
+    Parameters
+    ----------
+    path : Path
+        File, for the messages.
+    channels : list[Channel]
+        Maps of the file.
+    wanted : str | None
+        Name of the map, or its number from 1; None: nobody asks for one.
+    first : int, optional
+        Index of the file's own choice.
+    unit : str, optional
+        Unit that the user names.
+
+    Returns
+    -------
+    dict
+        The map, as of read_heights().
+
+    Raises
+    ------
+    InputOutputError
+        None or several are meant; all are listed.
+    """
     names = [c.name + ("" if c.unit is None or c.unit in LENGTHS else f" (in {c.unit})") for c in channels]
     listed = ", ".join(f"{k} {name}" for k, name in enumerate(names[:LISTED], 1))
     listed = "its channels: " + listed + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "")

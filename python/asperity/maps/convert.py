@@ -114,8 +114,27 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
 
 
 def read_heights(source: str, channel: str | None = None, unit: str | None = None) -> dict[str, Any]:
-    """Reads a map of heights from any file: heights (NaN where one is missing), unit, scale, size, size_unit and notes, as
-    far as the file tells them. channel: its name or number; unit: what the user says of it. Raises InputOutputError."""
+    """Reads a map of heights from any file.
+
+    Parameters
+    ----------
+    source : str
+        File.
+    channel : str, optional
+        Name or number of the map in a file with several.
+    unit : str, optional
+        Unit that the user names.
+
+    Returns
+    -------
+    dict[str, Any]
+        heights [y, x] (NaN at missing points), unit, scale, size, size_unit and notes, as far as the file tells them.
+
+    Raises
+    ------
+    InputOutputError
+        The file cannot be read, or has no such map.
+    """
     path, _, data_set = source.partition(":/")
     if data_set and channel is not None and channel.lstrip("/") != data_set:
         raise refuse(source, f"names the data set {data_set}, and --channel names {channel}", "one of them is meant", "leave one out")
@@ -159,8 +178,29 @@ def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:
 
 
 def convert(source: str | Path, target: str | Path, channel: str | None = None) -> str:
-    """Writes the map or the atoms of `source` to `target`; of a file with several maps the channel of this name or number.
-    Returns what was found, as lines of text."""
+    """Writes the map or the atoms of a file as HDF5.
+
+    Parameters
+    ----------
+    source : str | Path
+        File of heights or atoms.
+    target : str | Path
+        File to write, which must not be there; its name ends in .h5.
+    channel : str, optional
+        Name or number of the map in a file with several.
+
+    Returns
+    -------
+    str
+        What was found, as lines of text.
+
+    Raises
+    ------
+    InputOutputError
+        The source cannot be read, or the target cannot be written.
+    SceneError
+        The target is there already, or is not called .h5.
+    """
     source, target = str(source), Path(target)
     if target.suffix.lower() not in (".h5", ".hdf5"):
         raise refuse(target, "is no name of an HDF5 file", "what is written is HDF5",

@@ -57,7 +57,23 @@ class Law(NamedTuple):
 
 
 def energy_beyond(hurst: float, q1: float, c1: float) -> float:
-    """Returns e/E* of the law from q₁ on, Å; for H ≤ ½ as far as the wavelength of two atoms."""
+    """Computes the energy of full contact in the waves of the law from q₁ on; for H ≤ ½ as far as the wavelength of two
+    atoms.
+
+    Parameters
+    ----------
+    hurst : float
+        Hurst exponent H.
+    q1 : float
+        Wave number q₁, 1/Å.
+    c1 : float
+        Power spectrum at q₁, Å⁴.
+
+    Returns
+    -------
+    float
+        The energy per area over E*, Å.
+    """
     if hurst > 0.5:
         return 0.5 * math.pi * c1 * q1**3 / (2.0 * hurst - 1.0)
     octaves = max(0.0, math.log(2.0 * math.pi / ATOMS / q1))
@@ -66,9 +82,21 @@ def energy_beyond(hurst: float, q1: float, c1: float) -> float:
 
 
 def spectrum_of(heights: np.ndarray, edge: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, bool]:
-    """Returns wave numbers (1/Å), the mean C(q) (Å⁴) of the modes at each, their count, and whether the map was taken as
-    periodic; up to the Nyquist wave number. Of a map that is not periodic the mean plane is subtracted, and the rest multiplied
-    by Hann's window. heights: square, Å, NaN where one is missing; edge: Å."""
+    """Computes the power spectrum of a map up to the Nyquist wave number. Of a map that is not periodic the mean plane is
+    subtracted, and the rest multiplied by Hann's window.
+
+    Parameters
+    ----------
+    heights : np.ndarray
+        Square map, Å, NaN at missing points.
+    edge : float
+        Edge of the map, Å.
+
+    Returns
+    -------
+    tuple[np.ndarray, np.ndarray, np.ndarray, bool]
+        Wave numbers (1/Å), the mean C(q) (Å⁴) of the modes at each, their count, and True if the map was taken as periodic.
+    """
     n = len(heights)
     periodic = height_map.jump(heights) < height_map.PERIODIC
     flat = height_map.filled(height_map.without_tilt(heights) if periodic else height_map.without_plane(heights))
@@ -84,7 +112,20 @@ def spectrum_of(heights: np.ndarray, edge: float) -> tuple[np.ndarray, np.ndarra
 
 
 def energy_shown(heights: np.ndarray, edge: float) -> float:
-    """Returns the energy per area over E*, Å, that the map's own waves store in full contact: (1/4) Σ q |h_q|²."""
+    """Computes the energy that the map's own waves store in full contact: (1/4) Σ q |h_q|².
+
+    Parameters
+    ----------
+    heights : np.ndarray
+        Square map, Å, NaN at missing points.
+    edge : float
+        Edge of the map, Å.
+
+    Returns
+    -------
+    float
+        The energy per area over E*, Å.
+    """
     q, c, count, _ = spectrum_of(heights, edge)
     return 0.25 * float((q * c * count).sum()) * (2.0 * math.pi / edge) ** 2
 
@@ -108,9 +149,22 @@ def _fit(q: np.ndarray, c: np.ndarray, count: np.ndarray, q1: float) -> tuple[fl
 
 
 def law_of(heights: np.ndarray, edge: float, spacing: float) -> Law | None:
-    """Derives the law from the spectrum of a map. Returns None if the map has no roughness down to its pixel.
+    """Derives the law from the spectrum of a map.
 
-    heights: square, Å, NaN at missing points; edge: Å; spacing: distance of the sites in a simulation of the map, Å."""
+    Parameters
+    ----------
+    heights : np.ndarray
+        Square map, Å, NaN at missing points.
+    edge : float
+        Edge of the map, Å.
+    spacing : float
+        Distance of the sites in a simulation of the map, Å.
+
+    Returns
+    -------
+    Law | None
+        The law; None if the map has no roughness down to its pixel.
+    """
     n = len(heights)
     pixel = edge / n
     q, c, count, periodic = spectrum_of(heights, edge)
@@ -145,7 +199,22 @@ class Verdict(NamedTuple):
 
 
 def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
-    """Estimates the energy of the missing waves of a map and whether it matters. modulus: E*, eV/Å³; adhesion: Δγ, eV/Å²."""
+    """Estimates the energy of the missing waves of a map and whether it matters.
+
+    Parameters
+    ----------
+    law : Law | None
+        Law of the map; None: it shows all of its roughness.
+    modulus : float
+        E*, eV/Å³.
+    adhesion : float
+        Δγ, eV/Å².
+
+    Returns
+    -------
+    Verdict
+        What is said of the waves, the relative error of the numbers, and the reason why they are not stated.
+    """
     if law is None:
         return Verdict(0.0, "", "none: the map has no roughness down to its pixel", "")
     share = modulus * law.missing / adhesion if adhesion > 0.0 else math.inf

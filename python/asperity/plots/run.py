@@ -48,7 +48,18 @@ def _columns(run: Result, *names: str) -> list[np.ndarray]:
 
 
 def force_unit(run: Result) -> tuple[float, str]:
-    """Returns the divisor of forces (eV/Å) and the axis label: nN, or GPa, MPa, kPa if the area is meaningful."""
+    """Returns how forces of a run are drawn: over the area if that is meaningful.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+
+    Returns
+    -------
+    tuple[float, str]
+        Divisor of forces in eV/Å, and the label of the axis: nN, or GPa, MPa, kPa.
+    """
     if run.curved or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
     area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
@@ -75,7 +86,20 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
 
 
 def separation(run: Result, ax: Axes) -> bool:
-    """Draws the force of the substrate over the mean separation, both ways; for a sphere beside smooth ones."""
+    """Draws the force of the substrate over the mean separation, both ways; for a sphere beside smooth ones.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     if not (columns := _columns(run, "mean_height", "force", "segment")):
         return False
     height, force, _ = columns
@@ -99,7 +123,20 @@ def separation(run: Result, ax: Axes) -> bool:
 
 
 def loading(run: Result, ax: Axes) -> bool:
-    """Draws the force over the displacement of the drive, as a testing machine records it."""
+    """Draws the force over the displacement of the drive, as a testing machine records it.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     sprung = "drive_displacement" in run.series
     columns = _columns(run, "drive_displacement" if sprung else "top_displacement", "top_force", "segment")
     # With the mean height prescribed, the top plane follows: the plot of the separation again.
@@ -110,7 +147,20 @@ def loading(run: Result, ax: Axes) -> bool:
 
 
 def contact(run: Result, ax: Axes) -> bool:
-    """Draws contact fraction and fraction of repulsive sites over the displacement of the top plane."""
+    """Draws contact fraction and fraction of repulsive sites over the displacement of the top plane.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     columns = _columns(run, "top_displacement", "contact_fraction", "repulsive_fraction", "segment")
     if not columns or not _by_segment(ax, run, columns[0], columns[1], ", in contact"):
         return False
@@ -124,7 +174,20 @@ def contact(run: Result, ax: Axes) -> bool:
 
 
 def friction(run: Result, ax: Axes) -> bool:
-    """Draws the force against each slide of the path over its distance."""
+    """Draws the force against each slide of the path over its distance.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     unit, label = force_unit(run)
     drawn = False
     for number, words in enumerate(run.segment_names):
@@ -150,7 +213,20 @@ def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def energy(run: Result, ax: Axes) -> bool:
-    """Draws the energies along the path, per nominal area (meV/Å²) or, for a sphere, whole (eV)."""
+    """Draws the energies along the path, per nominal area (meV/Å²) or, for a sphere, whole (eV).
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     timed = "time" in run.series
     along = _columns(run, "time" if timed else "step")
     if not along or not run.edge:
@@ -171,7 +247,20 @@ def energy(run: Result, ax: Axes) -> bool:
 
 
 def balance(run: Result, ax: Axes) -> bool:
-    """Draws the error of the energy balance over time."""
+    """Draws the error of the energy balance over time.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     if not (columns := _columns(run, "time", "balance_error")):
         return False
     largest = np.abs(columns[1][np.isfinite(columns[1])]).max(initial=0.0)
@@ -182,7 +271,20 @@ def balance(run: Result, ax: Axes) -> bool:
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
-    """Draws the radially averaged power spectrum C(q) of the surface, realised and target."""
+    """Draws the radially averaged power spectrum C(q) of the surface, realised and target.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     found = run.substrate.spectrum if run.substrate else None
     if found is None or not (found[1] > 0).any():  # flat
         return False
@@ -194,7 +296,20 @@ def spectrum(run: Result, ax: Axes) -> bool:
 
 
 def roughness(run: Result, ax: Axes) -> bool:
-    """Draws γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own."""
+    """Draws γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     flat, rms = run.number("delta_gamma") or 0.0, run.number("surface.rms") or run.number("theory.persson.h_rms") or 0.0
     if flat <= 0 or rms <= 0 or run.key("surface.kind") == "atoms":  # no theory, and Δγ but a unit
         return False
@@ -220,7 +335,20 @@ def roughness(run: Result, ax: Axes) -> bool:
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
-    """Returns the theories of the run's scene at 16 roughnesses up to 1.8 times its own; [] without one."""
+    """Computes the theories of the run's scene at 16 roughnesses up to 1.8 times its own.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    rms : float
+        Its rms roughness, Å.
+
+    Returns
+    -------
+    list[tuple[str, list, list, object]]
+        For each theory its label, roughnesses (Å), γ_eff/Δγ and style of line; [] without a theory.
+    """
     if run.key("surface.kind") == "flat":
         return []
     values = [1.8 * rms * i / 16 for i in range(1, 17)]
@@ -243,7 +371,20 @@ def _histogram(ax: Axes, edges: np.ndarray, density: np.ndarray, x: str, y: str)
 
 
 def gaps(state: State, ax: Axes) -> bool:
-    """Draws the distribution of gaps P(u)."""
+    """Draws the distribution of gaps P(u).
+
+    Parameters
+    ----------
+    state : State
+        State of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     found = state.gap_distribution
     if found is None or not (found[1] > 0).any():
         return False
@@ -251,7 +392,20 @@ def gaps(state: State, ax: Axes) -> bool:
 
 
 def pressures(state: State, ax: Axes) -> bool:
-    """Draws the distribution of the interface's pressure over the sites with a force."""
+    """Draws the distribution of the interface's pressure over the sites with a force.
+
+    Parameters
+    ----------
+    state : State
+        State of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     if "pressure" not in state:
         return False
     pressure = state["pressure"]
@@ -264,12 +418,42 @@ def pressures(state: State, ax: Axes) -> bool:
 
 
 def height(run: Result, ax: Axes) -> bool:
-    """Draws the substrate from above."""
+    """Draws the substrate from above.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     return bool(run.substrate and run.edge) and image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
 
 
 def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
-    """Draws a map of a state from above: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
+    """Draws a map of a state from above.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    state : State
+        State of the run.
+    name : str
+        "gap", "distance", "u_x", "u_y", "u_z" (Å), "pressure" (GPa) or "contact".
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     if name not in state or not run.edge:
         return False
     look: dict[str, Any] = {"label": f"{name} (Å)", "cmap": GAP}
@@ -321,7 +505,27 @@ class RunPlots:
         return self._run.fields[name]
 
     def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
-        """Draws a map of a state: "gap", "pressure", "contact", ...; state None: the relaxed state, or the first one."""
+        """Draws a map of a state.
+
+        Parameters
+        ----------
+        name : str
+            "gap", "distance", "u_x", "u_y", "u_z" (Å), "pressure" (GPa) or "contact".
+        ax : Axes, optional
+            Axes to draw into; None: new ones.
+        state : str, optional
+            Name of the state; None: the relaxed state, or the first one.
+
+        Returns
+        -------
+        Axes
+            The axes with the map.
+
+        Raises
+        ------
+        InputOutputError
+            The run has no such state or map.
+        """
         if name not in (shown := self._state(state)):
             raise InputOutputError(str(self._run.directory), f"has no map {name!r}", f"maps: {', '.join(shown)}",
                                    "take one of these")

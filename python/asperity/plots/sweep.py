@@ -64,10 +64,23 @@ class Trace:
     """column of what its energy (the column without _ratio) may be wrong by"""
 
     def values(self, table: Table) -> np.ndarray:
+        """Returns the values of the trace in the unit of the plot."""
         return table.column(self.column) / self.unit
 
     def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
-        """Returns means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors."""
+        """Returns means over the seeds with their error bars.
+
+        Parameters
+        ----------
+        table : Table
+            Table of the sweep.
+
+        Returns
+        -------
+        tuple[np.ndarray, np.ndarray]
+            Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors. Both in
+            the unit of the plot.
+        """
         values = self.values(table)
         energy = table.column(self.column.removesuffix("_ratio"))
         over = np.divide(values, energy, where=energy != 0, out=energy * np.nan)
@@ -204,7 +217,18 @@ def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
 
 
 def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
-    """Returns the sweeps that share a plot, their key along x, and what kept others out."""
+    """Chooses the sweeps that share a plot.
+
+    Parameters
+    ----------
+    sweeps : Sequence[Sweep]
+        Sweeps.
+
+    Returns
+    -------
+    tuple[list[Sweep], str, str]
+        The sweeps that share a plot, their key along x, and the reason why others are left out.
+    """
     shared: list[Sweep] = []
     along, notes = "", []
     for sweep in sweeps:
@@ -236,7 +260,22 @@ def _flat(sweeps: Sequence[Sweep]) -> float:
 
 
 def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
-    """Draws one of `names(sweeps)`; False if there is nothing to draw."""
+    """Draws a plot of sweeps.
+
+    Parameters
+    ----------
+    sweeps : Sequence[Sweep]
+        Sweeps that share the plot.
+    name : str
+        One of names(sweeps).
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     shared, x, _ = parts_of(sweeps)
     if not shared:
         return False
@@ -302,7 +341,27 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
-    """Draws a plot for a user: makes an axes if none is given, raises InputOutputError if there is nothing to draw."""
+    """Draws a plot of sweeps for a user.
+
+    Parameters
+    ----------
+    sweeps : Sequence[Sweep]
+        Sweeps that share the plot.
+    name : str
+        One of names(sweeps).
+    ax : Axes, optional
+        Axes to draw into; None: new ones.
+
+    Returns
+    -------
+    Axes
+        The axes with the plot.
+
+    Raises
+    ------
+    InputOutputError
+        There is nothing to draw.
+    """
     return drawn_into(ax, lambda a: name in names(sweeps) and plot(sweeps, name, a), sweeps[0].name, name,
                       f"plots: {', '.join(names(sweeps))}")
 
@@ -313,8 +372,20 @@ def plot_files(simulated: bool) -> list[str]:
 
 
 def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], str]:
-    """Writes gamma.svg, .pdf, .png and the others into the directory. Returns the SVG files, and the reason why a sweep is
-    left out."""
+    """Writes gamma.svg, .pdf, .png and the other plots.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory to write to.
+    sweeps : Sequence[Sweep]
+        Sweeps that share the plots.
+
+    Returns
+    -------
+    tuple[list[Path], str]
+        The SVG files, and the reason why a sweep is left out; "" if none is.
+    """
     note = parts_of(sweeps)[2]
     figures = {name: fig for name in names(sweeps) if (fig := make(partial(plot, sweeps, name))) is not None}
     if figures:

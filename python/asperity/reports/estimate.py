@@ -50,10 +50,12 @@ def lines_of(numbers: list[Number]) -> list[str]:
 
 
 def two_digits(value: float) -> str:
+    """Spells a number with two digits."""
     return f"{float(f'{value:.2g}'):g}"
 
 
 def signed(value: float) -> str:
+    """Spells a number with its sign and two digits."""
     return ("+" if value > 0 else "−" if value < 0 else "") + two_digits(abs(value))
 
 
@@ -67,7 +69,20 @@ def _cell(n: Number, part: str, what: str) -> str:
 
 
 def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
-    """Returns rows of the scene, each part and the sum: group, part, what was varied, and shift and error of each number."""
+    """Returns the rows of the budget of some numbers: the scene, each part and the sum.
+
+    Parameters
+    ----------
+    estimate : Estimate
+        Estimate.
+    columns : list[Number]
+        Numbers, in the order of the columns.
+
+    Returns
+    -------
+    list[list[str]]
+        Cells: group, part, what was varied, and shift and error of each number.
+    """
     rows: list[list[str]] = [["the scene as it is", "", "", *(c for n in columns for c in (f"{n.value:.5g}", ""))], []]
     last = ""
     for group in GROUPS:
@@ -81,6 +96,7 @@ def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
 
 
 def heads_of(columns: list[Number]) -> list[str]:
+    """Returns the heads of the budget's columns, with units."""
     return ["", "part", "varied", *(h for n in columns for h in (f"{n.symbol}{', ' * bool(n.unit)}{shown(n.unit)}", "±"))]
 
 
@@ -103,7 +119,20 @@ def text_of(estimate: Estimate) -> str:
 
 
 def chart(estimate: Estimate, ax: Axes) -> bool:
-    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error."""
+    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error.
+
+    Parameters
+    ----------
+    estimate : Estimate
+        Estimate.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
     n = estimate.first
     factor, unit = n.units[0]
     whole = [] if n.reason else [("all", Found(n.estimate - n.value, n.error))]

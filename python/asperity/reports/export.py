@@ -61,6 +61,7 @@ class Atoms:
 
     @property
     def box_z(self) -> tuple[float, float]:
+        """Lower and upper end of the box along z, Å."""
         z = self.positions[:, 2]
         return z.min() - 1.0, z.max() + 1.0
 
@@ -89,7 +90,15 @@ def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
 
 
 def write_xyz(file: IO[str], atoms: Atoms) -> None:
-    """Writes a frame of extended XYZ: the lattice, the meaning of the columns, and further properties."""
+    """Writes a frame of extended XYZ: the lattice, the meaning of the columns, and further properties.
+
+    Parameters
+    ----------
+    file : IO[str]
+        Open file.
+    atoms : Atoms
+        Frame.
+    """
     low, high = atoms.box_z
     columns = _xyz_columns(atoms)
     head = (f'{len(atoms.types)}\nLattice="{atoms.edge:.8g} 0 0 0 {atoms.edge:.8g} 0 0 0 {high - low:.8g}" '
@@ -114,7 +123,22 @@ def _packed(values: np.ndarray, form: str) -> str:
 
 
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
-    """Returns VTK's XML image of one layer: maps [y, x], or [y, x, 3] for vectors."""
+    """Returns VTK's XML image of one layer.
+
+    Parameters
+    ----------
+    spacing : float
+        Distance of the points, Å.
+    origin : float
+        Place of the first point along x and y, Å.
+    maps : dict[str, np.ndarray]
+        Maps [y, x], or [y, x, 3] for vectors, by name.
+
+    Returns
+    -------
+    str
+        The text of the file.
+    """
     arrays = []
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
@@ -123,7 +147,20 @@ def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> st
 
 
 def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:
-    """Returns VTK's XML of points [point, 3], each a vertex, with vectors [point, 3] by name."""
+    """Returns VTK's XML of points, each a vertex.
+
+    Parameters
+    ----------
+    points : np.ndarray
+        Places [point, 3], Å.
+    vectors : dict[str, np.ndarray]
+        Vectors [point, 3] by name.
+
+    Returns
+    -------
+    str
+        The text of the file.
+    """
     n = len(points)
     return _text("points.vtp", n=n, points=_packed(points, "<f4"), vertices=_packed(np.arange(n), "<i8"),
                  ends=_packed(np.arange(1, n + 1), "<i8"),
@@ -230,6 +267,7 @@ class Export:
         return self._paths(frames)
 
     def pictures(self) -> list[Path]:
+        """Writes maps of all states as PNG. Returns the files."""
         made = {f"{name}-{file_name(state.name)}": (state, name) for state in self.run.fields.values()
                 for name in ("gap", "pressure", "contact")}
         written = []
@@ -242,6 +280,7 @@ class Export:
         return self._paths(written)
 
     def images(self) -> list[Path]:
+        """Writes maps of the substrate and of all states for ParaView. Returns the files."""
         n = len(self.run.substrate.height)
         texts = {"substrate": image_text(self.run.edge / n, 0.0, {"height (Å)": self.run.substrate.height})}
         for state in self.run.fields.values():
@@ -281,7 +320,27 @@ GONE = {"lammps": "its atoms are in --to xyz, which OVITO and ASE convert for LA
 
 
 def export(directory: Path, kind: str) -> list[Path]:
-    """Exports a directory. Returns the written files. Raises InputOutputError for a directory with nothing to export."""
+    """Exports the maps and the trajectory of a run.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory of the result.
+    kind : str
+        "xyz" (OVITO, ASE), "vtk" (ParaView) or "png".
+
+    Returns
+    -------
+    list[Path]
+        The written files.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has nothing to export.
+    SceneError
+        There is no such format.
+    """
     if kind in GONE:
         raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],
                          f"asperity export {directory} --to {'xyz' if kind == 'lammps' else 'vtk'}")

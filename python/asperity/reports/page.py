@@ -33,12 +33,27 @@ def _set(text: Any) -> Markup:
 
 
 def page_files(ids: Iterable[str], kinds: Iterable[str] = figures.KINDS) -> list[str]:
-    """Returns the names of the files of a page with figures of these ids."""
+    """Returns the names of the files of a page.
+
+    Parameters
+    ----------
+    ids : Iterable[str]
+        Names of its figures.
+    kinds : Iterable[str]
+        Endings of the files of a figure.
+
+    Returns
+    -------
+    list[str]
+        report.html and the files of the figures.
+    """
     return ["report.html", *(f"report/{id}.{kind}" for id in ids for kind in (*kinds, "csv"))]
 
 
 @dataclass
 class Section:
+    """A part of a page under a heading."""
+
     id: str
     heading: str
     parts: list[tuple[str, Any]] = field(default_factory=list)
@@ -65,21 +80,67 @@ class Page:
 
     @property
     def path(self) -> Path:
+        """The file of the page."""
         return self.directory / "report.html"
 
     def section(self, id: str, heading: str) -> None:
+        """Begins a section.
+
+        Parameters
+        ----------
+        id : str
+            Name of the section in links.
+        heading : str
+            Its heading.
+        """
         self.sections.append(Section(id, heading))
 
     def add(self, kind: str, content: Any) -> None:
+        """Adds content to the last section; nothing for empty content.
+
+        Parameters
+        ----------
+        kind : str
+            How the template sets it: "text", "table", ...
+        content : Any
+            Content of this kind.
+        """
         if content:
             self.sections[-1].parts.append((kind, content))
 
     def table(self, heads: list[str], rows: list[list[str]], links: list[str] | None = None) -> None:
-        """Adds a table. links: targets of the first cell of each row."""
+        """Adds a table to the last section.
+
+        Parameters
+        ----------
+        heads : list[str]
+            Heads of the columns.
+        rows : list[list[str]]
+            Cells of each row.
+        links : list[str], optional
+            Target of the first cell of each row.
+        """
         self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows)))})
 
     def figure(self, id: str, heading: str, caption: str, draw: Callable[[Axes], bool]) -> bool:
-        """Adds a figure to the section, with PNG, PDF, SVG and CSV. Returns False if there was nothing to draw."""
+        """Adds a figure to the last section, with PNG, PDF, SVG and CSV.
+
+        Parameters
+        ----------
+        id : str
+            Name of the figure in links and files.
+        heading : str
+            Heading.
+        caption : str
+            Text below it.
+        draw : Callable[[Axes], bool]
+            Draws; returns False if there is nothing to draw.
+
+        Returns
+        -------
+        bool
+            False if there was nothing to draw.
+        """
         try:
             fig = figures.make(draw)
         except Error as error:  # data that a damaged file lacks

@@ -16,6 +16,8 @@ from ..units import GIGAPASCAL, NANONEWTON
 
 @dataclass
 class KeyNumber:
+    """A number at the top of a page, with its unit, name and a note."""
+
     value: str
     unit: str
     name: str
@@ -27,21 +29,62 @@ FEW = 99.5
 
 
 def percent(fraction: float) -> str:
+    """Spells a fraction in percent."""
     digits = 2 if abs(fraction) < 0.1 else 1
     return minus(f"{number(100 * fraction, digits)}\u00a0%")
 
 
 def energy(gamma: float, more: str = "") -> str:
-    """Spells an energy over an area, meV/Å²: "69.91 meV/Å² (1120 mJ/m²)". more: text for the brackets."""
+    """Spells an energy over an area: "69.91 meV/Å² (1120 mJ/m²)".
+
+    Parameters
+    ----------
+    gamma : float
+        Energy, meV/Å².
+    more : str
+        Text for the brackets.
+
+    Returns
+    -------
+    str
+        The text.
+    """
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
 
 
 def general(value: Any, digits: int = 4) -> str:
-    """Spells a number of a scene; "?" for a value that is no number."""
+    """Spells a number of a scene.
+
+    Parameters
+    ----------
+    value : Any
+        Value.
+    digits : int
+        Digits.
+
+    Returns
+    -------
+    str
+        The text; "?" for a value that is no number.
+    """
     return "?" if (number := finite(value)) is None else f"{number:.{digits}g}"
 
 
 def state_in_words(run: Result, name: str) -> str:
+    """Returns when a state was saved, in words.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    name : str
+        Name of the state.
+
+    Returns
+    -------
+    str
+        "at zero load", "1 ps after zero load", ...
+    """
     if name == "relaxed":
         return run.load_words[0]
     if name == "pull-off":
@@ -94,12 +137,38 @@ def _stress(gigapascal: float) -> tuple[str, str]:
 
 
 def smooth_pull_off(run: Result, gamma: float) -> float:
-    """Returns the force that stands for a work of adhesion (meV/Å²) of a sphere in result.json, eV/Å (JKR: 3πγR/2)."""
+    """Returns the force that stands for a work of adhesion of a sphere in result.json (JKR: 3πγR/2).
+
+    Parameters
+    ----------
+    run : Result
+        Result of a sphere.
+    gamma : float
+        Work of adhesion, meV/Å².
+
+    Returns
+    -------
+    float
+        The force, eV/Å.
+    """
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
 
 
 def reference(run: Result, key: str) -> float:
-    """Returns the Δγ that an energy is compared with, meV/Å²; 0 if there is none. Persson's theory may have been given another."""
+    """Returns the Δγ that an energy is compared with. Persson's theory may have been given another than the run's.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    key : str
+        Path of the energy in result.json.
+
+    Returns
+    -------
+    float
+        Δγ, meV/Å²; 0 if there is none.
+    """
     own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
     return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
@@ -269,7 +338,20 @@ ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: t
 
 
 def effects(run: Result, on: bool) -> list[str]:
-    """Returns the effects that were simulated or, with on = False, were not, each with the key of the scene that decides it."""
+    """Returns the effects that were simulated or were not, each with the key of the scene that decides it.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    on : bool
+        True: those that were simulated.
+
+    Returns
+    -------
+    list[str]
+        A sentence for each.
+    """
     found = run.part("run.effects")
     text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
     return text if on else [*text, *ALWAYS_LEFT_OUT]
@@ -293,6 +375,7 @@ def provenance(result: Values) -> list[list[str]]:
 
 
 def citations(result: Values) -> list[str]:
+    """Returns what to cite for a result."""
     return [f"Asperity {result.text('run.version') or '?'} (commit {result.text('run.git') or '?'}): adhesion between "
             "randomly rough elastic solids, from the atoms up.",
             "N. Mulakaluri and B. N. J. Persson, Adhesion between elastic solids with randomly rough surfaces: "

@@ -211,7 +211,20 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
 
 
 def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """Writes DIR/report.html of a sweep, and the pages of its points; kinds: of files of its figures."""
+    """Writes DIR/report.html of a sweep, and the pages of its points.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory of the sweep.
+    kinds : tuple[str, ...]
+        Endings of the files of a figure.
+
+    Returns
+    -------
+    Page
+        The page.
+    """
     sweeps = load_sweeps(directory)
     _require_free(directory, sweeps, kinds)
     page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
@@ -247,7 +260,25 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
-    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run."""
+    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory of the result.
+    kinds : tuple[str, ...]
+        Endings of the files of a figure.
+
+    Returns
+    -------
+    Page
+        The page.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no result.
+    """
     if (directory / RESULT).exists():
         page = page_of(load_estimate(directory))
         page.write()

@@ -34,7 +34,20 @@ def finite(value: Any, otherwise: float) -> float: ...
 @overload
 def finite(value: Any, otherwise: None = None) -> float | None: ...
 def finite(value: Any, otherwise: float | None = None) -> float | None:
-    """Returns a value of a JSON file if it is a finite number, else `otherwise`."""
+    """Returns a value of a JSON file if it is a finite number.
+
+    Parameters
+    ----------
+    value : Any
+        Value.
+    otherwise : float, optional
+        Answer for any other value.
+
+    Returns
+    -------
+    float | None
+        The number, or `otherwise`.
+    """
     with contextlib.suppress(OverflowError):
         if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)
@@ -199,8 +212,21 @@ class Values(Attributes, dict):
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
-    """Returns the load of a scene's state in words, "at zero load" or "under a load of 5 MPa", and that of its theory, "" or
-    " under a load of 5 MPa". They differ after an approach, whose state carries no load. swept: drive.load is an axis."""
+    """Returns the load of a scene's state and that of its theory in words. They differ after an approach, whose state carries
+    no load.
+
+    Parameters
+    ----------
+    scene : Any
+        Keys of the scene.
+    swept : bool
+        True: drive.load is an axis of a sweep.
+
+    Returns
+    -------
+    tuple[str, str]
+        "at zero load" or "under a load of 5 MPa", and "" or " under a load of 5 MPa".
+    """
     keys = Values({"scene": scene}).part("scene")
     load = keys.number("drive.load", 0.0)
     under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
@@ -238,7 +264,20 @@ def read_json(path: Path) -> Values:
 
 
 def expect(directory: Path, *files: str) -> None:
-    """Checks that the directory holds one of these files. Raises InputOutputError."""
+    """Checks that a directory holds one of some files.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory.
+    *files : str
+        Names, of which one must be there.
+
+    Raises
+    ------
+    InputOutputError
+        None of them is there.
+    """
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
         raise InputOutputError(str(directory), "is no result directory",
@@ -263,6 +302,20 @@ class RunFile:
         self.path, self.unread = path, unread
 
     def lacks(self, what: str, there: list[str]) -> KeyError:
+        """Returns the error of a part that the file does not have.
+
+        Parameters
+        ----------
+        what : str
+            Name of the part.
+        there : list[str]
+            Names of the parts that are there.
+
+        Returns
+        -------
+        KeyError
+            The error, to be raised.
+        """
         return KeyError(f"no {what}" + (f"; there are {', '.join(there)}" if there else "") +
                         (f". {self.unread}" if self.unread else ""))
 
@@ -298,7 +351,27 @@ class RunFile:
             return list(found) if isinstance(found, h5py.Group) else []
 
     def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
-        """Reads a data set of numbers of so many dimensions; frame: only this element of the first dimension."""
+        """Reads a data set of numbers.
+
+        Parameters
+        ----------
+        name : str
+            Path in the file.
+        dimensions : int
+            Number of dimensions that the data set must have.
+        frame : int, optional
+            Only this element of the first dimension; None: all.
+
+        Returns
+        -------
+        np.ndarray
+            The numbers in the unit of the data set (Group.unit).
+
+        Raises
+        ------
+        InputOutputError
+            The file cannot be read, has no such data set, or a data set of another kind (ValueError within).
+        """
         with self._opened() as file:
             found = file[name]
             if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
@@ -311,7 +384,20 @@ class RunFile:
             return np.asarray(found[()] if frame is None else found[frame])
 
     def attribute(self, name: str, key: str) -> Any:
-        """Returns an attribute of a data set or group; None if there is none."""
+        """Reads an attribute of a data set or group.
+
+        Parameters
+        ----------
+        name : str
+            Path in the file.
+        key : str
+            Name of the attribute.
+
+        Returns
+        -------
+        Any
+            Its value; None if there is none.
+        """
         with self._opened() as file:
             found = file[name].attrs.get(key)
             return found.decode() if isinstance(found, bytes) else found
@@ -420,15 +506,18 @@ class Substrate(Group):
 
     @property
     def spectrum(self) -> list[np.ndarray] | None:
+        """Radially averaged power spectrum: wave numbers and values (unit of the file); None if the file has none."""
         found = self._lists(*self.lists[:3])
         return found if found and len({len(c) for c in found}) == 1 else None
 
     @functools.cached_property
     def atoms(self) -> np.ndarray | None:
+        """Positions of the substrate's atoms, Å, [atom, xyz]; None for a wall."""
         return self._file.array(f"{self._path}/atoms", 2).astype(float) if "atoms" in self._all else None
 
     @functools.cached_property
     def types(self) -> np.ndarray | None:
+        """Type of each atom of the substrate, from 1."""
         if self.atoms is None:
             return None
         if "type" not in self._all:
@@ -503,6 +592,7 @@ class Result(Values):
 
     @property
     def units(self) -> Values:
+        """Units of the numbers, by the same paths as the numbers."""
         return self.part("units")
 
     @property
@@ -550,6 +640,7 @@ class Result(Values):
 
     @property
     def load_words(self) -> tuple[str, str]:
+        """Load of the state and of its theory in words."""
         return load_words(self.find("scene"))
 
     @property
@@ -559,6 +650,7 @@ class Result(Values):
 
     @property
     def curved(self) -> bool:
+        """True for a sphere."""
         return self.radius is not None
 
     @property

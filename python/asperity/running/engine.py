@@ -24,7 +24,7 @@ from ..errors import Error, InputOutputError, SceneError
 from ..files import store
 from ..terminal import Progress, number
 from ..units import GIGAPASCAL
-from . import program
+from . import lock, program
 from .scene import Overrides, SceneLike, assignments, scene_file
 
 NAME = "asperity._engine"
@@ -441,7 +441,7 @@ class Simulation(_engine.Simulation):
     def _write(self, directory: str | os.PathLike, maps: dict[str, numpy.ndarray]) -> Path:
         place = store.chosen(os.fspath(directory), "")
         units = {name: unit for name, (unit, _) in SERIES.items()}
-        with store.in_use(place):
+        with lock.in_use(place):
             if (place / "result.json").exists():
                 raise SceneError(str(place), "already holds a result, result.json", "results are not written over",
                                  "name another directory, or remove this one")

@@ -33,7 +33,7 @@ from ..errors import Error, InputOutputError, SceneError
 from ..files import store
 from ..results.result import Values, read_json
 from ..terminal import Progress, duration, environment_alone
-from . import program
+from . import lock, program
 from .scene import inputs_of
 
 WAITING, DONE, FAILED = "waiting", "done", "failed"
@@ -46,6 +46,8 @@ _PR_SET_PDEATHSIG = 1
 
 @dataclass
 class Job:
+    """A run to make."""
+
     name: str
     """"rms=3,seed=1"; the name of its directory."""
     directory: Path
@@ -70,6 +72,8 @@ class Outcome:
 
 @dataclass
 class PoolOptions:
+    """Options of many runs."""
+
     jobs: int = 1
     """side by side on this machine, where no executor is given"""
     threads: int = 0
@@ -126,16 +130,47 @@ def look_at(job: Job) -> Outcome:
 
 
 def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool = False) -> list[dict[str, str]]:
-    """Returns the files that are in the way of a run in a directory, as problems. damaged: its result cannot be read and is set
-    aside."""
+    """Returns the files that are in the way of a run in a directory.
+
+    Parameters
+    ----------
+    directory : Path
+        Directory of the run.
+    inputs : Iterable[str]
+        Files that the run reads.
+    damaged : bool
+        True: the result there cannot be read and is set aside.
+
+    Returns
+    -------
+    list[dict[str, str]]
+        The files, as problems of SceneError.of().
+    """
     aside = (RESULT, "run.h5") if damaged and store.is_named(directory, RESULT) else ()
     names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
     return store.in_the_way(directory, names, renew=False, inputs=inputs) + store.in_the_way(directory, [LOG], inputs=inputs)
 
 
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
-    """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError with the files that are in
-    the way of the jobs that wait."""
+    """Returns the outcome of each job; reports a result that cannot be read.
+
+    Parameters
+    ----------
+    jobs : list[Job]
+        Runs.
+    say : Callable[[str], None]
+        Called with each sentence for the user.
+
+    Returns
+    -------
+    list[Outcome]
+        The outcomes, in the order of the jobs.
+
+    Raises
+    ------
+    SceneError
+        Files are in the way of the jobs that wait.
+    """
     outcomes = [look_at(job) for job in jobs]
     problems = []
     for job, outcome in zip(jobs, outcomes):
@@ -152,6 +187,8 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
 # What a worker does.
 
 class Ended(NamedTuple):
+    """End of a run: exit code, time (s), and of a failure its reason."""
+
     code: int
     seconds: float = 0.0
     reason: str = ""
@@ -168,15 +205,31 @@ def _told(going: str) -> str:
 
 
 def run_task(words: list[str], folder: str, directory: str, threads: str, overrule: bool, going: str) -> Ended:
-    """Runs a point to its end, or until it is told to stop. All that it is given can be pickled.
+    """Runs a point to its end, or until it is told to stop. All arguments can be pickled.
 
-    words, directory   the command, which is meant in `folder`; the directory of its result
-    threads            if the worker's OMP_NUM_THREADS says nothing or is overruled; "": none is set
-    going              a file: the run goes on while it exists; it is killed where "kill" is in it
+    Parameters
+    ----------
+    words : list[str]
+        Command.
+    folder : str
+        Working directory of the command.
+    directory : str
+        Directory of the result.
+    threads : str
+        Threads of the run if the worker's OMP_NUM_THREADS says nothing or is overruled; "": none is set.
+    overrule : bool
+        True: the worker's OMP_NUM_THREADS does not count.
+    going : str
+        File: the run goes on while it exists, and is killed if it holds "kill".
+
+    Returns
+    -------
+    Ended
+        Exit code, time and reason.
     """
     place, start = Path(directory), time.monotonic()
     # A run whose worker was killed writes its checkpoint meanwhile.
-    while not (told := _told(going)) and time.monotonic() - start < 60 and store.kept(place):
+    while not (told := _told(going)) and time.monotonic() - start < 60 and lock.is_used(place):
         time.sleep(0.1)
     if told:
         return Ended(STOPPED)
@@ -230,7 +283,8 @@ def _run(words: list[str], folder: str, out: store.Outputs, threads: str, overru
 
 @contextlib.contextmanager
 def executor_of(text: str) -> Iterator[Executor | None]:
-    """Returns the executor of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one."""
+    """Yields the executor of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one. Raises
+    SceneError for another text or a missing package, InputOutputError for a scheduler that does not answer."""
     kind, _, address = text.partition(":")
     try:
         if text == "mpi":

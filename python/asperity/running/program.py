@@ -11,6 +11,7 @@ import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 from collections.abc import Iterable
@@ -31,7 +32,7 @@ def version() -> str:
 def path() -> str:
     """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
 
-    In a source tree without a build it is the script `asperity`, which makes one.
+    In a source tree without a build it is the script `asperity`, which makes one. Raises InputOutputError if there is none.
     """
     package = Path(__file__).resolve().parents[1]
     places: list[str | Path] = [os.environ.get("ASPERITY_PROGRAM", "")]
@@ -61,7 +62,20 @@ def told(line: str) -> dict[str, Any]:
 
 
 def error_of(text: str, code: int) -> Error | None:
-    """Returns the error that the program told in a text; None: it told none."""
+    """Returns the error that the program told in a text.
+
+    Parameters
+    ----------
+    text : str
+        What the program wrote to its standard error.
+    code : int
+        Its exit code.
+
+    Returns
+    -------
+    Error | None
+        The error; None if it told none.
+    """
     kind = BY_CODE.get(code, InternalError)
     for line in text.splitlines():
         error = told(line).get("error")
@@ -71,7 +85,20 @@ def error_of(text: str, code: int) -> Error | None:
 
 
 def raise_for(code: int, text: str) -> None:
-    """Throws the exception of an exit code, with the program's own message, or else with what its launcher says."""
+    """Throws the exception of an exit code, with the program's own message, or else with what its launcher says.
+
+    Parameters
+    ----------
+    code : int
+        Exit code; negative: the number of a signal.
+    text : str
+        What the program wrote to its standard error.
+
+    Raises
+    ------
+    Error
+        The exit code is not 0.
+    """
     if code == 0:
         return
     error = error_of(text, code)
@@ -91,12 +118,34 @@ def refuse_ranks() -> None:
                          '"mpirun -n 2"; for points on the ranks: --executor mpi')
 
 
-def call(arguments: Iterable[str], *, text: str | None = None) -> str:
-    """Runs the program to its end and returns what it printed."""
+def call(arguments: Iterable[str], *, text: str | None = None, given: socket.socket | None = None) -> str:
+    """Runs the program to its end.
+
+    Parameters
+    ----------
+    arguments : Iterable[str]
+        Words of its command line.
+    text : str, optional
+        Its standard input.
+    given : socket.socket, optional
+        Socket as its standard input.
+
+    Returns
+    -------
+    str
+        Its standard output.
+
+    Raises
+    ------
+    InputOutputError
+        The program cannot be started.
+    Error
+        The program failed: the exception of its exit code.
+    """
     words = [path(), *arguments]
     try:
-        done = subprocess.run(words, input=text, capture_output=True, text=True, encoding="utf-8",
-                              env=environment_alone())
+        source: dict[str, Any] = {"input": text} if given is None else {"stdin": given}
+        done = subprocess.run(words, **source, capture_output=True, text=True, encoding="utf-8", env=environment_alone())
     except OSError as error:
         raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
                                "check that it is installed") from None
@@ -144,26 +193,103 @@ def quantity(path: str) -> dict[str, str]:
 
 
 def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Returns the scene file as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs),
-    edge_pinning (by which a coarse spacing increases the pull-off force of a sphere)."""
+    """Checks a scene without running it.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    overrides : Iterable[str]
+        Overrides, each "section.key=value".
+
+    Returns
+    -------
+    dict[str, Any]
+        The scene as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs), edge_pinning (the factor by
+        which a coarse spacing increases the pull-off force of a sphere).
+
+    Raises
+    ------
+    Error
+        The file cannot be read.
+    """
     return json.loads(call(["check", scene, *sets(overrides), "--json"]))
 
 
 def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Returns the memory ("bytes") and time ("seconds") that a run of a scene takes, by part, and its effects."""
+    """Rehearses a run.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    overrides : Iterable[str]
+        Overrides, each "section.key=value".
+
+    Returns
+    -------
+    dict[str, Any]
+        Memory ("bytes") and time ("seconds", s) that a run takes, by part, and its effects.
+
+    Raises
+    ------
+    Error
+        The scene is refused.
+    """
     return json.loads(call(["plan", scene, *sets(overrides), "--json"]))
 
 
 def surface(scene: str, overrides: Iterable[str] = (), out: str = "") -> dict[str, Any]:
-    """Returns the surface that a scene makes: rms (Å), slope_of_neighbours, notes, and doubts: those on the file of a map. out: a
-    directory for heights.h5."""
+    """Makes the surface of a scene.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    overrides : Iterable[str]
+        Overrides, each "section.key=value".
+    out : str
+        Directory for heights.h5; "": none is written.
+
+    Returns
+    -------
+    dict[str, Any]
+        rms (Å), slope_of_neighbours, notes, and doubts: the notes on the file of a map.
+
+    Raises
+    ------
+    Error
+        The scene is refused.
+    """
     return json.loads(call(["surface", scene, *sets(overrides), "--json", *(["--out", out] if out else [])]))
 
 
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
-    """Returns Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`); the
-    mistakes of a variation are in its `problems`. runnable: also the problems that would stop a run. profile: everything over
-    magnification, and theory.persson.critical_rms."""
+    """Computes Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`).
+
+    Parameters
+    ----------
+    scene : str
+        Scene file.
+    points : list[list[str]]
+        Overrides of each variation.
+    runnable : bool
+        True: with the problems that would stop a run.
+    profile : bool
+        True: with everything over the magnification, and theory.persson.critical_rms.
+
+    Returns
+    -------
+    list[dict]
+        An object for each variation; its `problems` are the mistakes of the variation.
+
+    Raises
+    ------
+    Error
+        The scene file cannot be read.
+    InternalError
+        The program gave another number of answers.
+    """
     text = "".join(json.dumps(point) + "\n" for point in points)
     words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
     lines = call(words, text=text).splitlines()
@@ -173,7 +299,20 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
 
 
 def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
-    """Refuses points with problems: raises SceneError with each problem once. where: places of swept keys."""
+    """Refuses points with problems, each problem once.
+
+    Parameters
+    ----------
+    points : list[dict[str, Any]]
+        Answers of theory_points().
+    where : dict[str, str], optional
+        Places of swept keys, for the messages.
+
+    Raises
+    ------
+    SceneError
+        A point has a problem.
+    """
     found: dict[tuple[str, str], dict] = {}
     for point in points:
         for problem in point.get("problems", []):

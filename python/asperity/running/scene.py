@@ -27,7 +27,8 @@ OVERRIDE = "--set "
 
 
 def toml_value(value: Any) -> str:
-    """Returns a value as it stands in TOML; a JSON string is a TOML string as well."""
+    """Returns a value as it stands in TOML; a JSON string is a TOML string as well. Raises SceneError for another
+    object."""
     if isinstance(value, (list, tuple)):
         return "[" + ", ".join(toml_value(v) for v in value) + "]"
     if hasattr(value, "item"):  # a number of numpy
@@ -57,7 +58,8 @@ def toml_of(scene: Mapping[str, Any]) -> str:
 
 
 def assignments(overrides: Overrides | None) -> list[str]:
-    """Returns overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings."""
+    """Returns overrides as "key=value": of a mapping, whose sections may be mappings themselves, or a list of such strings.
+    Raises SceneError for anything else."""
     if overrides is None:
         return []
     if not isinstance(overrides, Mapping):
@@ -77,13 +79,39 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 
 def file_beside(name: str, scene: str) -> str:
-    """Returns the path of a file that a scene names: beside the scene, or else in the working directory."""
+    """Returns the path of a file that a scene names: beside the scene, or else in the working directory.
+
+    Parameters
+    ----------
+    name : str
+        Name of the file in the scene.
+    scene : str
+        Scene file.
+
+    Returns
+    -------
+    str
+        The path.
+    """
     beside = Path(scene).parent / name
     return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Returns the paths of the files that a command reads for a scene: its file, its map or atoms, and its table."""
+    """Returns the files that a command reads for a scene: its file, its map or atoms, and its table.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    scene : Mapping[str, Any]
+        Keys of the scene.
+
+    Returns
+    -------
+    list[str]
+        The paths.
+    """
     named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("interface", "table"))]
     return [str(file), *(file_beside(name, str(file)) for name in named if name)]
 
@@ -99,8 +127,22 @@ def _caller() -> str:
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
-    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name", in the folder if it is given.
-    overrides: those that a script gave; errors about them name the script."""
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name".
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    folder : str
+        Folder of the temporary file; "": that of the system.
+    overrides : Overrides, optional
+        Overrides that a script gave; errors about them name the script.
+
+    Yields
+    ------
+    str
+        The path of the file.
+    """
     try:
         with _file_of(scene, folder) as file:
             yield file

@@ -59,6 +59,7 @@ class Spectrum:
         return self.c[piece] * qa ** (k + 1) * _power_integral(k + 1 + self.n[piece], np.log(q / qa))
 
     def variance_above(self, q: np.ndarray) -> np.ndarray:
+        """Returns the variance of the heights in the waves above wave numbers q (1/Å), Å²."""
         piece = np.maximum(np.searchsorted(self.qa, q, "right") - 1, 0)
         below = self._below[piece] + self._moments(1, np.clip(q, self.qa[piece], self.qb[piece]), piece)
         return 2 * math.pi * np.maximum(self._below[-1] - below, 0)
@@ -92,13 +93,37 @@ class Flat:
         self.well = self.inflection - self.separation
 
     def pair(self, u: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns V, V'/r and (V'/r)'/r of each ring, by separation."""
+        """Returns the pair potential of each ring of atoms of the lattice.
+
+        Parameters
+        ----------
+        u : np.ndarray
+            Separations, Å.
+
+        Returns
+        -------
+        tuple[np.ndarray, np.ndarray, np.ndarray]
+            V (eV), V'/r (eV/Å²) and (V'/r)'/r (eV/Å⁴), by ring and separation.
+        """
         r = np.sqrt(np.asarray(u)[..., None] ** 2 + self.rings[:, 0] ** 2)
         found = np.where((r <= self.last)[..., None], self._pair(np.log(r)), 0)
         return found[..., 0], found[..., 1], found[..., 2]
 
     def derivative(self, u: Any, order: int) -> Any:
-        """Returns φ, φ′ or φ″ at separations u."""
+        """Returns the energy of a flat surface, or a derivative of it.
+
+        Parameters
+        ----------
+        u : Any
+            Separations, Å.
+        order : int
+            0, 1 or 2.
+
+        Returns
+        -------
+        Any
+            φ (eV/Å²), φ′ or φ″ at the separations.
+        """
         u = np.asarray(u, float)
         if not len(self.rings):
             return np.where(u <= self.last, self._wall(u, order), 0)
@@ -108,7 +133,20 @@ class Flat:
 
     def touching(self, u: np.ndarray, slopes: float) -> np.ndarray:
         """Returns the fraction of sites in contact over a surface of Gaussian slopes: of the four corners below a site the
-        nearest is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat, which is below y with the probability erf(y/aσ)²."""
+        nearest is closer by (a/2)(|∂h/∂x| + |∂h/∂y|) than on the flat, which is below y with the probability erf(y/aσ)².
+
+        Parameters
+        ----------
+        u : np.ndarray
+            Separations, Å.
+        slopes : float
+            Standard deviation σ of a component of the slope.
+
+        Returns
+        -------
+        np.ndarray
+            The fractions, 0 to 1.
+        """
         if not slopes > 0 or self.spacing == 0:
             return np.where(u < self.contact, 1.0, 0.0)
         y = np.maximum(u - self.contact, 0) / (self.spacing * math.sqrt(slopes / 2))
@@ -295,7 +333,25 @@ has cost before sites slide, and lateral forces by a stiffer block."""
 
 
 def state(rough: dict[str, Any], quick: bool = False) -> State:
-    """Computes the state from the program's input of a scene; quick: on two grids, known to about 1e-3. Raises NoSolution."""
+    """Computes the state of a scene.
+
+    Parameters
+    ----------
+    rough : dict[str, Any]
+        Input of the theory, as the program gives it.
+    quick : bool
+        True: on two grids, known to about 1e-3.
+
+    Returns
+    -------
+    State
+        The state.
+
+    Raises
+    ------
+    NoSolution
+        The theory has no state for this input.
+    """
     if "note" in rough:
         raise NoSolution(rough["note"])
     spectrum, flat = Spectrum(rough["spectrum"], rough["q_L"]), Flat(rough["flat"])
@@ -335,8 +391,21 @@ def state(rough: dict[str, Any], quick: bool = False) -> State:
 
 
 def expected_error(found: State, rough: dict[str, Any]) -> tuple[float, float]:
-    """Returns the expected errors of the ratio and the contact fraction: 19 of 20 simulated surfaces lie within them at zero
-    load (calibrated; docs/explanation/theory.md has how)."""
+    """Returns the expected errors of a state: 19 of 20 simulated surfaces lie within them at zero load (calibrated;
+    docs/explanation/theory.md has how).
+
+    Parameters
+    ----------
+    found : State
+        State.
+    rough : dict[str, Any]
+        Input of the theory.
+
+    Returns
+    -------
+    tuple[float, float]
+        Errors of γ_eff/Δγ and of the contact fraction.
+    """
     spectrum, flat = Spectrum(rough["spectrum"], rough["q_L"]), Flat(rough["flat"])
     scatter = (1 - min(max(found.ratio, 0.0), 1.0)) / math.sqrt(spectrum.waves)
     few, few_contact = (0.5, 0.8) if rough["realised"] else (1.5, 1.1)

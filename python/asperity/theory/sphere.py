@@ -30,7 +30,18 @@ RATIOS = np.sinh(np.geomspace(1e-8, 15, 4000))
 
 
 def jkr(a: Any) -> tuple[Any, Any, Any]:
-    """Returns force, radius and approach in Maugis' units at the contact radius a."""
+    """Computes JKR's sphere.
+
+    Parameters
+    ----------
+    a : Any
+        Contact radius, in Maugis' units.
+
+    Returns
+    -------
+    tuple[Any, Any, Any]
+        Force, radius and approach in Maugis' units.
+    """
     return a**3 - np.sqrt(6 * a**3), a, a**2 - 2 / 3 * np.sqrt(6 * a)
 
 
@@ -60,7 +71,20 @@ def openings(s: Any) -> Openings:
 
 
 def maugis(parameter: Any, at: Any) -> tuple[Any, Any, Any]:
-    """Returns force, radius and approach in Maugis' units at λ and √(m² - 1), or its openings()."""
+    """Computes the sphere of Maugis and Dugdale.
+
+    Parameters
+    ----------
+    parameter : Any
+        Maugis' λ.
+    at : Any
+        √(m² - 1), or its openings().
+
+    Returns
+    -------
+    tuple[Any, Any, Any]
+        Force, radius and approach in Maugis' units.
+    """
     s, m, angle, hertz, adhesion = at if isinstance(at, Openings) else openings(at)
     A, B = parameter / 2 * hertz, 4 * parameter**2 / 3 * adhesion
     a = 2 / (B + np.sqrt(B * B + 4 * A))  # A a² + B a = 1
@@ -68,6 +92,9 @@ def maugis(parameter: Any, at: Any) -> tuple[Any, Any, Any]:
 
 
 class Sphere(NamedTuple):
+    """A smooth sphere on a half-space: radius (Å), modulus E* (eV/Å³), work of adhesion (eV/Å²), period of its images (Å),
+    equilibrium separation d0 (Å)."""
+
     radius: float
     modulus: float
     """E*"""
@@ -78,16 +105,42 @@ class Sphere(NamedTuple):
 
     @property
     def stiffness(self) -> float:
+        """4 E*/3, eV/Å³."""
         return 4 * self.modulus / 3
 
     def parameter(self, stress: float, radius: Any = None) -> Any:
-        """Returns Maugis' λ of a sphere of this radius."""
+        """Returns Maugis' λ.
+
+        Parameters
+        ----------
+        stress : float
+            Theoretical stress, eV/Å³.
+        radius : Any
+            Radius, Å; None: that of the sphere.
+
+        Returns
+        -------
+        Any
+            λ, a pure number.
+        """
         return 2 * stress * np.cbrt((self.radius if radius is None else radius) / (
             math.pi * self.work * self.stiffness**2))
 
     def curve(self, at: np.ndarray, stress: float | None = None) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Returns mean height, force and contact radius with the images: by JKR at these contact radii, or by Maugis and
-        Dugdale with this stress at these √(m² - 1). NaN if the images flatten the sphere, or do not converge."""
+        """Computes a path of the sphere with its images.
+
+        Parameters
+        ----------
+        at : np.ndarray
+            Contact radii, Å; with a stress √(m² - 1).
+        stress : float, optional
+            Stress of Maugis and Dugdale, eV/Å³; None: by JKR.
+
+        Returns
+        -------
+        tuple[np.ndarray, np.ndarray, np.ndarray]
+            Mean height (Å), force (eV/Å) and contact radius (Å). NaN if the images flatten the sphere, or do not converge.
+        """
         curvature = CURVATURE_SUM / (2 * math.pi * self.modulus * self.period**3)
         at = np.asarray(at, float)
         force = before = 0 * at

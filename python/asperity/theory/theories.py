@@ -26,8 +26,20 @@ _known: dict[str, dict[str, Any]] = {}
 
 
 def renormalised(rough: dict[str, Any], quick: bool = False) -> dict[str, Any]:
-    """Returns `theory.renormalised` from the program's input of a scene ("rough"); the same is not computed twice. quick: for
-    a curve, known to about 1e-3, without expected errors."""
+    """Computes the renormalised theory of a scene; the same is not computed twice.
+
+    Parameters
+    ----------
+    rough : dict[str, Any]
+        Input of the theory, as the program gives it.
+    quick : bool
+        True: for a curve, known to about 1e-3, without expected errors.
+
+    Returns
+    -------
+    dict[str, Any]
+        The object theory.renormalised of result.json.
+    """
     key = json.dumps([quick, rough])
     if key not in _known:
         _known[key] = _renormalised(rough, quick)
@@ -94,7 +106,26 @@ def _sphere(point: Values) -> dict[str, Any]:
 
 def points(file: str, variations: list[list[str]], runnable: bool = False, profile: bool = False,
            quick: bool = False) -> list[dict]:
-    """Returns the theories of many variations of a scene, as program.theory_points; quick: for a curve."""
+    """Computes the theories of many variations of a scene.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    variations : list[list[str]]
+        Overrides of each.
+    runnable : bool
+        True: with the problems that would stop a run.
+    profile : bool
+        True: with everything over the magnification.
+    quick : bool
+        True: for a curve.
+
+    Returns
+    -------
+    list[dict]
+        An object for each variation, as of program.theory_points().
+    """
     found = program.theory_points(file, variations, runnable, profile)
     for point in found:
         if (rough := point.pop("rough", None)) is not None:
@@ -108,7 +139,22 @@ def points(file: str, variations: list[list[str]], runnable: bool = False, profi
 
 
 def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = False) -> list[Values]:
-    """Returns the theories of a run's scene with some keys changed; [] if there are none. quick: for a curve."""
+    """Computes the theories of a run's scene with some keys changed.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    variations : list[dict[str, Any]]
+        Changed keys of each, and their values.
+    quick : bool
+        True: for a curve.
+
+    Returns
+    -------
+    list[Values]
+        The theories; [] if there are none.
+    """
     if not run.part("scene"):
         return []
     overrides: dict[str, Any] = {}
@@ -145,8 +191,21 @@ def complete(run: Result) -> None:
 
 
 def sphere_curves(run: Result, largest_force: float) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Returns force (eV/Å) over mean height (Å) of smooth spheres beside the path of a curved scene, with a label; up to the
-    contact radius at which JKR's force is a tenth above the largest of the run."""
+    """Computes smooth spheres beside the path of a curved scene, up to the contact radius at which JKR's force is a tenth
+    above the largest of the run.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    largest_force : float
+        Largest force of the run, eV/Å.
+
+    Returns
+    -------
+    list[tuple[str, np.ndarray, np.ndarray]]
+        For each its label, mean heights (Å) and forces (eV/Å).
+    """
     found = of_run(run)
     if not found or not run.curved:
         return []
