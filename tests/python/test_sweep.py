@@ -8,6 +8,7 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -446,12 +447,20 @@ def test_a_lock_that_is_anothers_by_now_stays(tmp_path):
     assert not file.exists() and not lock.is_used(tmp_path)
 
 
-def test_a_process_that_is_started_meanwhile_does_not_keep_the_lock(tmp_path):
-    with lock.in_use(tmp_path):
-        child = subprocess.Popen(["sleep", "60"], close_fds=False)
-    with lock.in_use(tmp_path):
-        child.kill()
-        child.wait()
+def test_the_lock_of_a_killed_process_is_not_kept_by_those_that_it_started(tmp_path):
+    lines = ("import os, pathlib, subprocess, sys, asperity.running.lock as lock\n"
+             "quiet = dict(stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)\n"
+             "with lock.in_use(pathlib.Path(sys.argv[1])):\n"
+             "    print(subprocess.Popen(['sleep', '60'], close_fds=False, **quiet).pid, flush=True)\n"
+             "    os._exit(9)")
+    done = subprocess.run([sys.executable, "-c", lines, str(tmp_path)], capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
+    try:
+        assert (tmp_path / "run.lock").exists()
+        with lock.in_use(tmp_path):
+            pass
+    finally:
+        os.kill(int(done.stdout), signal.SIGKILL)
 
 
 @pytest.mark.parametrize("out, says", [("", "is empty"), ("/", "root of all"), ("/../", "root of all")])
