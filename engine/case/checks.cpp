@@ -28,9 +28,9 @@ void check_path(const Case& c, io::Problems& problems) {
     if (c.scene.drive.path.empty())
         problems.add("drive.path", "is empty", "there would be nothing to do",
                      "for example path = [\"approach\", \"pull-off\"]");
-    const bool frictionless =
-        c.scene.interface.kind == InterfaceKind::wall || c.scene.interface.frictionless;
-    bool apart = true; // beyond the interaction range
+    bool apart = true;   // beyond the interaction range
+    bool loaded = false; // a load was led to, and no height since
+    const bool wall = c.scene.interface.kind == InterfaceKind::wall;
     for (std::size_t i = 0; i < c.path().size(); ++i) {
         const Segment& segment = c.path()[i];
         const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
@@ -46,12 +46,14 @@ void check_path(const Case& c, io::Problems& problems) {
                        "an approach starts beyond the interaction range",
                        "put a \"pull-off\" before it, or lead it further with \"load\" or "
                        "\"height\"");
+            loaded = true;
             break;
         case Segment::pull_off:
             if (after_all)
                 refuse("with nothing to pull off",
                        "it starts where an \"approach\" or \"relax\" ends",
                        "for example path = [\"approach\", \"pull-off\"]");
+            loaded = false;
             break;
         case Segment::relax:
             if (i > 0)
@@ -59,9 +61,13 @@ void check_path(const Case& c, io::Problems& problems) {
                        "it goes straight to the relaxed state and needs nothing before it",
                        "take it out, or take path = [\"relax\"]: after an approach the state "
                        "under zero load is found anyway");
+            loaded = true;
             break;
         case Segment::load:
+            loaded = true;
+            break;
         case Segment::height:
+            loaded = false;
             break;
         case Segment::slide:
             if (after_all)
@@ -70,10 +76,26 @@ void check_path(const Case& c, io::Problems& problems) {
             if (c.scene.interface.tail)
                 refuse("with interface.tail = true", "the tail has no lateral forces",
                        "take a larger interface.cutoff and tail = false");
-            if (frictionless)
-                refuse("without lateral forces",
-                       "over a wall, or with interface.frictionless, nothing resists a slide",
-                       "take interface.kind = \"atoms\" with frictionless = false");
+            if (!wall && c.scene.interface.frictionless)
+                refuse("without lateral forces", "with interface.frictionless nothing resists it",
+                       "take frictionless = false");
+            if (wall && c.effects.dynamic)
+                refuse("over a wall on a dynamic path",
+                       "a wall moves under a block that is in force balance",
+                       "take drive.mode = \"quasistatic\"");
+            if (!wall && (segment.under || segment.until_steady))
+                refuse("over atoms",
+                       "a slide over atoms is at the same height, and as long as the scene says",
+                       "leave \"under load\" and \"until steady\" out, or take "
+                       "interface.kind = \"wall\"");
+            if (segment.under && !loaded)
+                refuse("after a segment that leads to no load", "there is none to keep",
+                       "put a \"load\" before it");
+            if (segment.under && !c.scene.block.prony.empty() &&
+                c.scene.drive.control == Control::top)
+                refuse("with block.prony and drive.control = \"top\"",
+                       "a viscoelastic block under load would be stretched as a whole in time",
+                       "take drive.control = \"mean-height\"");
             break;
         case Segment::hold:
             if (!c.effects.dynamic && c.scene.block.prony.empty())

@@ -326,6 +326,19 @@ void fill_motion(Case& c, io::Problems& refused) {
                         0.1 * period));
 }
 
+/// Gives slides under load the load at which the path was before: that of the last approach,
+/// relaxed state or load. (check_path() refuses others.)
+void set_loads_of_slides(Case& c) {
+    const double megapascal = units::megapascal * c.scene.edge() * c.scene.edge();
+    double load = 0.0;
+    for (Segment& segment : c.simulation.drive.path) {
+        if (segment.kind == Segment::approach || segment.kind == Segment::relax)
+            load = c.scene.drive.load * megapascal;
+        if (segment.kind == Segment::load) load = segment.amount;
+        if (segment.under) segment.under = load;
+    }
+}
+
 /// Checks that the ranks can share the box, and how evenly.
 void look_at_ranks(Case& c, io::Problems& refused) {
     try {
@@ -415,6 +428,7 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     c.ranks = ranks;
     io::Problems found = scene.problems();
     c.simulation.drive.path = parse_path(scene.drive.path, scene.edge() * scene.edge(), found);
+    set_loads_of_slides(c);
     c.effects.dynamic = dynamic_effect(c);
     c.simulation.block = block_of(scene, c.effects.dynamic);
     c.surface = surface_options(scene);

@@ -11,7 +11,8 @@ namespace asperity {
 
 HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
     : height_(substrate.height), sites_(substrate.sites),
-      spacing_(substrate.sites == sites ? spacing : sites * spacing / substrate.sites) {
+      spacing_(substrate.sites == sites ? spacing : sites * spacing / substrate.sites),
+      radius_(substrate.radius) {
     const auto edge = static_cast<std::size_t>(sites_);
     if (height_.size() != edge * edge)
         throw std::invalid_argument(

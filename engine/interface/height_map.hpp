@@ -38,6 +38,9 @@ public:
     int sites() const { return sites_; }        ///< returns the number of atoms across the box
     double spacing() const { return spacing_; } ///< returns b, Å
     double highest() const { return highest_; } ///< returns the largest height, Å
+    double radius() const {
+        return radius_;
+    } ///< returns that of the cap in the heights, Å; 0: none
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
     const std::vector<double>& heights() const { return height_; }
 
@@ -66,7 +69,7 @@ public:
 private:
     std::vector<double> height_;
     int sites_;
-    double spacing_, highest_;
+    double spacing_, highest_, radius_;
 };
 
 /// Greatest and least heights of the substrate around each block of sites, ring by ring

@@ -81,6 +81,7 @@ void Interface::slide_to(double x, double y) {
     if (std::array{x, y} == place_) return;
     if (!options_.slides) throw std::logic_error("interface: it was not made to slide");
     place_ = {x, y};
+    if (auto* const wall = std::get_if<OverWall>(&substrate_)) return wall->slide_to(x, y);
     const double step = map_.spacing();
     const auto spacings = [&](double at) { return static_cast<int>(std::lround(at / step)); };
     const std::array whole{spacings(x), spacings(y)};
@@ -128,7 +129,7 @@ Interface::Substrate Interface::substrate_of(const AtomPositions& atoms) const {
     switch (method_) {
     case InterfaceMethod::wall:
         if (!options_.wall) refuse("a wall needs its law");
-        return OverWall(map_, tile_, *options_.wall);
+        return OverWall(map_, tile_, *options_.wall, options_.slides);
     case InterfaceMethod::cells:
         if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
         return OverAtoms(atoms, tile_, spacing_, options_);

@@ -65,8 +65,8 @@ public:
                         SweepOptions how = {}) const;
 
     /// Moves the block to the place (x, y) over the substrate, Å; (0, 0) at first. Whole spacings
-    /// move the substrate and make its tables anew; the remainder is added to the displacements of
-    /// each sweep. Only with options.slides.
+    /// move a substrate of atoms and make its tables anew; the remainder is added to the
+    /// displacements of each sweep. A wall is moved by a Fourier shift. Only with options.slides.
     void slide_to(double x, double y);
     const std::array<double, 2>& place() const { return place_; }
 

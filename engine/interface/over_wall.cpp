@@ -8,12 +8,17 @@
 
 namespace asperity {
 
-OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law) : law_(law) {
+OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool slides)
+    : law_(law) {
     if (map.sites() != tile.sites)
         throw std::invalid_argument(fmt::format(
             "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
             "take surface.lattice_ratio = 1",
             tile.sites, tile.sites, map.sites(), map.sites()));
+    if (slides) {
+        sliding_.emplace(map, tile);
+        return;
+    }
     height_ = Field<double>(tile, 1, 0);
     const PlaneView<double> below = height_.plane(0);
     for (int y = 0; y < tile.ny; ++y)

@@ -7,14 +7,25 @@
 
 #include "decomposition/field.hpp"
 #include "engine/interface/height_map.hpp"
+#include "engine/interface/sliding_map.hpp"
 #include "engine/options/interface_options.hpp"
+
+#include <cstddef>
+#include <optional>
 
 namespace asperity {
 
 /// A wall in place of atoms.
 class OverWall {
 public:
-    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law);
+    /// slides: the block is moved over the wall.
+    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool slides);
+
+    /// Moves the block to (x, y) over the wall, Å. Only if it slides.
+    void slide_to(double x, double y) { sliding_->slide_to(x, y); }
+    /// Returns the derivative of height() with respect to the place along x or y. Only if it
+    /// slides.
+    PlaneView<const double> slope(std::size_t axis) const { return sliding_->slope(axis); }
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
@@ -27,11 +38,14 @@ public:
     }
 
     /// Returns the height of the wall below each site of the tile, Å.
-    PlaneView<const double> height() const { return height_.plane(0); }
-    std::size_t bytes() const { return height_.bytes(); }
+    PlaneView<const double> height() const {
+        return sliding_ ? sliding_->height() : height_.plane(0);
+    }
+    std::size_t bytes() const { return sliding_ ? sliding_->bytes() : height_.bytes(); }
 
 private:
-    Field<double> height_;
+    Field<double> height_; ///< empty if it slides
+    std::optional<SlidingMap> sliding_;
     WallLaw law_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace asperity {
@@ -20,14 +21,17 @@ struct Segment {
         height,   ///< up or down to a height of the lowest layer, Å: its mean height if that is
                   ///< held; otherwise its height in the undeformed block
         hold,     ///< at rest, for a time, fs
-        slide     ///< sideways by a distance, Å, at the same height
+        slide     ///< sideways by a distance, Å, at the same height or under a load
     };
     static constexpr std::size_t kinds = 7;
 
     Kind kind = approach;
-    double amount = 0.0; ///< amount in the unit above
-    int axis = 0;        ///< axis of a slide: 0 along x, 1 along y
-    std::string text{};  ///< text of the scene
+    double amount = 0.0;       ///< amount in the unit above
+    int axis = 0;              ///< axis of a slide: 0 along x, 1 along y
+    std::string text{};        ///< text of the scene
+    bool until_steady = false; ///< a slide ends as soon as its friction is steady
+    /// Load of a slide under load, eV/Å; empty: at the same height.
+    std::optional<double> under{};
 };
 
 /// Returns the word of a kind: "slide" for Segment::slide.

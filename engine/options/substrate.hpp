@@ -5,8 +5,10 @@
 // makes it).
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +41,13 @@ struct AtomPositions {
     std::size_t size() const { return x.size(); }
 };
 
+/// Returns the height of a spherical cap over its apex at (dx, dy) from it, Å: R - sqrt(R^2 -
+/// rho^2) downwards, written without the difference of two large numbers.
+inline double cap_of(double radius, double dx, double dy) {
+    const double rho2 = dx * dx + dy * dy;
+    return -rho2 / (radius + std::sqrt(radius * radius - rho2));
+}
+
 /// A substrate: its heights or atoms, and their statistics.
 struct Surface {
     int sites = 0;
@@ -55,5 +64,16 @@ struct Surface {
     std::vector<std::string> doubts; ///< sentences on possible mistakes in the file of a map
     std::vector<std::string> notes;  ///< sentences on clipping and resampling
 };
+
+/// Returns the length over which the heights of a substrate vary, Å: the wavelength of the mean
+/// wavevector of its roughness; of a smooth one a quarter of the box.
+inline double correlation_length(const Surface& s) {
+    double power = 0.0, mean = 0.0;
+    for (const SpectrumBin& bin : s.statistics.spectrum) {
+        power += bin.realised * bin.modes;
+        mean += bin.realised * bin.modes * bin.q;
+    }
+    return mean > 0.0 ? 2.0 * std::numbers::pi * power / mean : 0.25 * s.length;
+}
 
 } // namespace asperity

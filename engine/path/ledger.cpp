@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/ledger.hpp"
 
+#include <cmath>
+
 namespace asperity {
 
 Works Works::operator-(const Works& earlier) const {
@@ -22,7 +24,9 @@ std::optional<double> Ledger::per_area(const std::optional<double>& energy) cons
 void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& works,
                       const std::optional<double>& kinetic) {
     const Segment& segment = case_.path()[number];
-    SegmentResults ended = results_.ended(number, segment, now, works.lateral);
+    SegmentResults ended = results_.ended(number, segment, now, works.lateral,
+                                          works.distance.value_or(std::abs(segment.amount)));
+    ended.steady = works.steady;
     ended.work = per_area(works.on_solids);
     ended.lost = per_area(works.lost);
     if (case_.effects.branches) ended.relaxed = per_area(works.relaxed);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/options/segment.hpp"
+#include "engine/path/slide_average.hpp"
 #include "engine/statics/dissipation.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "engine/step_record.hpp"
@@ -41,6 +42,7 @@ struct SegmentResults {
     double attraction = 0.0;            ///< largest attraction, eV/Å
     std::optional<double> lateral_mean; ///< mean force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most; ///< largest force against a slide, eV/Å
+    std::optional<SteadySlide> steady;  ///< means of a slide over a wall after its running-in
     // State at the end of the segment:
     double force = 0.0, mean_height = 0.0, top = 0.0; ///< eV/Å, Å, Å
     std::optional<double> scatter; ///< scatter of a force averaged over thermal noise, eV/Å
@@ -61,6 +63,7 @@ struct SegmentResults {
         v("attraction", attraction);
         v("lateral_mean", lateral_mean);
         v("lateral_most", lateral_most);
+        v("steady", steady);
         v("force", force);
         v("scatter", scatter);
         v("mean_height", mean_height);
@@ -82,6 +85,7 @@ struct PathResults {
     std::vector<SegmentResults> segments; ///< segments that have ended
     // Largest attraction and force against a slide of the current segment, eV/Å.
     double attraction = 0.0, lateral_most = 0.0;
+    SlideAverage slide; ///< of a slide over a wall
 
     /// Returns the last segment of a kind that has ended, or nullptr.
     const SegmentResults* last(Segment::Kind kind) const {
@@ -89,7 +93,10 @@ struct PathResults {
         const auto found = std::find_if(segments.rbegin(), segments.rend(), is);
         return found == segments.rend() ? nullptr : &*found;
     }
-    void begin_segment() { attraction = lateral_most = 0.0; }
+    void begin_segment() {
+        attraction = lateral_most = 0.0;
+        slide.begin();
+    }
     /// Records the forces of a step or point of the current segment.
     void record_force(const Segment& segment, const StepRecord& now) {
         attraction = std::max(attraction, -now.force);
@@ -103,15 +110,15 @@ struct PathResults {
         return slide.amount > 0.0 ? -force : force;
     }
     /// Returns the results of a segment that has ended with this step or point. lateral_work: work
-    /// that moves the block sideways, eV.
+    /// that moves the block sideways, eV; distance: of a slide, Å.
     SegmentResults ended(std::size_t number, const Segment& segment, const StepRecord& now,
-                         double lateral_work) const {
+                         double lateral_work, double distance) const {
         SegmentResults r;
         r.number = number;
         r.kind = segment.kind;
         r.attraction = attraction;
         if (segment.kind == Segment::slide) {
-            r.lateral_mean = lateral_work / std::abs(segment.amount);
+            r.lateral_mean = lateral_work / distance;
             r.lateral_most = lateral_most;
         }
         r.force = now.force;
@@ -132,6 +139,7 @@ struct PathResults {
         v("segments", segments);
         v("attraction", attraction);
         v("lateral_most", lateral_most);
+        v("slide", slide);
         v("zero_load", zero_load);
     }
 };

@@ -35,6 +35,7 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
         if (first) points_->start();
         if (from_state) points_->start_here({.from_apart = true});
         points_->begin(case_.path()[segment()], segment());
+        if (case_.path()[segment()].kind == Segment::slide && interface_.wall()) record_slide();
         if (first || from_state) return Status::under_way;
     }
     const long long before = now().step;
@@ -42,8 +43,25 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
     if (outcome == QuasistaticPath::Outcome::interrupted) return std::nullopt;
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Status::already_at_end;
-    results_.record_force(segment_to_conclude(), now());
+    const Segment& segment = segment_to_conclude();
+    results_.record_force(segment, now());
+    if (segment.kind == Segment::slide && interface_.wall()) {
+        record_slide();
+        if (segment.until_steady && results_.slide.is_steady(correlation_length(surface_)))
+            return Status::at_end;
+    }
     return outcome == QuasistaticPath::Outcome::point ? Status::under_way : Status::at_end;
+}
+
+/// Adds the last point to the means of the slide.
+void StaticPath::record_slide() {
+    results_.slide.add({.distance = points_->way(),
+                        .work = points_->lateral_work(),
+                        .relaxed = points_->relaxed(),
+                        .lost = points_->dissipation().in_segment,
+                        .load = now().force,
+                        .in_contact = static_cast<double>(now().in_contact),
+                        .mean_height = now().mean_height});
 }
 
 std::optional<LayerAtRest> StaticPath::find_state() {
@@ -70,7 +88,7 @@ void StaticPath::conclude() {
     if (kind == Segment::relax) return;
     const bool slide = kind == Segment::slide;
     Works works{.on_solids = points_->work(),
-                .lateral = slide ? points_->work() : 0.0,
+                .lateral = slide ? points_->lateral_work() : 0.0,
                 .relaxed = points_->relaxed(),
                 .lost = points_->dissipation().in_segment,
                 .stored = points_->stored(),
@@ -78,7 +96,11 @@ void StaticPath::conclude() {
                 .uncertainty = points_->uncertainty()};
     // A held mean height does not jump: the holder's force is that of the interface.
     if (case_.simulation.drive.control == Control::mean_height)
-        works.interface = slide ? 0.0 : -points_->work();
+        works.interface = slide ? points_->lateral_work() - points_->work() : -points_->work();
+    if (slide && interface_.wall()) {
+        works.distance = points_->way();
+        works.steady = results_.slide.means(correlation_length(surface_));
+    }
     ledger_.conclude(segment(), now(), works, {});
 }
 

@@ -64,6 +64,7 @@ private:
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
     void make_points();
+    void record_slide();
 
     const ProcessGrid grid_;
     Interface interface_;

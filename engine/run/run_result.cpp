@@ -105,6 +105,26 @@ void add_sphere(const Case& c, io::Result& result) {
                                   theory::jkr::work_from_binding_energy(energy, *radius, modulus));
 }
 
+/// Adds the means of slide i after its running-in.
+void add_steady(const SteadySlide& s, const Case& c, std::size_t i, io::Result& result) {
+    result.set("segments[].steady", i, s.steady);
+    result.set("segments[].running_in", i, s.running_in);
+    result.set("segments[].steady_friction", i, s.friction);
+    result.set("segments[].steady_friction_error", i, s.friction_error);
+    const double megapascal = 1.0 / (c.area() * units::megapascal);
+    result.set("segments[].friction_stress", i, s.friction * megapascal);
+    result.set("segments[].steady_pressure", i, s.load * megapascal);
+    if (s.load > 0.0) {
+        result.set("segments[].friction_coefficient", i, s.friction / s.load);
+        result.set("segments[].friction_coefficient_error", i, s.friction_error / s.load);
+    }
+    result.set("segments[].steady_contact_fraction", i, s.in_contact / c.sites());
+    result.set("segments[].steady_contact_fraction_error", i, s.in_contact_error / c.sites());
+    result.set("segments[].steady_mean_height", i, s.mean_height);
+    if (c.effects.branches) result.set("segments[].steady_dissipated_in_block", i, s.relaxed);
+    result.set("segments[].steady_lost", i, s.lost);
+}
+
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
     result.set_list("segments[]");
     for (std::size_t i = 0; i < results.segments.size(); ++i) {
@@ -124,6 +144,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].largest_attraction", i, s.attraction);
         given("segments[].friction", s.lateral_mean);
         given("segments[].largest_friction", s.lateral_most);
+        if (s.steady) add_steady(*s.steady, c, i, result);
         result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
         if (s.scatter) {
             result.set("segments[].pressure_scatter", i,

@@ -178,6 +178,21 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     table.print(to);
     if (c.effects.dynamic) return;
     for (const SegmentResults& s : results.segments) {
+        if (!s.steady) continue;
+        const SteadySlide& mean = *s.steady;
+        const double megapascal = 1.0 / (c.area() * units::megapascal);
+        const std::string coefficient =
+            mean.load > 0.0
+                ? fmt::format(", coefficient {:.4g} ± {:.1g}", mean.friction / mean.load,
+                              mean.friction_error / mean.load)
+                : std::string();
+        fmt::print(to,
+                   "  \"{}\" after {:.4g} Å: friction {:.4g} ± {:.1g} MPa{}, contact {:.4f}{}.\n",
+                   c.path()[s.number].text, mean.running_in, mean.friction * megapascal,
+                   mean.friction_error * megapascal, coefficient, mean.in_contact / c.sites(),
+                   mean.steady ? "; steady" : "; not steady yet");
+    }
+    for (const SegmentResults& s : results.segments) {
         const Segment& asked = c.path()[s.number];
         if (asked.kind != Segment::load || asked.amount == 0.0 ||
             std::abs(s.force - asked.amount) <= 1.1 * load_accuracy * std::abs(asked.amount))

@@ -36,6 +36,16 @@ std::string examples() {
     return list;
 }
 
+/// Takes words off the end of a text, with the spaces before them. Returns false if it does not end
+/// with them.
+bool take_off(std::string& text, const std::string& words) {
+    while (!text.empty() && text.back() == ' ')
+        text.pop_back();
+    if (!text.ends_with(" " + words)) return false;
+    text.resize(text.size() - words.size() - 1);
+    return true;
+}
+
 /// Returns the text of a member after its first word, without the spaces between.
 std::string rest_of(const std::string& text, std::size_t from) {
     const std::size_t first = text.find_first_not_of(' ', from);
@@ -82,6 +92,14 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, double are
             }
             segment.axis = axis == "y";
             amount = rest_of(amount, axis.size());
+            bool more = true;
+            while (more) {
+                const bool steady = take_off(amount, "until steady");
+                const bool loaded = take_off(amount, "under load");
+                segment.until_steady |= steady;
+                if (loaded) segment.under = 0.0; // the value is known to resolve()
+                more = steady || loaded;
+            }
         }
         if (!wants_amount && !amount.empty()) {
             refuse(fmt::format("\"{}\" stands alone", name), fmt::format("take \"{}\"", name));

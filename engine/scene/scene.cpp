@@ -352,12 +352,14 @@ io::Schema bind(Scene& scene) {
         "mode", drive.mode,
         {{"dynamic", DriveMode::dynamic}, {"quasistatic", DriveMode::quasistatic}},
         "time steps (velocity Verlet), or force balance at each position");
-    schema.list("path", drive.path, {},
-                "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
-                "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
-                "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
-                "where that is controlled), \"slide x 5 Å\" (or y, at the same height), \"hold 20 "
-                "ps\" (dynamic, or with block.prony)");
+    schema.list(
+        "path", drive.path, {},
+        "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
+        "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
+        "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
+        "where that is controlled), \"slide x 5 Å\" (or y, at the same height; over a wall also "
+        "\"under load\" and \"until steady\"), \"hold 20 ps\" (dynamic, or with "
+        "block.prony)");
     schema
         .number("velocity", drive.velocity, "m/s", positive(),
                 "speed of the top plane (dynamic), or of what drive.control prescribes (with "
@@ -517,7 +519,7 @@ io::Schema bind(Scene& scene) {
 
     schema.variations({"sweep",
                        "What `asperity sweep` varies: any key above, with a list of values or a "
-                       "range start:stop:step. Other commands pass over it.",
+                       "range start:stop:step or start:stop:xFACTOR. Other commands pass over it.",
                        "surface.rms = [1, 2, 3]", &scene.sweep});
     schema.keep(kept);
     return schema;

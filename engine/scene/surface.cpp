@@ -115,11 +115,8 @@ Surface finish(const SurfaceOptions& o, Surface s) {
         for (int y = 0; y < s.sites; ++y)
             for (int x = 0; x < s.sites; ++x) {
                 const double dx = x * spacing - centre, dy = y * spacing - centre;
-                const double rho2 = dx * dx + dy * dy;
-                // R - sqrt(R^2 - rho^2), written without the difference of two large numbers.
                 s.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(s.sites) +
-                         static_cast<std::size_t>(x)] -=
-                    rho2 / (o.radius + std::sqrt(o.radius * o.radius - rho2));
+                         static_cast<std::size_t>(x)] += cap_of(o.radius, dx, dy);
             }
     }
     const auto [low, high] = std::minmax_element(s.height.begin(), s.height.end());

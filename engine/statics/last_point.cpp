@@ -33,6 +33,8 @@ void LastPoint::accept(double at) {
     at_ = at;
     if (along_ == Along::z) normal_ = at;
     if (along_ == Along::time) clock_ = at;
+    if (load_)
+        normal_ = options_.along == Constraint::Of::top ? block_.drive() : block_.mean_height();
     place_ = interface_.place();
 }
 
@@ -49,6 +51,10 @@ RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
     block_.begin_step(dt, last_dt_);
     dt_ = dt;
     place_block(at);
+    // A wall takes the displacements along.
+    const std::array<double, 2>& place = interface_.place();
+    if (interface_.wall() && place != place_)
+        block_.carry(place[0] - place_[0], place[1] - place_[1]);
     RelaxOptions options;
     options.start = Start::near;
     options.tolerance = options_.tolerance;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace asperity {
@@ -36,6 +37,9 @@ public:
     /// Selects the coordinate that changes from now on. Returns its value.
     double lead(Along along);
     double at() const { return at_; }
+    /// Holds a load, eV/Å, in place of the prescribed quantity along z; nothing: that quantity,
+    /// where it is. Only with the place or time as the coordinate.
+    void press(std::optional<double> load) { load_ = load; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
 
@@ -79,6 +83,7 @@ public:
         v("at", at_);
         v("along", along_);
         v("normal", normal_);
+        v("load", load_);
         v("place", place_);
         v("clock", clock_);
         v("iterations", iterations_);
@@ -91,6 +96,8 @@ public:
 private:
     /// Returns the constraint along z with the coordinate at this value.
     Constraint constraint(double at) const {
+        if (load_ && options_.along == Constraint::Of::top) return Constraint::load(*load_);
+        if (load_) return Constraint::load_without_stretch(*load_);
         return {options_.along, along_ == Along::z ? at : normal_};
     }
     void place_block(double at);
@@ -104,6 +111,7 @@ private:
     Along along_ = Along::z;
     double balance_ = HUGE_VAL;     ///< eV/Å
     double normal_ = 0.0;           ///< prescribed value along z, Å
+    std::optional<double> load_;    ///< held in place of normal_, eV/Å
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     long long iterations_ = 0;

@@ -49,14 +49,22 @@ double QuasistaticPath::allowed_missing(double way, double tolerance) const {
 /// Returns the energy that may be missing in a step in time, eV. An unstable patch of a slow block
 /// moves while the drive hardly moves: the tolerance is then for each Å of the way of each site.
 double QuasistaticPath::allowed_missing_in_time(double way, double tolerance) const {
-    const double allowed = allowed_missing(std::min(way, options_.step), tolerance);
+    const double allowed = allowed_missing(std::min(way, usual_step()), tolerance);
     if (!(options_.velocity > 0.0)) return allowed;
     return std::max(allowed, tolerance * last_.all_moves());
 }
 
+/// Returns the step of the path, Å; of a slide over a wall it is half a spacing of the sites if
+/// that is longer: every wave of the map is then seen four times.
+double QuasistaticPath::usual_step() const {
+    const bool sideways = course_.along == Along::x || course_.along == Along::y;
+    if (!sideways || !options_.over_wall) return options_.step;
+    return std::max(options_.step, 0.5 * block_.options().spacing);
+}
+
 /// Returns the length of the longest step, Å; a hold is bounded by its errors alone.
 double QuasistaticPath::longest_step() const {
-    return course_.along == Along::time ? HUGE_VAL : options_.step;
+    return course_.along == Along::time ? HUGE_VAL : usual_step();
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
@@ -252,10 +260,13 @@ ForceWindow QuasistaticPath::acceptable_force(double to) const {
 }
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
-    course_.work += step.work;
+    // A load works as well.
+    const double pressed = -course_.held.value_or(0.0) * (lifted(state) - record_.top);
+    course_.work += step.work + pressed;
+    if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
     // An extension that is wrong acts on with the larger ones that follow: twice.
     course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.branches.error);
-    record_.work += step.work;
+    record_.work += step.work + pressed;
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
         course_.errors.add_instability(at, way, step.uncertain,

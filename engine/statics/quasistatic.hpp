@@ -10,8 +10,10 @@
 // whole on its own spring is then stable; only patches of the surface can be unstable. "Top" then
 // means this mean height, as a displacement.
 //
-// A slide changes the place of the block over the substrate at a fixed top or mean height. The
-// force is then that of the substrate along the slide, and "top" means the place.
+// A slide changes the place of the block over the substrate at a fixed top or mean height, or under
+// a load, whose potential is then a part of the energy. The force is that of the substrate along
+// the slide, and "top" means the place. Over a wall the map of heights moves under the block, and
+// the force is that of the pressure on the slopes, sum F dh/dx.
 //
 // Between two points, the work of the top plane -int F dz_top is the change of the energy
 // U_LJ + U_el, unless the block became unstable in between and changed to another state: the
@@ -93,6 +95,10 @@ public:
     /// Returns the work done on the block in the segment under way, eV. At a held mean height the
     /// work is minus that of the interface's force, because the mean height does not jump.
     double work() const { return course_.work; }
+    /// Returns the distance from the beginning of the segment under way, Å.
+    double way() const { return std::abs(at() - course_.from); }
+    /// Returns the part of work() that moves the block sideways, eV.
+    double lateral_work() const { return course_.lateral; }
     /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
     /// (work_errors.hpp; docs/explanation/relaxation.md has how often it holds).
     double uncertainty() const { return course_.errors.total(); }
@@ -131,7 +137,10 @@ private:
         SegmentRule rule;             ///< rule of a segment that a force ends
         LoadAim aim;                  ///< way to a load
         bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
+        double from = 0.0;            ///< where it began, Å
+        std::optional<double> held;   ///< load of a slide under load, eV/Å
         double work = 0.0;            ///< work of the top plane, eV
+        double lateral = 0.0;         ///< part of it that moves the block sideways, eV
         double relaxed = 0.0;         ///< dissipated by the block, eV
         double stored_at_start = 0.0; ///< energy of interface and block, eV
         WorkErrors errors;            ///< uncertainty of work and dissipated energy
@@ -146,7 +155,10 @@ private:
             v("rule", rule);
             v("aim", aim);
             v("comes_to_rest", comes_to_rest);
+            v("from", from);
+            v("held", held);
             v("work", work);
+            v("lateral", lateral);
             v("relaxed", relaxed);
             v("stored_at_start", stored_at_start);
             v("errors", errors);
@@ -170,12 +182,20 @@ private:
     /// Returns the last point. Its energy contains the energy that the block has dissipated in
     /// time.
     PathPoint point() const {
-        return {at(), force(), record_.interface_energy + record_.elastic_energy + record_.relaxed};
+        return {at(), force(),
+                record_.interface_energy + record_.elastic_energy + record_.relaxed +
+                    course_.held.value_or(0.0) * record_.top};
+    }
+    /// Returns the displacement of what a load acts on, Å: of the top plane, or the mean height of
+    /// the lowest layer.
+    double lifted(const RelaxedState& state) const {
+        return options_.along == Constraint::Of::top ? state.top : state.mean_height;
     }
     /// Returns the point of an equilibrium at this value of the prescribed coordinate.
     PathPoint point(const RelaxedState& state, double at) const;
     std::array<double, 2> lateral_force() const;
     void begin(Along along, double direction);
+    void hold_load(std::optional<double> load);
     Outcome outcome();
     Outcome come_to_rest();
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
@@ -192,6 +212,7 @@ private:
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, Here here);
+    double usual_step() const;
     double longest_step() const;
     double smallest_step() const;
     /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
@@ -211,7 +232,7 @@ private:
     void turn();
     /// Returns the uncertainty that the work of a step with an instability may have, eV.
     double allowed_uncertainty(double tolerance) const {
-        return allowed_missing(options_.step, tolerance);
+        return allowed_missing(usual_step(), tolerance);
     }
 
     SpectralBlock& block_;

@@ -45,6 +45,17 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
 std::array<double, 2> QuasistaticPath::lateral_force() const {
     const VectorPlane<double> f = block_.interface_force();
     std::array<ExactSum, 2> sums;
+    if (const OverWall* const wall = interface_.wall()) {
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+            const PlaneView<const double> slope = wall->slope(axis);
+            for (int y = 0; y < f.z.ny; ++y) {
+                for (int x = 0; x < f.z.nx; ++x)
+                    sums[axis].add(-f.z(x, y) * slope(x, y));
+                sums[axis].carry();
+            }
+        }
+        return global_sums(block_.communicator(), sums);
+    }
     elastic_kernels().sum(f.x, 0, f.x.ny, sums[0]);
     elastic_kernels().sum(f.y, 0, f.y.ny, sums[1]);
     return global_sums(block_.communicator(), sums);
@@ -56,7 +67,7 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
                                                         : lateral_force()[axis()];
     return {at, force,
             state.interface_energy + state.elastic_energy + record_.relaxed +
-                state.branches.dissipated};
+                state.branches.dissipated + course_.held.value_or(0.0) * lifted(state)};
 }
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
@@ -64,6 +75,8 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
         record_.drive = at;
     else if (course_.along != Along::time)
         record_.slide[axis()] = at;
+    if (course_.held)
+        record_.drive = options_.along == Constraint::Of::top ? block_.drive() : state.mean_height;
     if (interface_.options().slides) record_.lateral_force = lateral_force();
     record_.top = options_.along == Constraint::Of::top ? state.top : record_.drive;
     record_.mean_height = options_.reference_height + state.mean_height;

@@ -118,6 +118,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
                         : segment.axis == 0              ? Along::x
                                                          : Along::y;
     const double from = last_.lead(along);
+    hold_load(segment.under);
     double direction = 0.0;
     switch (segment.kind) {
     case Segment::approach:
@@ -157,7 +158,14 @@ void QuasistaticPath::begin_to(double at) {
     course_.load.reset();
     course_.end = at;
     const double from = last_.lead(Along::z);
+    hold_load({});
     begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
+}
+
+/// Holds a load in place of what the path prescribes along z, or no longer.
+void QuasistaticPath::hold_load(std::optional<double> load) {
+    course_.held = load;
+    last_.press(load);
 }
 
 void QuasistaticPath::begin(Along along, double direction) {
@@ -183,7 +191,8 @@ void QuasistaticPath::begin(Along along, double direction) {
     course_.aim.begin();
     course_.errors.begin();
     course_.comes_to_rest = false;
-    course_.work = course_.relaxed = 0.0;
+    course_.from = at();
+    course_.work = course_.lateral = course_.relaxed = 0.0;
     course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
 }

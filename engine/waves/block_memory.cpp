@@ -162,17 +162,19 @@ SiteField<double> BlockMemory::second_difference(const SiteField<double>& d) con
     return c;
 }
 
-BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& square) const {
+BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& square,
+                                     const Product& product) const {
     BranchEnergies energies;
     SiteField<double> d = new_field(), field = new_field();
     combine(1.0, to, -1.0, w_, d);
     const SiteField<double> c = second_difference(d);
     const bool bent = weight() > 0.0;
     const double of_c = bent ? square(c) : 0.0;
-    double of_change = 0.0; // change of the second difference
+    SiteField<double> change = new_field(); // of the second difference
+    double of_change = 0.0;
     if (bent) {
-        combine(1.0, c, -ratio() * ratio(), history_[1], field);
-        of_change = std::sqrt(square(field));
+        combine(1.0, c, -ratio() * ratio(), history_[1], change);
+        of_change = square(change);
     }
     const double of_d = bent ? 0.0 : square(d);
     for (std::size_t k = 0; k < branches_.size(); ++k) {
@@ -183,8 +185,9 @@ BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& 
         if (bent) combine(decay.g, c, 1.0, field, field);
         const double of_h = square(field);
         energies.stored += 0.5 * ratio * of_h;
-        const double off = decay.g * of_change;
-        energies.error += ratio * off * (std::sqrt(of_h) + 0.5 * off);
+        if (bent)
+            energies.error += ratio * std::abs(decay.g) *
+                              (product(change, field) + 0.5 * std::abs(decay.g) * of_change);
         combine(loss.l00, h_[k], loss.l10, d, field);
         if (bent) combine(loss.l20, c, 1.0, field, field);
         double lost = square(field);

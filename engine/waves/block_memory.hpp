@@ -23,8 +23,9 @@
 // c0 are kept at the sites.
 //
 // The error of a step in time is judged by how far its second difference is from that of the step
-// before, rho^2 c0: with |y|^2 = y.(S y) and y_k = g_k (c - rho^2 c0), by sum r_k |y_k| (|h'_k| +
-// |y_k|/2), an energy. Where the third derivative of w is even, h' is wrong by half of y.
+// before, rho^2 c0: with y_k = g_k (c - rho^2 c0), by sum r_k (|y_k|.|S h'_k| + y_k.(S y_k)/2), an
+// energy, |.| site by site: where a site comes into contact its w has a kink, and the other sites'
+// h' has no part in the error. Where the third derivative of w is even, h' is wrong by half of y.
 #pragma once
 
 #include "decomposition/surface_transform.hpp"
@@ -60,7 +61,10 @@ public:
     /// Returns the energies of the step if it ends at w' = `to`; square: returns u.(S u) of a
     /// field, S the relaxed stiffness.
     using Square = std::function<double(const SiteField<double>&)>;
-    BranchEnergies energies(const SiteField<double>& to, const Square& square) const;
+    /// product: returns the sum over the sites of |a.(S b)|.
+    using Product = std::function<double(const SiteField<double>&, const SiteField<double>&)>;
+    BranchEnergies energies(const SiteField<double>& to, const Square& square,
+                            const Product& product) const;
     /// Ends the step at w' = `to`.
     void end(SiteField<double> to);
 

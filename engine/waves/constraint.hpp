@@ -16,8 +16,14 @@ struct Constraint {
     };
     Of of = Of::load;
     double value = 0.0;
+    bool stretches = true; ///< a load stretches the block as a whole; otherwise it only lifts it
 
     static constexpr Constraint load(double force) { return {Of::load, force}; }
+    /// Returns a load on the lowest layer as a whole, eV/Å, as a held mean height takes it: the
+    /// block is not stretched.
+    static constexpr Constraint load_without_stretch(double force) {
+        return {Of::load, force, false};
+    }
     static constexpr Constraint top(double z) { return {Of::top, z}; }
     static constexpr Constraint mean_height(double z) { return {Of::mean_height, z}; }
     bool is_top() const { return of == Of::top; }

@@ -7,6 +7,9 @@
 #include "kernels/elastic_level.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
 #include <span>
 #include <utility>
 
@@ -154,7 +157,8 @@ double Response::held_stiffness() const {
 }
 
 double Response::top() const {
-    if (!constraint_.is_top()) return mean_height() - constraint_.load() / spring();
+    if (!constraint_.is_top())
+        return mean_height() - (constraint_.stretches ? constraint_.load() / spring() : 0.0);
     return constraint_.value + (machine_ ? top_force() / *machine_ : 0.0);
 }
 
@@ -184,7 +188,7 @@ BlockEnergies Response::energies() const {
     stiffen_relaxed(su);
     double twice = dot(waves_, su);
     if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
-    const double load = constraint_.load();
+    const double load = constraint_.stretches ? constraint_.load() : 0.0;
     BlockEnergies energies{.elastic = 0.5 * (twice + load * load / spring())};
     if (machine_) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
@@ -192,7 +196,10 @@ BlockEnergies Response::energies() const {
     }
     if (memory_)
         energies.branches = memory_->energies(
-            from_top(), [&](const SiteField<double>& u) { return twice_energy(u); });
+            from_top(), [&](const SiteField<double>& u) { return twice_energy(u); },
+            [&](const SiteField<double>& a, const SiteField<double>& b) {
+                return local_products(a, b);
+            });
     return energies;
 }
 
@@ -203,6 +210,68 @@ double Response::twice_energy(const SiteField<double>& u) const {
     combine(1.0 / (sites * sites), waves, 0.0, su);
     stiffen_relaxed(su);
     return dot(waves, su) / (sites * sites);
+}
+
+void Response::carry(double x, double y) {
+    SiteField<double> field = new_field<double>();
+    for (int c = 0; c < components_; ++c) {
+        const PlaneView<const double> from = moving(layer_.plane(0), c);
+        const PlaneView<double> to = field[static_cast<std::size_t>(c)].plane(0);
+        for (int row = 0; row < from.ny; ++row)
+            std::copy_n(from.line(row), from.nx, to.line(row));
+    }
+    const int sites = options_.sites;
+    const double unit = 2.0 * std::numbers::pi / (sites * options_.spacing);
+    const double norm = 1.0 / (static_cast<double>(sites) * sites);
+    // The shortest wave along an axis has no sign: it is multiplied by the mean of both.
+    const auto phase = [&](int k, double by) {
+        const double angle = unit * (2 * k > sites ? k - sites : k) * by;
+        return 2 * k == sites ? std::complex(std::cos(angle), 0.0) : std::polar(1.0, angle);
+    };
+    change_waves(field, [&](int b, double* waves) {
+        for (int column = 0; column < block_columns; ++column) {
+            const int k = (slab_.first_block() + b) * block_columns + column;
+            if (k >= slab_.columns()) break;
+            const std::complex<double> along_x = norm * phase(k, x);
+            for (int row = 0; row < components_ * sites; ++row) {
+                double* const wave = waves + 2 * (block_columns * row + column);
+                const std::complex<double> moved =
+                    std::complex(wave[0], wave[1]) * (along_x * phase(row % sites, y));
+                wave[0] = moved.real();
+                wave[1] = moved.imag();
+            }
+        }
+    });
+    for (int c = 0; c < components_; ++c) {
+        const PlaneView<double> to = moving(layer_.plane(0), c);
+        const PlaneView<const double> from =
+            std::as_const(field[static_cast<std::size_t>(c)]).plane(0);
+        for (int row = 0; row < to.ny; ++row)
+            std::copy_n(from.line(row), to.nx, to.line(row));
+    }
+}
+
+double Response::local_products(const SiteField<double>& a, const SiteField<double>& b) const {
+    const double sites = options_.sites;
+    Waves<double> waves = new_waves<double>();
+    to_waves(b, transform_, waves);
+    combine(0.0, waves, 1.0 / (sites * sites), waves);
+    stiffen_relaxed(waves);
+    SiteField<double> sb = new_field<double>();
+    to_sites(waves, transform_, sb);
+    OrderedSums sums(slab_, OrderedSums::Over::rows, 1);
+#pragma omp parallel for schedule(static)
+    for (int y = 0; y < slab_.rows; ++y) {
+        double sum = 0.0;
+        for (std::size_t c = 0; c < a.size(); ++c) {
+            const double* const one = a[c].plane(0).line(y);
+            const double* const other = sb[c].plane(0).line(y);
+            for (int x = 0; x < slab_.sites; ++x)
+                sum += std::abs(one[x] * other[x]);
+        }
+        *sums.part(y) = sum;
+    }
+    return sums.total()[0] / (sites * sites);
 }
 
 SiteField<double> Response::from_top() const {

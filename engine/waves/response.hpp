@@ -150,6 +150,10 @@ public:
 
     /// Adds t d to the displacement; d is given both as waves and at the sites, Å.
     void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
+    /// Replaces the displacements by those at (x, y) from each site, Å, by a Fourier shift: they
+    /// then stand as they did over a substrate under which the block was moved by this. The waves
+    /// follow in apply_constraint(). Collective.
+    void carry(double x, double y);
     /// Shifts the sites along z, after they were moved through moving_layer(), to a held mean
     /// height. Collective.
     void restore_mean_height();
@@ -173,6 +177,9 @@ protected:
     void stiffen_relaxed(Waves<double>& f) const;
     /// Returns sum_r u.(S u) with the stiffness of the relaxed springs, eV. Collective.
     double twice_energy(const SiteField<double>& u) const;
+    /// Returns sum_r |a.(S b)| with the stiffness of the relaxed springs, eV: no less than the
+    /// energy a.(S b). Collective.
+    double local_products(const SiteField<double>& a, const SiteField<double>& b) const;
     template <class T>
     PlaneView<T> moving(const VectorPlane<T>& field, int component) const {
         const PlaneView<T> all[3] = {field.x, field.y, field.z};

@@ -145,7 +145,24 @@ TEST(Scene, Paths) {
                              "\"approach\", \"pull-off\", \"slide y 1\""})
         only(fmt::format("{}drive.path = [{}]", quasistatic, path));
     only(quasistatic + "drive.path = [\"approach\", \"hold 3 ps\"]");
-    only(quasistatic + "interface.kind = \"wall\"\ndrive.path = [\"approach\", \"slide x 2 Å\"]");
+    const std::string wall = "interface.kind = \"wall\"\n";
+    only(wall + "drive.path = [\"approach\", \"slide x 2 Å\"]"); // in time
+    only(quasistatic + "drive.path = [\"approach\", \"slide x 2 Å until steady\"]");
+    only(quasistatic + wall + "drive.path = [\"height 3\", \"slide x 2 Å under load\"]");
+    const Case slides = read_case_text(
+        quasistatic + wall +
+            "drive.path = [\"load 3 MPa\", \"slide x -2 Å\", \"slide y 3 nm under load until "
+            "steady\", \"slide y 1 until steady  under load\", \"slide x 1 until steady\"]",
+        "s.toml");
+    EXPECT_EQ(slides.path()[1].amount, -2.0);
+    EXPECT_FALSE(slides.path()[1].under || slides.path()[1].until_steady);
+    EXPECT_EQ(slides.path()[2].amount, 30.0);
+    for (const std::size_t i : {2u, 3u}) {
+        EXPECT_TRUE(slides.path()[i].until_steady);
+        EXPECT_DOUBLE_EQ(slides.path()[i].under.value_or(0.0),
+                         3.0 * units::megapascal * slides.area());
+    }
+    EXPECT_TRUE(slides.path()[4].until_steady && !slides.path()[4].under);
     for (const char* with : {"drive.path = [\"approach\", \"slide x 2 Å\"]",
                              "block.strain = \"finite\"", "surface.lattice_ratio = 1.618"})
         EXPECT_NE(only(fmt::format("numerics.device = \"emulated\"\n{}", with))

@@ -79,9 +79,11 @@ struct Contact {
     using Outcome = QuasistaticPath::Outcome;
     Outcome advance() {
         const Outcome outcome = path.advance();
-        if (outcome == Outcome::at_load && slides)
-            path.begin({Segment::slide, 1.7, 1}, 1);
-        else if (outcome == Outcome::at_load && !options.branches.empty())
+        if (outcome == Outcome::at_load && slides) {
+            Segment slide{Segment::slide, 1.7, 1};
+            if (interface.wall()) slide.under = 0.0;
+            path.begin(slide, 1);
+        } else if (outcome == Outcome::at_load && !options.branches.empty())
             path.begin({Segment::hold, 1e5}, 1);
         else if (outcome != Outcome::point && outcome != Outcome::interrupted)
             path.begin({Segment::pull_off}, 2);
@@ -139,6 +141,13 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           Kind{.name = "frictionless", .frictionless = true},
           Kind{.name = "slide", .thickness = 4, .slides = true},
           Kind{.name = "relaxing", .thickness = 20, .branches = {{1.5, 1e3}, {0.5, 2e4}}},
+          Kind{.name = "slide over a wall",
+          .frictionless = true,
+          .along = Constraint::Of::mean_height,
+          .wall = ExponentialWall(0.7, 0.4, 1000.0),
+          .thickness = 20,
+          .slides = true,
+          .branches = {{1.5, 1e3}, {0.5, 2e4}}},
           Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
         const std::size_t most = kind.slides || !kind.branches.empty() ? 90 : 45;
         const std::vector<std::uint64_t> whole = cycle(world(), kind, most);

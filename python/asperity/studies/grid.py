@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The points of a sweep: every combination of the values of its axes.
 
-key=v1,v2,... or key=start:stop:step (stop included) is an axis; it stands behind --set or in the scene's
+key=v1,v2,..., key=start:stop:step or key=start:stop:xFACTOR (stop included) is an axis; it stands behind --set or in the scene's
 [sweep], where a --set of the same key replaces it. A single value is no axis: it overrides the key at
 every point. The axes surface.seed and drive.seed are repetitions, which tables average over.
 """
@@ -49,23 +49,31 @@ def _number(text: str) -> float:
 
 
 def _range(text: str, where: str, whole: bool) -> list[str]:
-    """Returns the values of "0.1:25:0.25"; none if it is no range."""
-    numbers = [_number(part) for part in text.split(":")]
+    """Returns the values of "0.1:25:0.25" or "1e-3:1e3:x10"; none if it is no range."""
+    parts = text.split(":")
+    by_factor = len(parts) == 3 and parts[2].strip().startswith("x")
+    if by_factor:
+        parts[2] = parts[2].strip()[1:]
+    numbers = [_number(part) for part in parts]
     if len(numbers) < 2 or not all(map(math.isfinite, numbers[:2])):
         return []
     if len(numbers) != 3 or not math.isfinite(numbers[2]):
-        raise SceneError(where, "is no range", "a range is start:stop:step, three plain numbers",
+        raise SceneError(where, "is no range", "a range is start:stop:step or start:stop:xFACTOR, three plain numbers",
                          "for example surface.rms=0.5:10:0.5")
     start, stop, step = numbers
     steps = (stop - start) / step if step else -1.0
+    if by_factor:
+        growing = start > 0 and stop > 0 and step > 0 and step != 1
+        steps = math.log(stop / start) / math.log(step) if growing else -1.0
     if not steps >= 0:
         raise SceneError(where, "is a range without values",
-                         f"steps of {step:g} do not lead from {start:g} to {stop:g}",
+                         f"{'factors' if by_factor else 'steps'} of {step:g} do not lead from {start:g} to {stop:g}",
                          "give start:stop:step with a step towards stop")
     if not steps < MOST_POINTS:
         raise SceneError(where, f"asks for {math.floor(steps) + 1:.3g} values",
                          f"a sweep has {MOST_POINTS} points at most", "take longer steps")
-    values = [start + i * step for i in range(math.floor(steps + 1e-9) + 1)]
+    count = math.floor(steps + 1e-6 if by_factor else steps + 1e-9) + 1
+    values = [start * step**i if by_factor else start + i * step for i in range(count)]
     # Twelve digits: 0.1 + 2 x 0.1 is 0.3.
     return [f"{v:.0f}" if whole and v == round(v) else f"{v or 0.0:.12g}" for v in values]
 

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The heights of a wall under a block that slides over it, and their slopes.
+//
+// The map is moved under the block by a Fourier shift (decomposition/row_shift.hpp), always from
+// the place where it was read, so that heights depend on the place alone. The cap of a curved
+// substrate is no sum of few waves: it is left out of the shift and added where it then stands.
+#pragma once
+
+#include "decomposition/field.hpp"
+#include "decomposition/row_shift.hpp"
+#include "decomposition/tile.hpp"
+#include "engine/interface/height_map.hpp"
+
+#include <array>
+#include <vector>
+
+namespace asperity {
+
+/// A map of heights that moves under a tile of sites.
+class SlidingMap {
+public:
+    SlidingMap(const HeightMap& map, const Tile& tile);
+
+    /// Moves the block to (x, y) over the map, Å; (0, 0) at first.
+    void slide_to(double x, double y);
+    /// Returns the heights below the sites of the tile, Å.
+    PlaneView<const double> height() const { return height_.plane(0); }
+    /// Returns the derivative of the heights with respect to the place along x or y.
+    PlaneView<const double> slope(std::size_t axis) const { return slope_[axis].plane(0); }
+    std::size_t bytes() const;
+
+private:
+    using Complex = RowShift::Complex;
+    void slide_along_y(double y);
+    std::size_t at(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(sites_) +
+               static_cast<std::size_t>(x);
+    }
+
+    Tile tile_;
+    int sites_;
+    double spacing_, radius_;
+    std::vector<double> map_; ///< heights without the cap, Å
+    RowShift shift_;
+    std::array<double, 2> place_{};
+    /// Waves along x of the tile's rows: of the heights at the place along y, Å, and of their
+    /// derivatives along y.
+    std::vector<Complex> waves_, waves_of_slope_;
+    Field<double> height_;
+    std::array<Field<double>, 2> slope_;
+};
+
+} // namespace asperity

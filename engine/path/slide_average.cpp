@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+#include "engine/path/slide_average.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace asperity {
+
+namespace {
+
+constexpr std::size_t most_points = 4096, bins = 64;
+constexpr double drift = 0.01; ///< of a steady friction
+/// Share of the normal force below which friction is none.
+constexpr double negligible = 1e-4;
+
+double mean_from(const std::vector<double>& of, std::size_t first) {
+    double sum = 0.0;
+    for (std::size_t i = first; i < of.size(); ++i)
+        sum += of[i];
+    return sum / static_cast<double>(of.size() - first);
+}
+
+/// Returns the variance of the mean of the bins from the first on, as if they were independent.
+double variance_of_mean(const std::vector<double>& of, std::size_t first) {
+    const double mean = mean_from(of, first), n = static_cast<double>(of.size() - first);
+    double squares = 0.0;
+    for (std::size_t i = first; i < of.size(); ++i)
+        squares += (of[i] - mean) * (of[i] - mean);
+    return squares / (n * (n - 1.0));
+}
+
+/// Returns the standard error of the mean by blocking.
+double error_of_mean(std::vector<double> of) {
+    double largest = 0.0;
+    while (of.size() >= 4) {
+        largest = std::max(largest, variance_of_mean(of, 0));
+        std::vector<double> pairs;
+        for (std::size_t i = of.size() % 2; i + 1 < of.size(); i += 2)
+            pairs.push_back(0.5 * (of[i] + of[i + 1]));
+        of = std::move(pairs);
+    }
+    return std::sqrt(largest);
+}
+
+} // namespace
+
+void SlideAverage::add(const SlidePoint& point) {
+    points_.push_back(point);
+    if (points_.size() <= most_points) return;
+    std::vector<SlidePoint> kept;
+    for (std::size_t i = 0; i < points_.size(); i += 2)
+        kept.push_back(points_[i]);
+    if (points_.size() % 2 == 0) kept.push_back(points_.back());
+    points_ = std::move(kept);
+}
+
+double SlideAverage::at(double distance, double SlidePoint::*member) const {
+    const auto right =
+        std::lower_bound(points_.begin(), points_.end(), distance,
+                         [](const SlidePoint& p, double d) { return p.distance < d; });
+    if (right == points_.begin()) return points_.front().*member;
+    if (right == points_.end()) return points_.back().*member;
+    const SlidePoint &r = *right, &l = *(right - 1);
+    return l.*member +
+           (r.*member - l.*member) * (distance - l.distance) / (r.distance - l.distance);
+}
+
+bool SlideAverage::is_steady(double window) const {
+    if (points_.empty() || !(points_.back().distance >= 3.0 * window)) return false;
+    const double end = points_.back().distance;
+    const auto mean = [&](int i) {
+        return (at(end - i * window, &SlidePoint::work) -
+                at(end - (i + 1) * window, &SlidePoint::work)) /
+               window;
+    };
+    const double now = mean(0), last = now - mean(1), before = mean(1) - mean(2);
+    const double most = drift * std::max(std::abs(now), negligible * std::abs(points_.back().load));
+    if (!(std::abs(last) <= most)) return false;
+    if (last * before <= 0.0) return true; // no drift one way
+    if (std::abs(last) >= std::abs(before)) return std::abs(last) <= 0.1 * most;
+    return std::abs(last * last / (before - last)) <= most;
+}
+
+std::optional<SteadySlide> SlideAverage::means(double window) const {
+    if (points_.size() < 2 || !(points_.back().distance > 0.0)) return std::nullopt;
+    const double end = points_.back().distance, width = end / static_cast<double>(bins);
+    /// Means over the bins of what adds up; or of the points' own numbers.
+    const auto rate = [&](double SlidePoint::*member) {
+        std::vector<double> list;
+        for (std::size_t i = 0; i < bins; ++i)
+            list.push_back((at(static_cast<double>(i + 1) * width, member) -
+                            at(static_cast<double>(i) * width, member)) /
+                           width);
+        return list;
+    };
+    const auto value = [&](double SlidePoint::*member) {
+        std::vector<double> list;
+        constexpr int samples = 8;
+        for (std::size_t i = 0; i < bins; ++i) {
+            double sum = 0.0;
+            for (int k = 0; k < samples; ++k)
+                sum += at((static_cast<double>(i) + (k + 0.5) / samples) * width, member);
+            list.push_back(sum / samples);
+        }
+        return list;
+    };
+    const std::vector<double> friction = rate(&SlidePoint::work);
+    std::size_t first = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i <= bins / 2; ++i)
+        if (const double variance = variance_of_mean(friction, i); variance < least) {
+            least = variance;
+            first = i;
+        }
+    const auto rest = [&](const std::vector<double>& of) {
+        return std::vector<double>(of.begin() + static_cast<std::ptrdiff_t>(first), of.end());
+    };
+    SteadySlide s;
+    s.running_in = static_cast<double>(first) * width;
+    s.friction = mean_from(friction, first);
+    s.friction_error = error_of_mean(rest(friction));
+    const std::vector<double> contact = value(&SlidePoint::in_contact);
+    s.in_contact = mean_from(contact, first);
+    s.in_contact_error = error_of_mean(rest(contact));
+    s.load = mean_from(value(&SlidePoint::load), first);
+    s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
+    s.relaxed = mean_from(rate(&SlidePoint::relaxed), first);
+    s.lost = mean_from(rate(&SlidePoint::lost), first);
+    s.steady = is_steady(window);
+    return s;
+}
+
+} // namespace asperity
