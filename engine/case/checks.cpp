@@ -94,7 +94,7 @@ void check_path(const Case& c, io::Problems& problems) {
             if (segment.under && !c.scene.block.prony.empty() &&
                 c.scene.drive.control == Control::top)
                 refuse("with block.prony and drive.control = \"top\"",
-                       "a viscoelastic block under load would be stretched as a whole in time",
+                       "a viscoelastic block under load would creep as a whole",
                        "take drive.control = \"mean-height\"");
             break;
         case Segment::hold:

@@ -18,7 +18,7 @@ namespace asperity {
 /// A wall in place of atoms.
 class OverWall {
 public:
-    /// slides: the block is moved over the wall.
+    /// Copies the heights. slides: the block is moved over the wall.
     OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool slides);
 
     /// Moves the block to (x, y) over the wall, Å. Only if it slides.

@@ -37,7 +37,7 @@ struct Works {
     std::optional<double> interface;
     /// Uncertainty of on_solids and lost; quasi-static paths only
     std::optional<double> uncertainty;
-    std::optional<double> distance = {};    ///< of a slide over a wall, Å
+    std::optional<double> distance = {};    ///< distance of a slide over a wall, Å
     std::optional<SteadySlide> steady = {}; ///< means of a slide over a wall
 
     /// Returns the works from an earlier place on the path to this one.

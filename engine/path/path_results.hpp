@@ -85,7 +85,7 @@ struct PathResults {
     std::vector<SegmentResults> segments; ///< segments that have ended
     // Largest attraction and force against a slide of the current segment, eV/Å.
     double attraction = 0.0, lateral_most = 0.0;
-    SlideAverage slide; ///< of a slide over a wall
+    SlideAverage slide; ///< points of a slide over a wall
 
     /// Returns the last segment of a kind that has ended, or nullptr.
     const SegmentResults* last(Segment::Kind kind) const {

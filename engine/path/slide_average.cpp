@@ -11,8 +11,8 @@ namespace asperity {
 
 namespace {
 
-constexpr std::size_t most_points = 4096, bins = 64;
-constexpr double drift = 0.01; ///< of a steady friction
+constexpr std::size_t most_points = 4096, most_bins = 64;
+constexpr double drift = 0.01; ///< change of a steady friction that counts as none
 /// Share of the normal force below which friction is none.
 constexpr double negligible = 1e-4;
 
@@ -68,7 +68,12 @@ double SlideAverage::at(double distance, double SlidePoint::*member) const {
            (r.*member - l.*member) * (distance - l.distance) / (r.distance - l.distance);
 }
 
-bool SlideAverage::is_steady(double window) const {
+double SlideAverage::Lengths::whole_window() const {
+    return spacing > 0.0 ? std::max(1.0, std::round(window / spacing)) * spacing : window;
+}
+
+bool SlideAverage::is_steady(const Lengths& lengths) const {
+    const double window = lengths.whole_window();
     if (points_.empty() || !(points_.back().distance >= 3.0 * window)) return false;
     const double end = points_.back().distance;
     const auto mean = [&](int i) {
@@ -84,15 +89,21 @@ bool SlideAverage::is_steady(double window) const {
     return std::abs(last * last / (before - last)) <= most;
 }
 
-std::optional<SteadySlide> SlideAverage::means(double window) const {
+std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     if (points_.size() < 2 || !(points_.back().distance > 0.0)) return std::nullopt;
-    const double end = points_.back().distance, width = end / static_cast<double>(bins);
+    const double end = points_.back().distance, least = end / static_cast<double>(most_bins);
+    // A slide of less than four spacings has shorter bins.
+    const bool whole = end >= 4.0 * lengths.spacing && lengths.spacing > 0.0;
+    const double width =
+        whole ? std::ceil(least / lengths.spacing - 1e-9) * lengths.spacing : least;
+    const auto bins = static_cast<std::size_t>(std::floor(end / width + 1e-9));
+    const double from = end - static_cast<double>(bins) * width;
     /// Means over the bins of what adds up; or of the points' own numbers.
     const auto rate = [&](double SlidePoint::*member) {
         std::vector<double> list;
         for (std::size_t i = 0; i < bins; ++i)
-            list.push_back((at(static_cast<double>(i + 1) * width, member) -
-                            at(static_cast<double>(i) * width, member)) /
+            list.push_back((at(from + static_cast<double>(i + 1) * width, member) -
+                            at(from + static_cast<double>(i) * width, member)) /
                            width);
         return list;
     };
@@ -102,24 +113,24 @@ std::optional<SteadySlide> SlideAverage::means(double window) const {
         for (std::size_t i = 0; i < bins; ++i) {
             double sum = 0.0;
             for (int k = 0; k < samples; ++k)
-                sum += at((static_cast<double>(i) + (k + 0.5) / samples) * width, member);
+                sum += at(from + (static_cast<double>(i) + (k + 0.5) / samples) * width, member);
             list.push_back(sum / samples);
         }
         return list;
     };
     const std::vector<double> friction = rate(&SlidePoint::work);
     std::size_t first = 0;
-    double least = std::numeric_limits<double>::infinity();
+    double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i <= bins / 2; ++i)
-        if (const double variance = variance_of_mean(friction, i); variance < least) {
-            least = variance;
+        if (const double variance = variance_of_mean(friction, i); variance < smallest) {
+            smallest = variance;
             first = i;
         }
     const auto rest = [&](const std::vector<double>& of) {
         return std::vector<double>(of.begin() + static_cast<std::ptrdiff_t>(first), of.end());
     };
     SteadySlide s;
-    s.running_in = static_cast<double>(first) * width;
+    s.running_in = from + static_cast<double>(first) * width;
     s.friction = mean_from(friction, first);
     s.friction_error = error_of_mean(rest(friction));
     const std::vector<double> contact = value(&SlidePoint::in_contact);
@@ -129,7 +140,7 @@ std::optional<SteadySlide> SlideAverage::means(double window) const {
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
     s.relaxed = mean_from(rate(&SlidePoint::relaxed), first);
     s.lost = mean_from(rate(&SlidePoint::lost), first);
-    s.steady = is_steady(window);
+    s.steady = is_steady(lengths);
     return s;
 }
 

@@ -4,10 +4,11 @@
 // Means of a slide after its running-in.
 //
 // Friction is work over distance, so means are differences of what has added up. The slide is cut
-// into equal bins. Of all numbers of bins left out at its beginning, up to half, that is taken as
-// the running-in with which the variance of the bins over their number is least (White, Simulation
-// 69, 323 (1997)). The standard error of the mean is the largest that bins, pairs of bins, fours
-// and so on give (Flyvbjerg and Petersen, J. Chem. Phys. 91, 461 (1989)).
+// into equal bins of whole spacings of the sites, from its end backwards. Of all numbers of bins
+// left out at its beginning, up to half, that is taken as the running-in with which the variance of
+// the bins over their number is least (White, Simulation 69, 323 (1997)). The standard error of the
+// mean is the largest that bins, pairs of bins, fours and so on give (Flyvbjerg and Petersen, J.
+// Chem. Phys. 91, 461 (1989)).
 //
 // A slide is steady if the mean friction over a correlation length of the map has changed by less
 // than a hundredth since the one before, and what a geometric series of the last two changes has
@@ -52,7 +53,7 @@ struct SlidePoint {
     double work = 0.0;    ///< work of what moves the block sideways
     double relaxed = 0.0; ///< dissipated by a viscoelastic block
     double lost = 0.0;    ///< dissipated at instabilities
-    // Of the point:
+    // State at the point:
     double load = 0.0;        ///< normal force, eV/Å
     double in_contact = 0.0;  ///< sites
     double mean_height = 0.0; ///< Å
@@ -75,10 +76,17 @@ public:
     void begin() { points_.clear(); }
     /// Adds a point. Long slides keep every second one, fourth and so on.
     void add(const SlidePoint& point);
-    /// Returns true if the friction no longer drifts. window: correlation length of the map, Å.
-    bool is_steady(double window) const;
+    /// Lengths of an interface, Å.
+    struct Lengths {
+        double window = 0.0;  ///< correlation length of the map
+        double spacing = 0.0; ///< spacing of the sites, with which forces vary: bins are whole ones
+        /// Returns the window in whole spacings.
+        double whole_window() const;
+    };
+    /// Returns true if the friction no longer drifts.
+    bool is_steady(const Lengths& lengths) const;
     /// Returns the means so far; nothing before the second point.
-    std::optional<SteadySlide> means(double window) const;
+    std::optional<SteadySlide> means(const Lengths& lengths) const;
 
     template <class Visitor>
     void visit(Visitor& v) {

@@ -47,8 +47,7 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
     results_.record_force(segment, now());
     if (segment.kind == Segment::slide && interface_.wall()) {
         record_slide();
-        if (segment.until_steady && results_.slide.is_steady(correlation_length(surface_)))
-            return Status::at_end;
+        if (segment.until_steady && results_.slide.is_steady(lengths())) return Status::at_end;
     }
     return outcome == QuasistaticPath::Outcome::point ? Status::under_way : Status::at_end;
 }
@@ -99,7 +98,7 @@ void StaticPath::conclude() {
         works.interface = slide ? points_->lateral_work() - points_->work() : -points_->work();
     if (slide && interface_.wall()) {
         works.distance = points_->way();
-        works.steady = results_.slide.means(correlation_length(surface_));
+        works.steady = results_.slide.means(lengths());
     }
     ledger_.conclude(segment(), now(), works, {});
 }

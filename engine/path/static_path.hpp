@@ -65,6 +65,9 @@ private:
     void conclude() override;
     void make_points();
     void record_slide();
+    SlideAverage::Lengths lengths() const {
+        return {correlation_length(surface_), block_.options().spacing};
+    }
 
     const ProcessGrid grid_;
     Interface interface_;

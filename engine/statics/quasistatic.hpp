@@ -137,7 +137,7 @@ private:
         SegmentRule rule;             ///< rule of a segment that a force ends
         LoadAim aim;                  ///< way to a load
         bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
-        double from = 0.0;            ///< where it began, Å
+        double from = 0.0;            ///< beginning, Å
         std::optional<double> held;   ///< load of a slide under load, eV/Å
         double work = 0.0;            ///< work of the top plane, eV
         double lateral = 0.0;         ///< part of it that moves the block sideways, eV

@@ -170,7 +170,7 @@ BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& 
     const SiteField<double> c = second_difference(d);
     const bool bent = weight() > 0.0;
     const double of_c = bent ? square(c) : 0.0;
-    SiteField<double> change = new_field(); // of the second difference
+    SiteField<double> change = new_field(); // change of the second difference
     double of_change = 0.0;
     if (bent) {
         combine(1.0, c, -ratio() * ratio(), history_[1], change);

@@ -71,7 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     theory.add_argument("--points", help=argparse.SUPPRESS)
     theory.add_argument("--json", action="store_true", help="print the result as one line of JSON and write nothing")
     sweep = add("sweep", "a scene over several values of its keys: runs, theory, one table",
-                "--set key=v1,v2,... or key=start:stop:step sweeps a key, beside those of the scene's [sweep]; with\n"
+                "--set key=v1,v2,..., key=start:stop:step or key=start:stop:xFACTOR sweeps a key, beside those of the scene's [sweep]; with\n"
                 "several, every combination. The same command goes on where a sweep stopped. Several scenes share one\n"
                 "set of plots.")
     scene(sweep, "results/<scene>-sweep")
