@@ -14,7 +14,9 @@ namespace asperity {
 /// A wall in place of atoms.
 class OverWall {
 public:
-    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law);
+    /// Makes the wall below the sites of a tile. free_edges: the map is below the first N x N of
+    /// 2N x 2N sites, and the others have no solid below them.
+    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool free_edges = false);
 
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
@@ -26,7 +28,8 @@ public:
         return interface_kernels().wall.rest_single(law_, row, rule, sites);
     }
 
-    /// Returns the height of the wall below each site of the tile, Å.
+    /// Returns the height of the wall below each site of the tile, Å; not a number where there is
+    /// no solid.
     PlaneView<const double> height() const { return height_.plane(0); }
     std::size_t bytes() const { return height_.bytes(); }
 

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace asperity {
@@ -43,7 +45,24 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
     results_.dissipated = points_->dissipation();
     if (now().step == before) return Status::already_at_end;
     results_.record_force(segment_to_conclude(), now());
+    look_at_edges();
     return outcome == QuasistaticPath::Outcome::point ? Status::under_way : Status::at_end;
+}
+
+void StaticPath::look_at_edges() {
+    if (!case_.effects.free_edges) return;
+    const InterfaceMaps maps = interface_.maps(layer(), reference_height());
+    const int n = interface_.sites_across(), first = interface_.tile().y0;
+    int nearest = n;
+    for (int y = 0; y < maps.ny && first + y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            if (maps.contact[static_cast<std::size_t>(y) * static_cast<std::size_t>(maps.nx) +
+                             static_cast<std::size_t>(x)])
+                nearest = std::min({nearest, x, n - 1 - x, first + y, n - 1 - first - y});
+    const double all = -communicator().max(-static_cast<double>(nearest));
+    if (!(all < n)) return;
+    const double distance = all * case_.simulation.block.spacing;
+    results_.edge_distance = std::min(results_.edge_distance.value_or(distance), distance);
 }
 
 std::optional<LayerAtRest> StaticPath::find_state() {
@@ -53,6 +72,7 @@ std::optional<LayerAtRest> StaticPath::find_state() {
         block_, interface_, reference_height(), held ? 0.0 : case_.simulation.drive.load_force,
         case_, [this](long long iteration, double residual) { return told(iteration, residual); });
     LayerAtRest state;
+    if (found) look_at_edges();
     if (found) {
         // A path that starts in a state comes back to another; its numbers are of the first.
         if (!results_.zero_load || !case_.starts_with(Segment::relax)) results_.zero_load = found;

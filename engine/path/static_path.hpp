@@ -64,6 +64,8 @@ private:
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
     void make_points();
+    /// Records how close to a free edge the present contact comes. Collective.
+    void look_at_edges();
 
     const ProcessGrid grid_;
     Interface interface_;
