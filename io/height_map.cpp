@@ -84,7 +84,11 @@ HeightMap read_height_map(const std::string& name, const MapOptions& options) {
     HeightMap map = read_map_file(name, options);
     if (map.unit_assumed)
         map.notes.push_back("the file does not say the unit of its heights: taken as Å");
-    if (map.missing > 0) treat_missing(map, options.fill);
+    if (map.missing > 0 && options.holes)
+        map.notes.push_back(
+            fmt::format("{} of {} points have no height: holes", map.missing, map.heights.size()));
+    else if (map.missing > 0)
+        treat_missing(map, options.fill);
     make_square(map, options.crop);
     return map;
 }

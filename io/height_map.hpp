@@ -49,12 +49,13 @@ struct MapOptions {
     bool fill = false;         ///< missing points are filled by Laplace's equation; false: refused
     bool crop = false;         ///< a map that is not square is cut to its middle; false: refused
     std::optional<double> size{}; ///< shorter edge, Å; empty: the size in the file
+    bool holes = false;           ///< missing points stay, as NaN
 };
 
 /// Reads the map of a file. name: a file, or file:/dataset. Throws SceneError.
 HeightMap read_map_file(const std::string& name, const MapOptions& said = {});
-/// Reads a map that is square, whole and finite, as a scene needs it. Throws SceneError with the
-/// line and column of the mistake, or the row and column in HDF5.
+/// Reads a map that is square, whole (but for holes) and finite, as a scene needs it. Throws
+/// SceneError with the line and column of the mistake, or the row and column in HDF5.
 HeightMap read_height_map(const std::string& name, const MapOptions& options = {});
 
 /// Gives every NaN of heights[y * columns + x] the mean of its neighbours (four, fewer at the map's

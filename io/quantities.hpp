@@ -127,6 +127,14 @@ inline constexpr Quantity result_quantities[] = {
      "not of a state under drive.load"},
     {"contact_radius.relaxed", "Å", "", "√(contact area/π) of the state (spheres)"},
     {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
+    {"instrument.approach_force", "nN", per::block,
+     "approach_force in the units of instruments, of a sphere or a box with free edges, like the "
+     "following"},
+    {"instrument.pull_off_force", "nN", per::block, "pull_off_force"},
+    {"instrument.contact_radius", "nm", "", "contact_radius.relaxed"},
+    {"instrument.spring", "N/m", "", "drive.stiffness"},
+    {"instrument.edge_distance", "nm", "",
+     "least distance of a contact of the path from a free edge of the box (surface.boundary)"},
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
     {"segments[].segment", "1", "", "its number in drive.path, from 0"},
     {"segments[].name", "", "", "as the scene has it"},
@@ -179,6 +187,8 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].pressure", "MPa", "",
      "at its end: of the substrate on the lowest layer; at a temperature the average by which the "
      "segment ends"},
+    {"segments[].force", "nN", per::block,
+     "the same as a force, of a sphere or a box with free edges"},
     {"segments[].pressure_scatter", "MPa", "",
      "thermal noise: rms of the force about that average"},
     {"segments[].pressure_averaged_over", "ps", "",

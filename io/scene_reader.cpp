@@ -165,8 +165,14 @@ struct Store {
     Problem quantity(double* field) const {
         double number = 0.0;
         const auto* text = as<std::string>();
+        if (key.other.value) key.other.value->reset();
         if (text) {
             const ParsedQuantity parsed = parse_quantity(*text, key.unit);
+            if (key.other.value && !parsed.why.empty())
+                if (const auto other = parse_quantity(*text, key.other.unit); other.why.empty()) {
+                    *key.other.value = other.value;
+                    return {};
+                }
             if (!parsed.why.empty() && !key.was.unit.empty() &&
                 parse_quantity(*text, key.was.unit).why.empty())
                 return {"", "has a unit, and the key has none any more", key.was.why, key.was.fix};
@@ -337,6 +343,7 @@ std::string allowed(const Key& key, const std::string& quote) {
                                : "whole number";
     if (!key.word.empty()) text += " | " + quote + quoted(key.word) + quote;
     if (key.length) text += " | a length";
+    if (key.other.value) text += fmt::format(" | {} in {}", key.other.name, key.other.unit);
     return text;
 }
 

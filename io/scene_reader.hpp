@@ -148,6 +148,13 @@ public:
         Was was{};
         /// Length from which a count follows, Å; null: counts only
         std::optional<double>* length = nullptr;
+        /// Quantity of another dimension from which the number follows: its unit, its name, and its
+        /// field; null: there is none.
+        struct Other {
+            std::string unit{}, name{};
+            std::optional<double>* value = nullptr;
+        };
+        Other other{};
         std::string section{};
         /// Returns true if writing the key back would change the meaning; empty: always written.
         std::function<bool()> omitted{};
@@ -202,6 +209,12 @@ public:
     Key& count_or_length(std::string name, int& field, std::optional<double>& length, Range range,
                          std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .range = range, .length = &length});
+    }
+    /// Adds a key that is a quantity, or one of another dimension from which the caller derives the
+    /// number: load = "20 nN".
+    Key& quantity_or(std::string name, double& field, std::string unit, Key::Other other,
+                     std::string doc) {
+        return add({.name = name, .field = &field, .doc = doc, .unit = unit, .other = other});
     }
     /// Adds a key that is a list of strings. A member is valid if it equals a choice, or starts
     /// with a choice that ends in ':' and goes on with a positive whole number ("every:1000").

@@ -6,9 +6,14 @@
 #include "kernels/interface_block.hpp"
 #include "kernels/pack_step.hpp"
 
+#include <limits>
+
 namespace asperity::ASPERITY_VARIANT {
 
 namespace {
+
+/// Number below every height, above which a height that is NaN (a hole) is not.
+constexpr double no_height = -std::numeric_limits<double>::infinity();
 
 template <class Law, bool observe>
 void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const double> height,
@@ -16,6 +21,7 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
     const int nx = sites.displacement.x.nx;
     const typename Law::template Terms<Real> law(wall);
     const double contact_gap = wall.contact_gap();
+    const Real nothing(no_height);
     const Real reference(sites.reference_height);
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
@@ -25,21 +31,23 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
             SiteTerms terms;
             for (int lane = 0; lane < count; lane += Real::width) {
                 const int here = count - lane;
+                const Real under = Real::load_first(below + x + lane, here);
+                const auto solid = under > nothing;
                 const Real gap = reference + Real::load_first(u + x + lane, here) -
-                                 Real::load_first(below + x + lane, here);
+                                 select(solid, under, Real(0.0));
                 Real(0.0).store(terms.x + lane);
                 Real(0.0).store(terms.y + lane);
-                law.force(gap).store(terms.z + lane);
+                select(solid, law.force(gap), Real(0.0)).store(terms.z + lane);
                 if constexpr (observe) {
-                    law.energy(gap).store(terms.energy + lane);
-                    gap.store(terms.nearest + lane);
+                    select(solid, law.energy(gap), Real(0.0)).store(terms.energy + lane);
+                    select(solid, gap, Real(no_pair)).store(terms.nearest + lane);
                 }
             }
             if constexpr (observe)
                 for (int i = 0; i < count; ++i) {
                     const double gap = terms.nearest[i], open = gap > 0.0 ? gap : 0.0;
                     terms.in_contact |= unsigned{gap < contact_gap} << i;
-                    terms.nearest[i] = open * open;
+                    terms.nearest[i] = gap < no_pair ? open * open : no_pair;
                 }
             totals.take<observe>(sites, terms, x, y, count);
             totals.in_reach += count;
@@ -64,6 +72,7 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
     const typename Law::template Terms<Real> law(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
+    const Real nothing(no_height);
     Real furthest(0.0), reversal(0.0), height(0.0);
     for (int x = 0; x < sites; x += interface_block) {
         const int count = sites - x < interface_block ? sites - x : interface_block;
@@ -75,14 +84,16 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
         for (int lane = 0; lane < count; lane += Real::width) {
             const int here = count - lane;
             const Real u = Real::load_first(row.u + x + lane, here);
-            const Real base = reference - Real::load_first(row.below + x + lane, here);
+            const Real under = Real::load_first(row.below + x + lane, here);
+            const auto solid = under > nothing;
+            const Real base = reference - select(solid, under, Real(0.0));
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
             const Real target = z + base - compliance * force;
-            const Real gap = law.rest(z + base, target, spring);
+            const Real gap = select(solid, law.rest(z + base, target, spring), target);
             const Real next = gap - base, way = next - z;
             next.store_first(row.next + x + lane, here);
-            const Real left = target - gap + compliance * law.force(gap);
+            const Real left = select(solid, target - gap + compliance * law.force(gap), Real(0.0));
             furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
             reversal = reversal - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);

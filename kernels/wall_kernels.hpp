@@ -3,7 +3,8 @@
 //
 // Kernels of sites over a wall: forces, and the equilibrium of each site under its own force while
 // the elastic forces are held fixed (engine/statics/wall_minimiser.hpp). All in double
-// precision except the single-precision input of the minimiser.
+// precision except the single-precision input of the minimiser. Where the height of the wall is not
+// a number there is no solid, and no law.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -14,7 +15,7 @@ namespace asperity {
 /// A row of sites that move to their equilibria.
 template <class T>
 struct WallRow {
-    const double* below; ///< height of the wall, Å
+    const double* below; ///< height of the wall, Å; not a number: there is no solid
     const double* u;     ///< places of the sites, Å
     const float* step;   ///< last moves of the sites, Å
     const T* elastic;    ///< S z, eV/Å, times 1 / norm

@@ -28,4 +28,15 @@ double work_from_binding_energy(double energy, double radius, double contact_mod
     return std::pow(10 * energy * std::cbrt(K * K * radius), 0.6) / (6 * std::numbers::pi * radius);
 }
 
+double Sphere::load(double a) const {
+    const double cubed = 4 * contact_modulus / 3 * a * a * a;
+    return cubed / radius - std::sqrt(6 * std::numbers::pi * gamma * cubed);
+}
+
+double Sphere::contact_radius(double load) const {
+    const double pull = 3 * std::numbers::pi * gamma * radius;
+    const double all = load + pull + std::sqrt(pull * (2 * load + pull));
+    return std::cbrt(all * radius / (4 * contact_modulus / 3));
+}
+
 } // namespace asperity::theory::jkr

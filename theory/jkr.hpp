@@ -15,4 +15,13 @@ namespace asperity::theory::jkr {
 /// (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}), K = 4E*/3. It needs no largest force.
 [[nodiscard]] double work_from_binding_energy(double energy, double radius, double contact_modulus);
 
+/// A sphere: its radius, work of adhesion and contact modulus.
+struct Sphere {
+    double radius, gamma, contact_modulus;
+    /// Returns the load at a contact radius, positive if it presses: K a³/R - sqrt(6 π γ K a³).
+    [[nodiscard]] double load(double contact_radius) const;
+    /// Returns the contact radius under a load that presses.
+    [[nodiscard]] double contact_radius(double load) const;
+};
+
 } // namespace asperity::theory::jkr

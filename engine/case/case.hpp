@@ -92,6 +92,8 @@ struct Case {
     std::optional<double> radius() const {
         return surface.radius > 0.0 ? std::optional(surface.radius) : std::nullopt;
     }
+    /// Returns true if people read forces in nN and lengths in nm: of a sphere, or with free edges.
+    bool in_newtons() const { return effects.free_edges || radius().has_value(); }
     /// Returns a number of sites over that of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.

@@ -79,6 +79,10 @@ void check_path(const Case& c, io::Problems& problems) {
             if (!wall && c.scene.interface.frictionless)
                 refuse("without lateral forces", "with interface.frictionless nothing resists it",
                        "take frictionless = false");
+            if (c.scene.has_free_edges())
+                refuse("over a map with free edges",
+                       "the map moves periodically, and its edges would move along",
+                       "take surface.boundary = \"periodic\"");
             if (wall && c.effects.dynamic)
                 refuse("over a wall on a dynamic path",
                        "a wall moves under a block that is in force balance",
@@ -249,6 +253,14 @@ void check_keys(const Case& c, io::Problems& problems) {
             "the mean height is prescribed as by a machine that is hard, whatever holds "
             "the top plane",
             "take control = \"top\", or leave stiffness out");
+    if (scene.has_free_edges() && drive.control == Control::mean_height)
+        problems.add("drive.control", "= \"mean-height\" with surface.boundary = \"free\"",
+                     "the surface goes on beyond the box, and displacements are measured from far "
+                     "away",
+                     "take control = \"top\"");
+    if (surface.kind == SurfaceKind::file && surface.file_missing == MapMissing::hole && !wall)
+        problems.add("surface.file_missing", "= \"hole\" without a wall",
+                     "of a layer of atoms no place is empty", "take interface.kind = \"wall\"");
     if (drive.stiffness && !scene.block.prony.empty())
         problems.add("drive.stiffness",
                      fmt::format("= {:.6g} N/m with block.prony", *drive.stiffness),
@@ -357,7 +369,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                             "much thicker than layers_per_level; a power of two costs least",
                             surface.sites, halvings));
     }
-    if (scene.block.thickness < surface.sites)
+    if (scene.block.thickness < surface.sites && !scene.has_free_edges())
         list.push_back(
             fmt::format("the block is thinner ({} layers) than wide ({} sites): the longest waves "
                         "feel the rigid top plane",

@@ -38,7 +38,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
-            {"relaxing block", branches}, {"layers", layers},
+            {"free edges", free_edges}, {"relaxing block", branches}, {"layers", layers},
             {"surface stress", surface_stress}, {"spring of the machine", spring},
             {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
@@ -96,6 +96,9 @@ Effects effects_of(const Case& c) {
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
+    e.free_edges = {s.has_free_edges() && !dynamic, s.has_free_edges()
+                                                        ? "surface.boundary = \"free\""
+                                                        : "surface.boundary = \"periodic\""};
     e.branches = {!s.block.prony.empty() && !dynamic && follows_path,
                   s.block.prony.empty()
                       ? "block.prony = []"
@@ -130,9 +133,10 @@ Effects effects_of(const Case& c) {
     e.checkpoints = {s.output.checkpoint > 0.0,
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const bool atoms = s.surface.kind == SurfaceKind::atoms;
-    e.theory = {!atoms && !e.layers && !e.surface_stress,
-                atoms      ? "surface.kind = \"atoms\": the theory is of one layer with heights"
-                : e.layers ? "block.layers: the theory is of one modulus"
+    e.theory = {!atoms && !e.free_edges && !e.layers && !e.surface_stress,
+                atoms          ? "surface.kind = \"atoms\": the theory is of one layer with heights"
+                : e.free_edges ? "surface.boundary = \"free\": the theory is of an endless surface"
+                : e.layers     ? "block.layers: the theory is of one modulus"
                 : e.surface_stress ? "block.surface_stress: the theory is of a block without it"
                                    : "always: Persson's theory of this scene"};
     e.device = device_effect(c);

@@ -37,6 +37,7 @@ struct Effects {
         tail,           ///< continuum correction beyond the cutoff
         curvature,      ///< a spherical cap under the roughness
         branches,       ///< memory of a block that relaxes
+        free_edges,     ///< a box without periodic images
         layers,         ///< coatings of the block
         surface_stress, ///< tension of the block's surface
         spring,         ///< a spring that holds the top plane

@@ -6,6 +6,7 @@
 #include "engine/case/resolving.hpp"
 
 #include "engine/units.hpp"
+#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
@@ -168,6 +169,36 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                     "take 2.5e-4, the default");
 }
 
+/// Refuses a load under which a sphere's contact would be wider than a box with free edges, by JKR.
+void refuse_wide_contact(const Case& c, io::Problems& refused) {
+    if (!c.effects.free_edges || !c.radius()) return;
+    double modulus = 0.0;
+    for (const Material& material : c.simulation.block.materials())
+        modulus = std::max(modulus, material.contact_modulus());
+    const theory::jkr::Sphere sphere{*c.radius(), c.flat.work_of_adhesion / units::milli_per_unit,
+                                     modulus};
+    const double most = sphere.load(0.5 * c.edge());
+    const auto look = [&](const char* key, double load, const std::string& shown) {
+        if (!(load > most)) return;
+        const double radius = sphere.contact_radius(load);
+        const double sites = std::ceil(2.5 * radius / c.simulation.block.spacing);
+        const std::string less = most > 0.0 ? fmt::format(", or a load of {:.3g} nN at most",
+                                                          0.9 * most / units::nanonewton)
+                                            : std::string();
+        refused.add(key, fmt::format("{} needs a contact wider than the box", shown),
+                    fmt::format("by JKR it would be {:.4g} nm wide, and the box with free edges is "
+                                "{:.4g} nm",
+                                0.2 * radius, 0.1 * c.edge()),
+                    fmt::format("take surface.sites = {:.0f}{}", sites, less));
+    };
+    if (c.has(Segment::approach) || c.has(Segment::relax))
+        look("drive.load", c.simulation.drive.load_force,
+             fmt::format("= {:.4g} nN", c.simulation.drive.load_force / units::nanonewton));
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::load)
+            look("drive.path", segment.amount, fmt::format("has \"{}\", which", segment.text));
+}
+
 } // namespace
 
 void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
@@ -179,6 +210,7 @@ void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
     else
         refuse_short_steps(c, refused);
     refuse_violence(c, refused);
+    refuse_wide_contact(c, refused);
 }
 
 } // namespace asperity

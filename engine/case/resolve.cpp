@@ -99,6 +99,8 @@ SurfaceOptions surface_options(const Scene& scene) {
     options.detrend = s.detrend != Detrend::none;
     options.periodic = s.detrend == Detrend::periodic;
     options.line_noise = s.line_noise;
+    options.holes = s.kind == SurfaceKind::file && s.file_missing == MapMissing::hole;
+    options.repeats = !scene.has_free_edges();
     return options;
 }
 
@@ -119,6 +121,7 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
         block.layers.push_back({{young * units::gigapascal, poisson},
                                 static_cast<int>(std::lround(thickness / block.spacing))});
     block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
+    block.free_edges = scene.has_free_edges() && !dynamic;
     return block;
 }
 
@@ -140,6 +143,7 @@ void fill_interface(Case& c) {
     const double a = scene.surface.spacing, site = a * a;
     InterfaceOptions& options = c.simulation.interface;
     options.tail = i.tail;
+    options.free_edges = c.effects.free_edges;
     const std::string in_double = why_in_double(c);
     options.mixed = scene.numerics.precision == Precision::mixed && in_double.empty();
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
@@ -391,7 +395,7 @@ double Case::load_in_megapascal() const {
 }
 
 ProcessGrid Case::grid(int rank) const {
-    if (!effects.dynamic) return ProcessGrid::slabs(ranks, rank, simulation.block.sites);
+    if (!effects.dynamic) return ProcessGrid::slabs(ranks, rank, simulation.block.grid());
     return ProcessGrid(ranks, rank, simulation.block.sites, static_cast<int>(levels.size()));
 }
 

@@ -16,7 +16,7 @@ FieldFile heights_of(const Case& c) {
     return {s.file,
             c.file,
             {s.file_unit, s.file_missing == MapMissing::fill, s.file_crop == MapCrop::middle,
-             s.file_size}};
+             s.file_size, s.file_missing == MapMissing::hole}};
 }
 
 io::HeightMap read_field(const FieldFile& field, const Communicator& ranks) {

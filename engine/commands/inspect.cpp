@@ -165,7 +165,7 @@ namespace {
 void print_map_file(const Case& c) {
     const FieldFile field = heights_of(c);
     const io::HeightMap map =
-        io::read_map_file(field.file, {field.how.unit, false, false, field.how.size});
+        io::read_map_file(field.file, {.unit = field.how.unit, .size = field.how.size});
     const std::optional<double>&width = map.width, &height = map.height;
     const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
                  dy = height.value_or(0.0) / static_cast<double>(map.rows);

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 
 namespace asperity {
@@ -18,7 +19,9 @@ HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
         throw std::invalid_argument(
             fmt::format("interface: a substrate of {} x {} atoms has {} heights", sites_, sites_,
                         height_.size()));
-    highest_ = *std::max_element(height_.begin(), height_.end());
+    highest_ = -std::numeric_limits<double>::infinity();
+    for (const double h : height_) // holes do not count
+        highest_ = h > highest_ ? h : highest_;
 }
 
 void HeightMap::shift(int i, int j) {

@@ -71,7 +71,8 @@ InterfaceOptions within_single(InterfaceOptions options) {
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
     : options_(within_single(options)), tile_(tile), spacing_(spacing),
-      map_(substrate, tile.sites, spacing), method_(method_for(options, substrate, tile.sites)),
+      map_(substrate, options.free_edges ? tile.sites / 2 : tile.sites, spacing),
+      method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
     if (options.tail && !wall()) find_mean_heights();
     if (options.slides) atoms_ = substrate.atoms;
@@ -129,7 +130,7 @@ Interface::Substrate Interface::substrate_of(const AtomPositions& atoms) const {
     switch (method_) {
     case InterfaceMethod::wall:
         if (!options_.wall) refuse("a wall needs its law");
-        return OverWall(map_, tile_, *options_.wall, options_.slides);
+        return OverWall(map_, tile_, *options_.wall, options_.free_edges, options_.slides);
     case InterfaceMethod::cells:
         if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
         return OverAtoms(atoms, tile_, spacing_, options_);

@@ -26,7 +26,9 @@
 #include "engine/options/substrate.hpp"
 #include "engine/step_record.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -43,12 +45,23 @@ struct InterfaceMaps {
     int nx = 0, ny = 0;
     std::vector<std::uint8_t> contact; ///< 1 if the nearest atom is within contact distance
     /// Distance to the nearest atom, Å; infinite if no atom is within the cutoff; over a wall the
-    /// gap, 0 if it is negative.
+    /// gap, 0 if it is negative, infinite over a hole.
     std::vector<double> distance;
-    /// Height above the substrate below (a wall, or bilinear between its atoms), Å.
+    /// Height above the substrate below (a wall, or bilinear between its atoms), Å; NaN over a
+    /// hole.
     std::vector<double> gap;
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
 };
+
+/// Cuts a map of across x across sites to its first n x n sites.
+template <class T>
+void crop_map(std::vector<T>& map, int across, int n) {
+    if (n == across) return;
+    const auto width = static_cast<std::ptrdiff_t>(across);
+    for (std::ptrdiff_t y = 1; y < n; ++y)
+        std::copy_n(map.begin() + y * width, n, map.begin() + y * n);
+    map.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+}
 
 /// The interface of one tile of sites with the substrate.
 class Interface {
@@ -98,6 +111,9 @@ public:
     /// Returns the number of atoms across the box, for a substrate that is a map.
     int substrate_sites() const { return map_.sites(); }
     const InterfaceOptions& options() const { return options_; }
+    /// Returns the number of sites across the box, which are above the substrate; with free edges
+    /// the tile's are twice as many.
+    int sites_across() const { return options_.free_edges ? tile_.sites / 2 : tile_.sites; }
     std::size_t bytes() const;
 
 private:

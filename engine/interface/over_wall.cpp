@@ -4,13 +4,16 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 
 namespace asperity {
 
-OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool slides)
+OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool free_edges,
+                   bool slides)
     : law_(law) {
-    if (map.sites() != tile.sites)
+    const int n = map.sites();
+    if (tile.sites != (free_edges ? 2 * n : n))
         throw std::invalid_argument(fmt::format(
             "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
             "take surface.lattice_ratio = 1",
@@ -23,7 +26,9 @@ OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, b
     const PlaneView<double> below = height_.plane(0);
     for (int y = 0; y < tile.ny; ++y)
         for (int x = 0; x < tile.nx; ++x)
-            below(x, y) = map.at(tile.x0 + x, tile.y0 + y);
+            below(x, y) = free_edges && (tile.x0 + x >= n || tile.y0 + y >= n)
+                              ? std::numeric_limits<double>::quiet_NaN()
+                              : map.at(tile.x0 + x, tile.y0 + y);
 }
 
 void OverWall::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,

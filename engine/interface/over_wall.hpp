@@ -18,8 +18,11 @@ namespace asperity {
 /// A wall in place of atoms.
 class OverWall {
 public:
-    /// Copies the heights. slides: the block is moved over the wall.
-    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool slides);
+    /// Makes the wall below the sites of a tile. free_edges: the map is below the first N x N of
+    /// 2N x 2N sites, and the others have no solid below them; slides: the block is moved over the
+    /// wall, which has no free edges.
+    OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool free_edges = false,
+             bool slides = false);
 
     /// Moves the block to (x, y) over the wall, Å. Only if it slides.
     void slide_to(double x, double y) { sliding_->slide_to(x, y); }
@@ -37,7 +40,8 @@ public:
         return interface_kernels().wall.rest_single(law_, row, rule, sites);
     }
 
-    /// Returns the height of the wall below each site of the tile, Å.
+    /// Returns the height of the wall below each site of the tile, Å; not a number where there is
+    /// no solid.
     PlaneView<const double> height() const {
         return sliding_ ? sliding_->height() : height_.plane(0);
     }

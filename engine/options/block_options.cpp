@@ -55,8 +55,8 @@ SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
 }
 
 double BlockOptions::softest_wave() const {
-    if (layers.empty()) return contact_modulus() * std::numbers::pi / edge();
-    return 1.0 / inverse(stiffness(wave_phase(1, sites), wave_phase(0, sites))).zz /
+    if (layers.empty()) return contact_modulus() * std::numbers::pi / (grid() * spacing);
+    return 1.0 / inverse(stiffness(wave_phase(1, grid()), wave_phase(0, grid()))).zz /
            (spacing * spacing);
 }
 

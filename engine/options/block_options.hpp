@@ -53,9 +53,12 @@ struct BlockOptions : Material {
     /// Layers of a block at rest, from its surface upwards; the block's own material is above them.
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
+    bool free_edges = false;     ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }
+    /// Returns the number of sites along an edge of the grid of waves: N, with free edges 2N.
+    int grid() const { return free_edges ? 2 * sites : sites; }
     /// Returns all materials, that of the surface first.
     std::vector<Material> materials() const;
     /// Returns the smallest modulus of a material that cannot widen, lambda + 2 mu, eV/Å^3.

@@ -28,6 +28,7 @@ struct InterfaceOptions {
     bool tail = false;             ///< continuum correction beyond the cutoff
     bool mixed = false;            ///< pairs in single precision, in the sweep over a lattice
     bool mixed_on_request = false; ///< sweeps may be asked for with SweepOptions::rough
+    bool free_edges = false;       ///< a wall below the first N x N of 2N x 2N sites
     bool slides = false; ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
     /// Skip offsets or atoms beyond reach; false: visit all (bitwise identical; for tests).

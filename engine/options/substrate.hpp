@@ -57,6 +57,7 @@ struct Surface {
     /// atom nearest to this place.
     std::vector<double> height;
     AtomPositions atoms; ///< atoms in the box [0, length); empty: one for each height
+    long long holes = 0; ///< heights that are not numbers: no solid is there
     SurfaceStatistics statistics;
     std::string origin; ///< owner of a measured map, if its file names one
     /// CRC-32 of the values read from a file of a map or atoms, before any processing.

@@ -54,6 +54,7 @@ std::optional<std::string> violation(const StepRecord& now, const Case& c, const
         const auto depth = [&](const auto& law) { return law.depth_under(now.force / c.sites()); };
         lowest -= 2.0 * std::visit(depth, *wall);
     }
+    if (surface.holes > 0) lowest = -HUGE_VAL; // the surface hangs into holes
     return violation(now, lowest,
                      fmt::format("{} {}", c.effects.dynamic ? "step" : "point", now.step));
 }

@@ -80,6 +80,7 @@ struct PathResults {
     std::optional<double> relaxed_in_cycle; ///< the same of relaxed
     double strongest = 0.0;                 ///< strongest attraction of the path so far, eV/Å
     std::optional<double> contact_made;     ///< time of the end of the last approach, fs
+    std::optional<double> edge_distance;    ///< least distance of a contact from a free edge, Å
     /// Dissipation of a quasi-static path, which lists it itself
     std::optional<Dissipation> dissipated;
     std::vector<SegmentResults> segments; ///< segments that have ended
@@ -141,6 +142,7 @@ struct PathResults {
         v("lateral_most", lateral_most);
         v("slide", slide);
         v("zero_load", zero_load);
+        v("edge_distance", edge_distance);
     }
 };
 

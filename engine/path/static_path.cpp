@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <utility>
 
 namespace asperity {
@@ -45,6 +47,7 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
     if (now().step == before) return Status::already_at_end;
     const Segment& segment = segment_to_conclude();
     results_.record_force(segment, now());
+    look_at_edges();
     if (segment.kind == Segment::slide && interface_.wall()) {
         record_slide();
         if (segment.until_steady && results_.slide.is_steady(lengths())) return Status::at_end;
@@ -63,6 +66,22 @@ void StaticPath::record_slide() {
                         .mean_height = now().mean_height});
 }
 
+void StaticPath::look_at_edges() {
+    if (!case_.effects.free_edges) return;
+    const InterfaceMaps maps = interface_.maps(layer(), reference_height());
+    const int n = interface_.sites_across(), first = interface_.tile().y0;
+    int nearest = n;
+    for (int y = 0; y < maps.ny && first + y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            if (maps.contact[static_cast<std::size_t>(y) * static_cast<std::size_t>(maps.nx) +
+                             static_cast<std::size_t>(x)])
+                nearest = std::min({nearest, x, n - 1 - x, first + y, n - 1 - first - y});
+    const double all = -communicator().max(-static_cast<double>(nearest));
+    if (!(all < n)) return;
+    const double distance = all * case_.simulation.block.spacing;
+    results_.edge_distance = std::min(results_.edge_distance.value_or(distance), distance);
+}
+
 std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = segment_to_conclude().kind != Segment::relax;
     if (held) points_->put_back(); // the same state as after a resume, bitwise
@@ -70,6 +89,7 @@ std::optional<LayerAtRest> StaticPath::find_state() {
         block_, interface_, reference_height(), held ? 0.0 : case_.simulation.drive.load_force,
         case_, [this](long long iteration, double residual) { return told(iteration, residual); });
     LayerAtRest state;
+    if (found) look_at_edges();
     if (found) {
         // A path that starts in a state comes back to another; its numbers are of the first.
         if (!results_.zero_load || !case_.starts_with(Segment::relax)) results_.zero_load = found;

@@ -68,6 +68,8 @@ private:
     SlideAverage::Lengths lengths() const {
         return {correlation_length(surface_), block_.options().spacing};
     }
+    /// Records how close to a free edge the present contact comes. Collective.
+    void look_at_edges();
 
     const ProcessGrid grid_;
     Interface interface_;

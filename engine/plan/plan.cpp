@@ -67,8 +67,10 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
 /// Returns the bytes of a part on one rank of the case.
 double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
     const Tile tile = c.grid(rank).tile(0);
-    const double one = std::pow(piece.sites, 2), h = 2.0 * halo_width;
-    const double whole = std::pow(c.simulation.block.sites, 2) / one;
+    const BlockOptions& block = c.simulation.block;
+    const double grid = static_cast<double>(block.grid()) / block.sites; // two with free edges
+    const double one = std::pow(grid * piece.sites, 2), h = 2.0 * halo_width;
+    const double whole = std::pow(block.grid(), 2) / one;
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
     const double bytes = piece.bytes[part];
     if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
@@ -251,11 +253,12 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
 
 void require_memory(const Case& c, const Communicator& ranks) {
     c.require_runnable();
+    const double sites = std::pow(c.simulation.block.grid(), 2);
     // The same on all ranks.
-    if (nodes_of(c.levels) <= small_nodes && c.sites() <= small_sites) return;
+    if (nodes_of(c.levels) <= small_nodes && sites <= small_sites) return;
     // Nor is anything made to be counted where several times what the fields of any run take is
     // there.
-    const double fields = 4096.0 * c.sites() + 512.0 * nodes_of(c.levels);
+    const double fields = 4096.0 * sites + 512.0 * nodes_of(c.levels);
     if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5) return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
     const double needed = ranks.sum_on_machine(mine);

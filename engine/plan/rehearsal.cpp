@@ -151,7 +151,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     done.table = static_cast<double>(waves->table_bytes());
 
     // Height of the state of a slow approach.
-    const double lowest = *std::min_element(heights.height.begin(), heights.height.end());
+    const double lowest = heights.statistics.lowest;
     const double height =
         height_of_strongest_attraction(*waves, *below, lowest, piece.scales.length);
     const double start = below->start_height();

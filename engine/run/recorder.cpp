@@ -145,8 +145,9 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
     io::write_described(file, "/substrate/spectrum_target", {q.size()}, target);
 }
 
-/// Adds P(u), normalised to one: 200 bins from the least to the greatest gap.
-void put_gap_density(io::PayloadWriter& record, const std::vector<double>& gap) {
+/// Adds P(u), normalised to one: 200 bins from the least to the greatest gap. Holes do not count.
+void put_gap_density(io::PayloadWriter& record, std::vector<double> gap) {
+    std::erase_if(gap, [](double u) { return std::isnan(u); });
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     constexpr std::size_t bins = 200;
     const double size = std::max(std::abs(*least), std::abs(*greatest));
@@ -212,7 +213,8 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface, double reference_height) {
     const InterfaceMaps maps = interface.maps(layer, reference_height);
-    const auto n = static_cast<std::uint64_t>(grid.tile(0).sites);
+    const int across = grid.tile(0).sites, inner = interface.sites_across();
+    const auto n = static_cast<std::uint64_t>(inner);
     io::PayloadWriter record;
     ranks.on_root([&] {
         record.reserve(4096 + state.size() + 49 * n * n);
@@ -222,14 +224,18 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
     const auto put = [&](const char* name, const std::vector<double>& map) { // one at a time
         ranks.on_root([&] { put_member<double>(record, data_set, name, {n, n}, map); });
     };
-    gap = whole(ranks, grid, maps.gap);
+    const auto of_box = [&](std::vector<double> map) {
+        ranks.on_root([&] { crop_map(map, across, inner); });
+        return map;
+    };
+    gap = of_box(whole(ranks, grid, maps.gap));
     put("gap", gap);
-    put("pressure", whole(ranks, grid, maps.pressure));
-    put("distance", whole(ranks, grid, maps.distance));
-    put("u_x", gather_plane(ranks, grid, 0, layer.x));
-    put("u_y", gather_plane(ranks, grid, 0, layer.y));
-    put("u_z", gather_plane(ranks, grid, 0, layer.z));
-    const auto touching = whole(ranks, grid, {maps.contact.begin(), maps.contact.end()});
+    put("pressure", of_box(whole(ranks, grid, maps.pressure)));
+    put("distance", of_box(whole(ranks, grid, maps.distance)));
+    put("u_x", of_box(gather_plane(ranks, grid, 0, layer.x)));
+    put("u_y", of_box(gather_plane(ranks, grid, 0, layer.y)));
+    put("u_z", of_box(gather_plane(ranks, grid, 0, layer.z)));
+    const auto touching = of_box(whole(ranks, grid, {maps.contact.begin(), maps.contact.end()}));
     ranks.on_root([&] {
         const std::vector<std::uint8_t> contact(touching.begin(), touching.end());
         put_member<std::uint8_t>(record, data_set, "contact", {n, n}, contact);
@@ -242,7 +248,7 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
             put_number("slide_x", slide_x);
             put_number("slide_y", slide_y);
         }
-        put_gap_density(record, gap);
+        put_gap_density(record, std::move(gap));
     });
     return record;
 }

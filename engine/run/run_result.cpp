@@ -80,6 +80,10 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
     if (in) result.set("stored.approach", in->stored);
     if (out) result.set("stored.pull_off", out->stored);
+    if (c.in_newtons()) {
+        if (in) result.set("instrument.approach_force", in->attraction / units::nanonewton);
+        if (out) result.set("instrument.pull_off_force", out->attraction / units::nanonewton);
+    }
     if (!radius || c.effects.layers || c.effects.surface_stress) return; // no JKR of these
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
@@ -96,6 +100,8 @@ void add_sphere(const Case& c, io::Result& result) {
     const bool one_modulus = !c.effects.layers && !c.effects.surface_stress;
     if (const auto fraction = result.number("contact_fraction"))
         result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
+    if (const auto contact = result.number("contact_radius.relaxed"))
+        result.set("instrument.contact_radius", 0.1 * *contact);
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
     if (!binding || pressed || !one_modulus) return;
@@ -146,6 +152,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].largest_friction", s.lateral_most);
         if (s.steady) add_steady(*s.steady, c, i, result);
         result.set("segments[].pressure", i, s.force / (c.area() * units::megapascal));
+        if (c.in_newtons()) result.set("segments[].force", i, s.force / units::nanonewton);
         if (s.scatter) {
             result.set("segments[].pressure_scatter", i,
                        *s.scatter / (c.area() * units::megapascal));
@@ -221,6 +228,9 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
+    if (c.in_newtons() && c.effects.spring)
+        result.set("instrument.spring", c.simulation.drive.stiffness / units::newton_per_metre);
+    if (results.edge_distance) result.set("instrument.edge_distance", 0.1 * *results.edge_distance);
     const auto& wall = c.simulation.interface.wall;
     if (!wall || !std::holds_alternative<ExponentialWall>(*wall))
         result.set("interface.cutoff", cutoff_of(c.simulation.interface.potential));

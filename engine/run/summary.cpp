@@ -21,6 +21,15 @@ namespace {
 
 /// Fraction of the work of adhesion of flat surfaces below which solids do not stick.
 constexpr double no_adhesion = 0.01;
+/// Share of the box's edge within which a contact is said to come near a free edge.
+constexpr double near_edge = 0.05;
+
+/// Returns a force on the box as people read it: a pressure, or of a sphere and with free edges a
+/// force.
+std::string force_text(const Case& c, double force) {
+    if (c.in_newtons()) return io::cell(force / units::nanonewton, 4) + " nN";
+    return io::number(force / (c.area() * units::megapascal), 1) + " MPa";
+}
 
 std::string levels_text(const Case& c) {
     if (!c.effects.dynamic) return "static response of the lattice, wave by wave";
@@ -160,7 +169,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     if (c.effects.branches)
         head.push_back(named("dissipated in the block", "segments[].dissipated_in_block"));
     if (!c.effects.dynamic) head.push_back(named("stored", "segments[].stored"));
-    head.insert(head.end(), {named("ends at", "segments[].pressure"),
+    const io::Key force =
+        c.in_newtons() ? io::Key("segments[].force") : io::Key("segments[].pressure");
+    head.insert(head.end(), {named("ends at", force),
                              named("mean height", "segments[].mean_height"), "contact"});
     if (slides) head.push_back(named("friction", "segments[].friction"));
     io::Table table(head);
@@ -169,7 +180,8 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                                         energies(s.lost)};
         if (c.effects.branches) row.push_back(energies(s.relaxed));
         if (!c.effects.dynamic) row.push_back(energies(s.stored));
-        row.insert(row.end(), {number(s.force / (c.area() * units::megapascal), 1),
+        const double unit = c.in_newtons() ? units::nanonewton : c.area() * units::megapascal;
+        row.insert(row.end(), {number(s.force / unit, c.in_newtons() ? 3 : 1),
                                number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)});
         if (slides) row.push_back(number(s.lateral_mean, 2));
         table.row(row);
@@ -198,9 +210,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
             std::abs(s.force - asked.amount) <= 1.1 * load_accuracy * std::abs(asked.amount))
             continue;
         fmt::print(to,
-                   "  \"{}\" ended at {:.4g} MPa: the force jumps across the load there, and no "
+                   "  \"{}\" ended at {}: the force jumps across the load there, and no "
                    "state that this path\n  passes is under it.\n",
-                   c.path()[s.number].text, s.force / (c.area() * units::megapascal));
+                   c.path()[s.number].text, force_text(c, s.force));
     }
 }
 
@@ -208,8 +220,7 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
 
 std::string progress_phase(const Case& c, const std::string& segment, double force,
                            long long in_contact, double mean_height) {
-    return fmt::format("{}, {} MPa, contact {:.3f}, height {} Å", segment,
-                       io::number(force / (c.area() * units::megapascal), 1),
+    return fmt::format("{}, {}, contact {:.3f}, height {} Å", segment, force_text(c, force),
                        c.fraction(in_contact), io::number(mean_height, 2));
 }
 
@@ -217,12 +228,19 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
                    int threads, std::size_t bytes, const std::string& directory) {
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
-    fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
-               io::number(c.edge(), 1));
+    if (c.in_newtons())
+        fmt::print(to, "{}: {} x {} sites, {} nm wide{}\n", c.scene.name, block.sites, block.sites,
+                   io::cell(0.1 * c.edge()), c.effects.free_edges ? ", with free edges" : "");
+    else
+        fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
+                   io::number(c.edge(), 1));
     fmt::print(to, "  substrate   {}{}\n", surface_text(c, surface),
-               c.radius() ? fmt::format(", on a sphere of R = {:.6g} Å", *c.radius()) : "");
-    fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
-               io::number(block.thickness * block.spacing, 1), levels_text(c));
+               c.radius() ? fmt::format(", on a sphere of R = {:.6g} nm", 0.1 * *c.radius()) : "");
+    if (c.effects.free_edges)
+        fmt::print(to, "  block       a half-space: {}\n", levels_text(c));
+    else
+        fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
+                   io::number(block.thickness * block.spacing, 1), levels_text(c));
     fmt::print(to,
                "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
                "{} precision\n",
@@ -254,8 +272,10 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const Numbers of{result};
     const double flat = of("delta_gamma").value_or(0.0);
     const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;
-    const std::string at = loaded ? fmt::format("under {:.6g} MPa", c.load_in_megapascal())
-                                  : std::string("at zero load");
+    const std::string at =
+        loaded ? "under " + (c.in_newtons() ? force_text(c, c.simulation.drive.load_force)
+                                            : fmt::format("{:.6g} MPa", c.load_in_megapascal()))
+               : std::string("at zero load");
     const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
                  interface_in = of("work_of_interface.approach"),
                  interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
@@ -306,8 +326,13 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             table.row({"convergence of the above, meV/Å²",
                        plus_minus(of("work_of_drive.uncertainty.approach")),
                        plus_minus(of("work_of_drive.uncertainty.pull_off"))});
-        table.row({named("largest attraction", "pull_off_force"), number(of("approach_force"), 1),
-                   number(of("pull_off_force"), 1)});
+        if (c.in_newtons())
+            table.row({named("largest attraction", "instrument.pull_off_force"),
+                       number(of("instrument.approach_force"), 3),
+                       number(of("instrument.pull_off_force"), 3)});
+        else
+            table.row({named("largest attraction", "pull_off_force"),
+                       number(of("approach_force"), 1), number(of("pull_off_force"), 1)});
         if (c.radius())
             row("  as a JKR sphere", "jkr.approach", of("jkr.approach"), of("jkr.pull_off"));
         fmt::print(to, "\n");
@@ -342,6 +367,14 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
                    "sphere what follows\n  from it, are about {:.3g} times too large.\n",
                    *pinning);
+    if (const Number edge = of("instrument.edge_distance");
+        edge && *edge < 0.1 * near_edge * c.edge())
+        fmt::print(
+            to,
+            "  The contact comes within {} nm of a free edge of the box, where the substrate "
+            "ends: it is that of this\n  piece. A contact that is to end by itself takes "
+            "a wider box (surface.sites).\n",
+            io::cell(*edge));
     if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
     if (const Number residual = of("energy.balance_error"))
         fmt::print(to,

@@ -24,9 +24,10 @@ std::size_t cells(int n) { return static_cast<std::size_t>(n) * static_cast<std:
 
 double mean_of(const std::vector<double>& h) {
     double sum = 0.0;
+    std::size_t count = 0;
     for (double v : h)
-        sum += v;
-    return sum / static_cast<double>(h.size());
+        if (!std::isnan(v)) sum += v, ++count;
+    return sum / static_cast<double>(count);
 }
 
 } // namespace
@@ -44,9 +45,10 @@ void transform(std::vector<Complex>& data, int nx, int ny, int sign) {
 double rms_of(const std::vector<double>& h) {
     const double mean = mean_of(h);
     double square = 0.0;
+    std::size_t count = 0;
     for (double v : h)
-        square += (v - mean) * (v - mean);
-    return std::sqrt(square / static_cast<double>(h.size()));
+        if (!std::isnan(v)) square += (v - mean) * (v - mean), ++count;
+    return std::sqrt(square / static_cast<double>(count));
 }
 
 void remove_mean(std::vector<double>& h) {

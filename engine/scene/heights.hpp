@@ -15,6 +15,7 @@ namespace asperity::heights {
 /// std::runtime_error.
 void transform(std::vector<std::complex<double>>& data, int nx, int ny, int sign);
 
+/// Returns the rms height; remove_mean() subtracts the mean. Heights that are NaN do not count.
 double rms_of(const std::vector<double>& h);
 void remove_mean(std::vector<double>& h);
 /// Steps from point to point of a map of n x n, rms: between neighbours inside, and over the edges

@@ -106,7 +106,10 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, double are
             continue;
         }
         if (wants_amount) {
-            const io::ParsedQuantity parsed = io::parse_quantity(amount, found->unit);
+            io::ParsedQuantity parsed = io::parse_quantity(amount, found->unit);
+            if (segment.kind == Segment::load && !parsed.why.empty())
+                if (const auto force = io::parse_quantity(amount, "nN"); force.why.empty())
+                    parsed = {force.value * units::nanonewton / (units::megapascal * area), {}, {}};
             if (!parsed.why.empty()) {
                 refuse(amount.empty() ? std::string("it needs an amount") : parsed.why,
                        fmt::format("for example \"{}\"", found->example));

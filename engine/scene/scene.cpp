@@ -87,6 +87,18 @@ io::Schema bind(Scene& scene) {
     schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
                            "N; the periodic box is N spacings wide; a length (\"133 nm\") is "
                            "rounded to whole spacings");
+    schema
+        .choice<Boundary>(
+            "boundary", surface.boundary,
+            {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
+            "edges of the box: the surfaces repeat beyond them, or the substrate ends there below "
+            "a half-space that goes on (a tip, a lens, a punch; over a wall, quasi-static)")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
+                                 "a surface without images is known wave by wave, at rest",
+                                 "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
+                  needs.refusing(needs.wall, "without a wall",
+                                 "a surface without images answers normal forces alone",
+                                 "take interface.kind = \"wall\", or boundary = \"periodic\"")};
     schema.number("spacing", surface.spacing, "Å", positive(),
                   "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
     schema
@@ -161,9 +173,11 @@ io::Schema bind(Scene& scene) {
                   needs.map};
     schema
         .choice<MapMissing>("file_missing", surface.file_missing,
-                            {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
-                            "points of the map without a height: refused, or filled by Laplace's "
-                            "equation")
+                            {{"refuse", MapMissing::refuse},
+                             {"fill", MapMissing::fill},
+                             {"hole", MapMissing::hole}},
+                            "points of the map without a height: refused, filled by Laplace's "
+                            "equation, or holes of a wall: no solid is there (a punch)")
         .needs = {needs.map};
     schema
         .choice<MapCrop>("file_crop", surface.file_crop,
@@ -208,9 +222,12 @@ io::Schema bind(Scene& scene) {
                   "Poisson's ratio");
     schema.number("atom_mass", block.atom_mass, "u", positive(), "mass of an atom").needs = {
         needs.dynamic};
-    schema.count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
-                           "in lattice layers, or a length (\"33 nm\"), rounded to whole layers; N "
-                           "where the scene does not say");
+    schema
+        .count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
+                         "in lattice layers, or a length (\"33 nm\"), rounded to whole layers; N "
+                         "where the scene does not say")
+        .needs = {
+        {needs.periodic.is_met, "surface.boundary is \"free\", and the block is a half-space"}};
     schema
         .integer("layers_per_level", block.layers_per_level, between(2, 1024),
                  "thickness of each level of the multiscale block, in its own cells")
@@ -237,6 +254,9 @@ io::Schema bind(Scene& scene) {
                    "drive.path is one relaxation, and its state is the relaxed one"}};
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
                                     "its surface, has them";
+    constexpr const char* of_one =
+        "the displacements around a force are known without images for a "
+        "half-space of one material";
     schema
         .rows<3>("layers", block.layers,
                  {{{"thickness", "Å", positive(), "\"2 nm\""},
@@ -245,12 +265,16 @@ io::Schema bind(Scene& scene) {
                  "coatings between the block's own material and its surface, on a quasi-static "
                  "path, from the surface upwards; a thickness is rounded to whole lattice layers")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
-                                 "take drive.mode = \"quasistatic\", or leave layers out")};
+                                 "take drive.mode = \"quasistatic\", or leave layers out"),
+                  needs.refusing(needs.periodic, "with surface.boundary = \"free\"", of_one,
+                                 "take boundary = \"periodic\", or leave layers out")};
     schema
         .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
                 "tension of the block's surface, on a quasi-static path")
         .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
-                                 "take drive.mode = \"quasistatic\", or leave surface_stress out")};
+                                 "take drive.mode = \"quasistatic\", or leave surface_stress out"),
+                  needs.refusing(needs.periodic, "N/m with surface.boundary = \"free\"", of_one,
+                                 "take boundary = \"periodic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "
@@ -414,9 +438,10 @@ io::Schema bind(Scene& scene) {
             "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
             "transit of the block")
         .needs = {needs.dynamic};
-    schema.number("load", drive.load, "MPa", any(),
-                  "pressure at which an approach ends, or under which \"relax\" finds the state; "
-                  "the state after an approach carries none");
+    schema.quantity_or("load", drive.load, "MPa", {"nN", "a force", &scene.force},
+                       "pressure, or force on the box (\"20 nN\"), at which an approach ends, or "
+                       "under which \"relax\" finds the state; "
+                       "the state after an approach carries none");
     schema
         .number("temperature", drive.temperature, "K", at_least(0.0),
                 "above 0: Langevin thermostat")

@@ -29,7 +29,8 @@
 namespace asperity {
 
 enum class Detrend { none, plane, periodic };
-enum class MapMissing { refuse, fill };
+enum class Boundary { periodic, free };
+enum class MapMissing { refuse, fill, hole };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
 /// Resolution of the block on a dynamic path. On quasi-static paths the block is the waves of the
@@ -57,10 +58,11 @@ inline constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20
 struct Scene {
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
-        int sites = 512;            ///< N
-        double spacing = 2.6;       ///< a, Å
-        double lattice_ratio = 1.0; ///< block spacing over substrate spacing
-        double rms = 3.0;           ///< Å; a map from a file is scaled to it only if it is given
+        int sites = 512;                        ///< N
+        double spacing = 2.6;                   ///< a, Å
+        Boundary boundary = Boundary::periodic; ///< edges of the box
+        double lattice_ratio = 1.0;             ///< block spacing over substrate spacing
+        double rms = 3.0; ///< Å; a map from a file is scaled to it only if it is given
         double hurst = 0.8;
         double rolloff = 3.0;        ///< q0 / q_L
         std::optional<double> q_max; ///< q1 / q_L; empty: the Nyquist wavevector, sites/2
@@ -149,6 +151,8 @@ struct Scene {
     /// surface.sites and block.thickness if they are given as lengths, Å; reading derives the
     /// numbers from them.
     std::optional<double> width, height;
+    /// drive.load if it is given as a force, nN; reading derives the pressure from it.
+    std::optional<double> force;
 
     // Origin of the scene.
     std::string file;           ///< file as given on the command line
@@ -163,6 +167,7 @@ struct Scene {
     double edge() const { return surface.sites * surface.spacing; }
     /// Returns an empty list of problems with this scene's positions.
     io::Problems problems() const { return io::Problems(positions); }
+    bool has_free_edges() const { return surface.boundary == Boundary::free; }
     /// Returns true if the scene itself sets surface.rms: only then is a map scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };

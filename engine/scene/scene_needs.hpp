@@ -29,6 +29,7 @@ struct Needs {
                "surface.kind is \"flat\""};
     Need one_layer{[this] { return scene.surface.kind != SurfaceKind::atoms; },
                    "surface.kind is \"atoms\""};
+    Need periodic{[this] { return !scene.has_free_edges(); }, "surface.boundary is \"free\""};
     Need wall{[this] { return scene.interface.kind == InterfaceKind::wall; },
               "interface.kind is not \"wall\""};
     Need exponential{[this] {

@@ -4,6 +4,7 @@
 // Reads and writes scenes as text.
 #include "engine/scene/scene.hpp"
 
+#include "engine/units.hpp"
 #include "io/json.hpp"
 
 #include <cmath>
@@ -15,7 +16,8 @@ namespace asperity {
 
 namespace {
 
-/// Computes the sites and layers that the scene gives as lengths.
+/// Computes the sites and layers that the scene gives as lengths, and the pressure that it gives as
+/// a force.
 void make_counts(Scene& scene, io::Problems& problems) {
     const auto count = [&](const char* key, const std::optional<double>& length, int low, int high,
                            int& into) {
@@ -33,6 +35,9 @@ void make_counts(Scene& scene, io::Problems& problems) {
     };
     count("surface.sites", scene.width, fewest_sites, most_sites, scene.surface.sites);
     count("block.thickness", scene.height, 1, most_layers, scene.block.thickness);
+    if (scene.force)
+        scene.drive.load =
+            *scene.force * units::nanonewton / (units::megapascal * scene.edge() * scene.edge());
 }
 
 } // namespace

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -74,7 +75,13 @@ void measure(const SurfaceOptions& o, Surface& s) {
     stat.rms = heights::rms_of(s.height);
     const int n = s.sites;
     const double q_unit = 2.0 * pi / s.length;
-    std::vector<Complex> wave(s.height.begin(), s.height.end());
+    std::vector<double> whole = s.height;
+    if (s.holes > 0) { // level with the mean of the rest
+        heights::remove_mean(whole);
+        for (double& v : whole)
+            if (std::isnan(v)) v = 0.0;
+    }
+    std::vector<Complex> wave(whole.begin(), whole.end());
     heights::transform(wave, n, n, FFTW_FORWARD);
     stat.spectrum.assign(static_cast<std::size_t>(n / 2) + 1, {});
     double slope2 = 0.0, curvature2 = 0.0;
@@ -119,9 +126,12 @@ Surface finish(const SurfaceOptions& o, Surface s) {
                          static_cast<std::size_t>(x)] += cap_of(o.radius, dx, dy);
             }
     }
-    const auto [low, high] = std::minmax_element(s.height.begin(), s.height.end());
-    s.statistics.lowest = *low;
-    s.statistics.highest = *high;
+    s.statistics.lowest = std::numeric_limits<double>::infinity();
+    s.statistics.highest = -s.statistics.lowest;
+    for (const double h : s.height) { // holes do not count
+        if (h < s.statistics.lowest) s.statistics.lowest = h;
+        if (h > s.statistics.highest) s.statistics.highest = h;
+    }
     return s;
 }
 
@@ -203,7 +213,9 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
                 h.size() == static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny),
             fmt::format("the height map has {} values, not {} x {}; give a full matrix", h.size(),
                         nx, ny));
-    const auto bad = std::find_if(h.begin(), h.end(), [](double v) { return !std::isfinite(v); });
+    const auto bad = std::find_if(h.begin(), h.end(), [&](double v) {
+        return !std::isfinite(v) && !(o.holes && std::isnan(v));
+    });
     if (bad != h.end()) {
         const auto at = static_cast<int>(bad - h.begin());
         require(false,
@@ -214,7 +226,17 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     Surface s;
     s.sites = o.sites;
     s.length = o.length;
-    if (nx == ny) {
+    s.holes = std::count_if(h.begin(), h.end(), [](double v) { return std::isnan(v); });
+    if (s.holes > 0) {
+        require(s.holes < static_cast<long long>(h.size()),
+                "the height map holds no height at all");
+        require(
+            !o.detrend && o.line_noise == LineNoise::keep && nx == ny && nx == sites_of_map(o),
+            fmt::format("a map with holes is taken as it is, and its {} x {} points cover {} x {} "
+                        "sites; bring it onto the lattice before, and leave detrend and "
+                        "line_noise out",
+                        nx, ny, sites_of_map(o), sites_of_map(o)));
+    } else if (nx == ny) {
         const double edge = o.map_edge > 0.0 ? o.map_edge : o.length;
         s.doubts = treat_line_noise(h, nx, edge / nx, std::min(nx, sites_of_map(o)), o.line_noise);
     }
@@ -263,7 +285,7 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
         s.notes.push_back(fmt::format("height map scaled from rms = {:g} Å to {:g} Å", own, o.rms));
     }
     const auto [inside, seam] = heights::steps(h, o.sites);
-    if (seam > worst_seam * inside)
+    if (o.repeats && seam > worst_seam * inside)
         s.notes.push_back(fmt::format(
             "the map does not repeat: over the box's edges heights jump by {:.3g} Å (rms), between "
             "neighbours inside by {:.3g} Å. The surface keeps this cliff; {}",
@@ -271,6 +293,9 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
             o.kind == SurfaceKind::atoms ? "a box of whole periods of the substrate has none"
                                          : "surface.detrend = \"periodic\" removes it"));
     s.height = std::move(h);
+    if (s.holes > 0)
+        s.holes =
+            std::count_if(s.height.begin(), s.height.end(), [](double v) { return std::isnan(v); });
     return finish(o, std::move(s));
 }
 

@@ -43,6 +43,8 @@ struct SurfaceOptions {
     bool periodic = false; ///< measured maps: remove the jumps between opposite edges
     LineNoise line_noise =
         LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
+    bool holes = false;    ///< measured maps: heights may be NaN, where no solid is
+    bool repeats = true;   ///< false: the surface ends at the edges of the box
     double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
 
     bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }

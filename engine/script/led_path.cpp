@@ -187,7 +187,13 @@ LedPath::Point LedPath::now() const {
 
 InterfaceMaps LedPath::maps() const {
     block_.workspace()->free_kept();
-    return interface_.maps(block_.lowest_layer(), reference_height());
+    InterfaceMaps maps = interface_.maps(block_.lowest_layer(), reference_height());
+    const int across = maps.nx, n = interface_.sites_across();
+    maps.nx = maps.ny = n;
+    crop_map(maps.contact, across, n);
+    for (std::vector<double>* map : {&maps.distance, &maps.gap, &maps.pressure})
+        crop_map(*map, across, n);
+    return maps;
 }
 
 RestState LedPath::release(const Look& look) {
@@ -210,7 +216,7 @@ RestState LedPath::release(const Look& look) {
 }
 
 LedPath::State LedPath::copy() const {
-    State state{case_.simulation.block.sites, {}, block_.drive()};
+    State state{case_.simulation.block.grid(), {}, block_.drive()};
     const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
         for (int y = 0; y < plane.ny; ++y)
             to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
@@ -226,7 +232,7 @@ LedPath::State LedPath::copy() const {
 }
 
 void LedPath::restore(const State& state) {
-    const int sites = case_.simulation.block.sites;
+    const int sites = case_.simulation.block.grid();
     if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
                fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");

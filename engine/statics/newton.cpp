@@ -34,7 +34,7 @@ bool Newton::direction(const Interface& interface, double reference_height, doub
 }
 
 double Newton::multiply(double fraction) {
-    const double n = block_.options().sites, norm = 1.0 / (n * n);
+    const double n = block_.slab().sites, norm = 1.0 / (n * n);
     OrderedSums sums(block_.slab(), OrderedSums::Over::blocks, 1);
     WaveBlocks<float> waves = block_.transform<float>().from_waves();
 #pragma omp parallel for schedule(static) num_threads(waves.threads())

@@ -218,7 +218,7 @@ private:
     /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
     /// (setup/scales.cpp), or of a site's part of this force, if that is larger.
     double tolerance_under(double force) const {
-        return options_.tolerance * std::max(1.0, force / (sites_ * options_.scales.force));
+        return options_.tolerance * std::max(1.0, force / (box_sites_ * options_.scales.force));
     }
     double tolerance_at(double force) const;
     double tolerance_to(double at) const;
@@ -238,7 +238,8 @@ private:
     SpectralBlock& block_;
     Interface& interface_;
     PathOptions options_;
-    double sites_ = 0.0; ///< N^2
+    double sites_ = 0.0;     ///< number of sites of the block
+    double box_sites_ = 0.0; ///< N^2, those above the substrate
 
     LastPoint last_;
     StepRecord record_; ///< record of the last point

@@ -69,6 +69,7 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
+      box_sites_(static_cast<double>(block.options().sites) * block.options().sites),
       last_(
           block, interface,
           {options_.along, 0.25 * options_.tolerance, options_.scales, options_.reference_height}),
@@ -186,7 +187,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);
     const double a = block_.options().spacing;
-    course_.rule.begin(course_.kind, load(), direction < 0.0, sites_ * a * a, record_.force,
+    course_.rule.begin(course_.kind, load(), direction < 0.0, box_sites_ * a * a, record_.force,
                        slack(record_.in_contact));
     course_.aim.begin();
     course_.errors.begin();

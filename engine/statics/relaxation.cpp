@@ -108,7 +108,7 @@ private:
     void measure() {
         const auto t = phases_.time(Phase::sums);
         block_.gradient(g_);
-        rms_ = std::sqrt(dot(g_, g_)) / block_.options().sites;
+        rms_ = std::sqrt(dot(g_, g_)) / block_.slab().sites;
         rough_ = rough_ && rms_ > Constants::rough_enough * options_.scales.interface_force();
     }
     double largest_residual() {
@@ -190,7 +190,7 @@ private:
 bool balanced(Response& block, double force, double balance, double rounding) {
     const Constraint& constraint = block.constraint();
     if (constraint.is_mean_height()) return true;
-    const double sites = static_cast<double>(block.options().sites) * block.options().sites;
+    const double sites = static_cast<double>(block.slab().sites) * block.slab().sites;
     const double least = rounding * sites;
     if (constraint.is_top()) return std::abs(force - block.top_force()) <= std::max(balance, least);
     ExactSum sum;
@@ -251,7 +251,7 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     state.machine_energy = energies.machine;
     state.elastic_energy = energies.elastic + state.machine_energy + state.branches.stored;
     state.top = block.top();
-    state.mean_height = block.mean_height();
+    state.mean_height = block.mean_height_of_box();
     static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());
     return state;
 }

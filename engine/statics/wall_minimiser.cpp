@@ -92,7 +92,7 @@ void WallMinimiser::elastic_forces(SiteField<T>& field) {
 template <class T>
 double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     const Constraint& constraint = block_.constraint();
-    const double n = block_.options().sites, sites = n * n, load = constraint.load() / sites;
+    const double n = block_.slab().sites, sites = n * n, load = constraint.load() / sites;
     const PlaneView<double> u = block_.moving_layer(0);
     WallRule rule{.reference_height = height_,
                   .spring = spring_,

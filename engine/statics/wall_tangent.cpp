@@ -20,7 +20,7 @@ public:
     Tangent(SpectralBlock& block, const Interface& interface, double reference_height,
             const Constraint& constraint)
         : block_(block), u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
-          sites_(static_cast<double>(block.options().sites) * block.options().sites),
+          sites_(static_cast<double>(block.slab().sites) * block.slab().sites),
           product_(block.new_field<float>()), h_(block.new_map<double>()),
           weight_(block.new_map<double>()), r_(block.new_map<double>()),
           p_(block.new_map<double>()), d_(block.new_map<double>()) {
@@ -39,7 +39,10 @@ public:
         std::visit(
             [&](const auto& law) {
                 for_sites([&](int x, int y) {
-                    const double h = law.stiffness_at(reference_height + u_(x, y) - below(x, y));
+                    const double h =
+                        std::isnan(below(x, y))
+                            ? 0.0
+                            : law.stiffness_at(reference_height + u_(x, y) - below(x, y));
                     h_.plane(0)(x, y) = h;
                     weight_.plane(0)(x, y) = 1.0 / (spring + std::max(0.0, h));
                 });

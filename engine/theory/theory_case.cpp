@@ -123,6 +123,11 @@ NoTheory no_theory(const Case& c) {
                 "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
                 "are of one layer with heights, whose flat reference they divide by",
                 "take a surface with heights: self-affine, flat or file"};
+    if (c.effects.free_edges)
+        return {"surface.boundary",
+                "the substrate ends at the edges of the box (surface.boundary = \"free\"), and the "
+                "theories are of endless surfaces",
+                "take boundary = \"periodic\""};
     constexpr const char* of_one = "the theories are of a half-space of one modulus";
     if (c.effects.layers)
         return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),

@@ -16,7 +16,7 @@
 namespace asperity {
 
 Response::Response(const BlockOptions& options, const Communicator& communicator, bool frictionless)
-    : options_(options), slab_(options.sites, communicator), components_(frictionless ? 1 : 3),
+    : options_(options), slab_(options.grid(), communicator), components_(frictionless ? 1 : 3),
       table_(options, slab_, frictionless), layer_(tile(), 1, 0), force_(tile(), 1, 0),
       waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
     if (options.branches.empty()) return;
@@ -25,7 +25,7 @@ Response::Response(const BlockOptions& options, const Communicator& communicator
 }
 
 void Response::gradient(Waves<double>& g) const {
-    const double sites = options_.sites, norm = 1.0 / (sites * sites);
+    const double sites = slab_.sites, norm = 1.0 / (sites * sites);
     const WaveBlocks<double> forces = to_blocks(moving_planes(force_), transform_);
 #pragma omp parallel for schedule(static) num_threads(forces.threads())
     for (int b = 0; b < g.blocks(); ++b) {
@@ -41,7 +41,7 @@ void Response::gradient(Waves<double>& g) const {
 }
 
 SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
-    const double sites = options_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
+    const double sites = slab_.sites, norm = 1.0 / (sites * sites), k = preconditioner.k();
     double mean = -norm * constraint_.load();
     if (constraint_.is_top()) mean += held_stiffness() * constraint_.value;
     const std::size_t normal = slab_.block_length(components_ - 1);
@@ -114,7 +114,7 @@ template void Response::stiffen(SiteField<float>&) const;
 
 template <class T>
 void Response::shape_forces(SiteField<T>& displacement) const {
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     const std::size_t normal = slab_.block_length(components_ - 1);
     change_waves(displacement, [&](int b, T* waves) {
         stiffen<T>(b, waves, 0.0, nullptr, waves);
@@ -128,7 +128,7 @@ template void Response::shape_forces(SiteField<float>&) const;
 template void Response::shape_forces(SiteField<double>&) const;
 
 Holder Response::holder() const {
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     if (!constraint_.is_top()) return {.force = constraint_.load() / (sites * sites)};
     Holder held{.stiffness = held_stiffness(), .at = constraint_.value};
     if (!known_) return held;
@@ -152,7 +152,7 @@ double Response::stiffest_wave() const {
 double Response::held_stiffness() const {
     const double block = factor_ * table_.uniform();
     if (!machine_) return block;
-    const double sites = options_.sites, machine = *machine_ / (sites * sites);
+    const double sites = slab_.sites, machine = *machine_ / (sites * sites);
     return block * machine / (block + machine);
 }
 
@@ -173,9 +173,22 @@ double Response::mean_height() const {
     return mean;
 }
 
+double Response::mean_height_of_box() const {
+    if (!options_.free_edges) return mean_height();
+    const PlaneView<const double> z = layer_.z.plane(0);
+    const int n = options_.sites;
+    ExactSum sum;
+    for (int y = 0; y < z.ny && slab_.first + y < n; ++y) {
+        for (int x = 0; x < n; ++x)
+            sum.add(z(x, y));
+        sum.carry();
+    }
+    return global_sum(slab_.ranks, sum) / (static_cast<double>(n) * n);
+}
+
 double Response::top_force() const {
     if (!constraint_.is_top()) return constraint_.load();
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     return sites * sites * holder()(mean_height());
 }
 
@@ -204,7 +217,7 @@ BlockEnergies Response::energies() const {
 }
 
 double Response::twice_energy(const SiteField<double>& u) const {
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     Waves<double> waves = new_waves<double>(), su = new_waves<double>();
     to_waves(u, transform_, waves);
     combine(1.0 / (sites * sites), waves, 0.0, su);
@@ -299,7 +312,7 @@ void Response::displace(double t, const Waves<float>& d, const SiteField<float>&
 
 void Response::restore_mean_height() {
     if (!constraint_.is_mean_height()) return;
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     const PlaneView<double> z = layer_.z.plane(0);
     ExactSum sum;
     elastic_kernels().sum(z, 0, z.ny, sum);
@@ -311,7 +324,7 @@ void Response::restore_mean_height() {
 
 void Response::apply_constraint() {
     restore_mean_height();
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     const WaveBlocks<double> blocks = to_blocks(moving_planes(layer_), transform_);
 #pragma omp parallel for schedule(static) num_threads(blocks.threads())
     for (int b = 0; b < waves_.blocks(); ++b)

@@ -143,6 +143,9 @@ public:
     double drive() const;
     /// Returns the mean of u_z over the layer, Å. Collective.
     double mean_height() const;
+    /// Returns the mean of u_z over the box, Å: with free edges over the sites above the substrate.
+    /// Collective.
+    double mean_height_of_box() const;
     /// Returns the elastic force on the top plane along z, eV/Å; a load presses down. Collective.
     double top_force() const;
     /// Returns the energies of the block as it is. Collective.
@@ -167,7 +170,7 @@ protected:
     ~Response() = default;
 
     /// Returns the stiffness of the whole block under uniform stretch, eV/Å.
-    double spring() const { return factor_ * table_.uniform() * options_.sites * options_.sites; }
+    double spring() const { return factor_ * table_.uniform() * slab_.sites * slab_.sites; }
     /// Returns the stiffness of the uniform normal wave against the drive, eV/Å^2 for each site:
     /// the block's, in series with the machine's.
     double held_stiffness() const;

@@ -18,7 +18,7 @@ void SpectralBlock::set_uniform(double z) {
 void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
     memory_->begin(from_top(), dt, last);
-    const double sites = options_.sites;
+    const double sites = slab_.sites;
     to_waves(memory_->known(), transform<double>(), *known_);
     combine(0.0, *known_, 1.0 / (sites * sites), *known_);
     stiffen_relaxed(*known_);

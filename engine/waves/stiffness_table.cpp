@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/waves/stiffness_table.hpp"
 
+#include "engine/waves/free_edges.hpp"
+
 #include <algorithm>
+#include <optional>
+#include <stdexcept>
 #include <type_traits>
 
 namespace asperity {
@@ -10,14 +14,24 @@ namespace asperity {
 using namespace matrix_entry;
 
 StiffnessTable::StiffnessTable(const BlockOptions& options, const Slab& slab, bool frictionless)
-    : layout_{options.sites, frictionless ? 1 : 3}, first_block_(slab.first_block()),
+    : layout_{options.grid(), frictionless ? 1 : 3}, first_block_(slab.first_block()),
       table_(layout_.size(slab.all_blocks())) {
+    if (options.free_edges && !frictionless)
+        throw std::invalid_argument("a block with free edges takes no lateral tractions");
+    std::optional<FreeEdges> free_edges;
+    if (options.free_edges) free_edges.emplace(options, layout_.sites);
     std::vector<WavePhase> phase;
-    for (int n = 0; n <= options.sites / 2; ++n)
-        phase.push_back(wave_phase(n, options.sites));
+    for (int n = 0; n <= layout_.sites / 2; ++n)
+        phase.push_back(wave_phase(n, layout_.sites));
 #pragma omp parallel for schedule(dynamic, 4)
     for (int i = 0; i < slab.columns(); ++i)
         for (int j = 0; j <= i; ++j) {
+            if (free_edges) {
+                const double normal = 1.0 / free_edges->compliance(i, j);
+                layout_.put({.zz = normal}, i, j, table_);
+                layout_.put({.zz = normal}, j, i, table_);
+                continue;
+            }
             const SurfaceMatrix s = options.stiffness(phase[static_cast<std::size_t>(i)],
                                                       phase[static_cast<std::size_t>(j)]);
             const double normal = frictionless ? 1.0 / inverse(s).zz : s.zz;

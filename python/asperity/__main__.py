@@ -71,9 +71,9 @@ def _parser() -> argparse.ArgumentParser:
     theory.add_argument("--points", help=argparse.SUPPRESS)
     theory.add_argument("--json", action="store_true", help="print the result as one line of JSON and write nothing")
     sweep = add("sweep", "a scene over several values of its keys: runs, theory, one table",
-                "--set key=v1,v2,..., key=start:stop:step or key=start:stop:xFACTOR sweeps a key, beside those of the scene's [sweep]; with\n"
-                "several, every combination. The same command goes on where a sweep stopped. Several scenes share one\n"
-                "set of plots.")
+                "--set key=v1,v2,..., key=start:stop:step or key=start:stop:xFACTOR sweeps a key, beside those of\n"
+                "the scene's [sweep]; with several, every combination. The same command goes on where a sweep stopped.\n"
+                "Several scenes share one set of plots.")
     scene(sweep, "results/<scene>-sweep")
     sweep.add_argument("--jobs", type=_many, default=1, metavar="N",
                        help="points side by side; each takes an equal share of the processors, unless "

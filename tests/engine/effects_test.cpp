@@ -54,7 +54,8 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
     const std::string atoms = write_atoms(scratch / "atoms.h5", layer);
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
                         "output.checkpoint=none", "block.thickness=16"};
-    const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"};
+    const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"},
+               wall = {"drive.mode=quasistatic", "interface.kind=wall"};
     struct Row {
         const Keys& with;
         const char* key;
@@ -78,7 +79,8 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
                            {relaxing, "block.prony=[[2.0, \"1 ns\"]]"},
                            {relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]"},
                            {relaxing, "block.surface_stress=0.1"},
-                           {relaxing, "drive.stiffness=0.2"}}) {
+                           {relaxing, "drive.stiffness=0.2"},
+                           {wall, "surface.boundary=free"}}) {
         Keys keys = row.with;
         keys.emplace_back(row.key);
         const std::string text = row.key, key = text.substr(0, text.find('='));
@@ -107,7 +109,9 @@ TEST(Effects, OffMakesNoCall) {
                          "drive.velocity=400", "drive.ramp=0"},
                still = {"block.thickness=16", "drive.mode=quasistatic",
                         "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
-               state = {"block.thickness=16", "drive.path=relax"};
+               state = {"block.thickness=16", "drive.path=relax"},
+               sphere = {"surface.kind=flat", "surface.radius=100", "interface.kind=wall",
+                         "interface.adhesion=5", "drive.path=relax"};
     const std::vector<Trace> traces = {
         {&Effects::dynamic,
          {"block.thickness=16", "drive.max_steps=20"},
@@ -125,6 +129,7 @@ TEST(Effects, OffMakesNoCall) {
          "/series/slide_x"},
         {&Effects::branches, still, "block.prony=[[2.0, \"1 ns\"]]", "", "/series/branch_energy"},
         {&Effects::spring, still, "drive.stiffness=0.2", "", "/series/spring_energy"},
+        {&Effects::free_edges, sphere, "surface.boundary=free", "", "instrument.edge_distance"},
         {&Effects::relaxation,
          {"block.thickness=8", "block.model=lattice", "drive.max_steps=20"},
          "drive.path=relax",

@@ -298,6 +298,61 @@ TEST(Scene, ABlockOfLayers) {
             << value;
 }
 
+TEST(Scene, ABoxWithFreeEdges) {
+    const std::string still = "drive.mode = \"quasistatic\"\ninterface.kind = \"wall\"\n"
+                              "interface.range = 20\ninterface.adhesion = \"50 mJ/m^2\"\n"
+                              "surface.sites = 64\nsurface.spacing = 10\nsurface.radius = "
+                              "\"80 nm\"\nsurface.kind = \"flat\"\nblock.young = \"3 GPa\"\n",
+                      free = "surface.boundary = \"free\"\n";
+    const Case c = read_case_text(
+        still + free + "drive.load = \"20 nN\"\ndrive.path = [\"approach\", \"load 30 nN\"]",
+        "s.toml");
+    EXPECT_TRUE(c.simulation.block.free_edges);
+    EXPECT_TRUE(c.simulation.interface.free_edges);
+    EXPECT_EQ(c.simulation.block.grid(), 128);
+    EXPECT_EQ(c.area(), 640.0 * 640.0);
+    EXPECT_FALSE(c.effects.theory);
+    EXPECT_NEAR(c.simulation.drive.load_force, 20.0 / 1.602176634, 1e-8) << "eV/Å";
+    EXPECT_NEAR(c.path()[1].amount, 30.0 / 1.602176634, 1e-8);
+    EXPECT_NEAR(c.scene.drive.load, 20e-9 / (64e-9 * 64e-9) / 1e6, 1e-7) << "MPa";
+    // Written back it is a pressure; one that is set over it is not the force.
+    EXPECT_EQ(read_scene_text(scene_toml(c.scene), "t.toml").drive.load, c.scene.drive.load);
+    EXPECT_EQ(
+        read_scene_text(still + "drive.load = \"20 nN\"", "s.toml", {"drive.load=3"}).drive.load,
+        3.0);
+    // Of a periodic box too.
+    EXPECT_EQ(read_scene_text(still + "drive.load = \"20 nN\"", "s.toml").drive.load,
+              c.scene.drive.load);
+
+    EXPECT_EQ(only("surface.boundary = \"free\"").what,
+              "surface.boundary = \"free\" on a dynamic path");
+    EXPECT_EQ(only(free + "drive.mode = \"quasistatic\"").what,
+              "surface.boundary = \"free\" without a wall");
+    EXPECT_EQ(only(still + free + "drive.control = \"mean-height\"").what,
+              "drive.control = \"mean-height\" with surface.boundary = \"free\"");
+    EXPECT_TRUE(only("drive.load = \"20 nm\"").why.starts_with("a pressure is needed"));
+    EXPECT_EQ(only(still + free + "block.layers = [[\"2 nm\", \"10 GPa\", 0.3]]").what,
+              "block.layers = [...] with surface.boundary = \"free\"");
+    EXPECT_EQ(only(still + free + "block.surface_stress = 0.03").what,
+              "block.surface_stress = 0.03 N/m with surface.boundary = \"free\"");
+    const auto refused = [&](const std::string& keys) {
+        const Case wide = read_case_text(still + free + keys, "s.toml");
+        EXPECT_EQ(wide.refused.size(), 1u);
+        return wide.refused.empty() ? io::Problem() : wide.refused[0];
+    };
+    // JKR's contact is as wide as the box at K a^3/R - sqrt(6 pi w K a^3).
+    EXPECT_EQ(refused("drive.load = \"4 uN\"").what,
+              "drive.load = 4000 nN needs a contact wider than the box");
+    EXPECT_EQ(refused("drive.path = [\"approach\", \"load 4 uN\"]").what,
+              "drive.path has \"load 4 uN\", which needs a contact wider than the box");
+    const std::vector<std::string> notes =
+        read_case_text(still + free + "block.thickness = 8", "s").notes;
+    EXPECT_EQ(std::count(notes.begin(), notes.end(),
+                         "block.thickness has no effect: surface.boundary is \"free\", and the "
+                         "block is a half-space"),
+              1);
+}
+
 TEST(Scene, OneComplaintAKey) { // out of range, and therefore not also a contradiction
     EXPECT_EQ(wrong("[interface]\ncutoff = -1\n").size(), 1u);
     const auto problems =

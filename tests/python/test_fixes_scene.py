@@ -32,6 +32,8 @@ WARM = {**MOVING, "drive.temperature": "10"}
 QUASI = {**MOVING, "drive.mode": "quasistatic"}
 COATED = '[["1 nm", "10 GPa", 0.3]]'
 WALL = {**STILL, "interface.kind": "wall"}
+FREE = {**QUASI, "interface.kind": "wall", "surface.boundary": "free"}
+TIP = {**FREE, "surface.kind": "flat", "surface.radius": "10 nm", "interface.adhesion": "1", "interface.range": "5", "drive.path": "approach"}
 PULLED = {**WALL, "drive.mode": "quasistatic", "drive.path": "approach, pull-off"}
 ATOMS = {**STILL, "surface.kind": "atoms", "surface.file": "atoms.h5", "interface.pairs": '["Au 0.1 3.28", "B 0.05 3"]'}
 TWINS = {"surface.file": "twins.h5"}
@@ -133,6 +135,7 @@ CASES = [
     ("take a larger interface.cutoff and tail = false", {"drive.path": '["approach", "slide x 5 Å"]', "interface.tail": "true"}, {"interface.cutoff": "14", "interface.tail": "false"}, QUASI),
     ("take frictionless = false", {"drive.path": '["approach", "slide x 5 Å"]', "interface.frictionless": "true"}, {"interface.frictionless": "false"}, QUASI),
     ('take drive.mode = "quasistatic"', {"drive.path": '["approach", "slide x 5 Å"]', "interface.kind": "wall"}, {"drive.mode": "quasistatic"}, MOVING),
+    ('take surface.boundary = "periodic"', {"drive.path": '["approach", "slide x 5 Å"]'}, {"surface.boundary": "periodic"}, FREE),
     ('leave "under load"', {"drive.path": '["approach", "slide x 5 Å under load"]'}, {"drive.path": '["approach", "slide x 5 Å"]'}, QUASI),
     ('or take interface.kind = "wall"', {"drive.path": '["approach", "slide x 5 Å until steady"]'}, {"interface.kind": "wall"}, QUASI),
     ('put a "load" before it', {"drive.path": '["height 3 Å", "slide x 5 Å under load"]'}, {"drive.path": '["height 3 Å", "load 1 MPa", "slide x 5 Å under load"]'}, PULLED),
@@ -207,6 +210,19 @@ CASES = [
     ('take "relaxed" in its place', {FIELDS: "segments"}, {FIELDS: "relaxed"}, STILL),
     ("add it to drive.path", {FIELDS: "pull-off"}, {"drive.mode": "quasistatic", "drive.path": '["relax", "pull-off"]'}, STILL),
     ("leave it out: the maps", {"output.trajectory": "5"}, {"output.trajectory": None}, STILL),
+    # Free edges
+    ('take drive.mode = "quasistatic"', {"surface.boundary": "free", "interface.kind": "wall"}, {"drive.mode": "quasistatic"}, MOVING),
+    ('or boundary = "periodic"', {"surface.boundary": "free"}, {"surface.boundary": "periodic"}, MOVING),
+    ('take interface.kind = "wall"', {"surface.boundary": "free"}, {"interface.kind": "wall"}, QUASI),
+    ('or boundary = "periodic"', {"surface.boundary": "free"}, {"surface.boundary": "periodic"}, QUASI),
+    ('take control = "top"', {"drive.control": "mean-height"}, {"drive.control": "top"}, FREE),
+    ('take boundary = "periodic", or', {"block.layers": COATED}, {"surface.boundary": "periodic"}, FREE),
+    ("or leave layers out", {"block.layers": COATED}, {"block.layers": None}, FREE),
+    ('take boundary = "periodic", or', {"block.surface_stress": "0.03"}, {"surface.boundary": "periodic"}, FREE),
+    ("or leave surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, FREE),
+    (r"take surface.sites = (\d+), or a load", {"drive.load": "200 nN"}, {"surface.sites": "{0}"}, TIP),
+    ("or a load of (.* nN) at most", {"drive.load": "200 nN"}, {"drive.load": "{0}"}, TIP),
+    ('take interface.kind = "wall"', {"surface.file_missing": "hole"}, {"interface.kind": "wall"}, MAP),
     # Devices
     ('take numerics.device = "none", or drive.mode', {"numerics.device": "emulated"}, {"numerics.device": "none"}, STILL),
     ('or drive.mode = "dynamic" with an approach', {"numerics.device": "emulated"}, {"drive.mode": "dynamic", "drive.path": "approach"}, STILL),
@@ -392,6 +408,7 @@ def test_a_fix_of_the_file(tmp_path):
 @pytest.mark.parametrize("says, bad, good, base", [
     ("take a surface with heights: (self-affine), flat or file", {}, {"surface.kind": "{0}", "interface.pairs": None}, ATOMS),
     ("leave block.layers out", {"block.layers": COATED}, {"block.layers": None}, QUASI),
+    ('take boundary = "periodic"', {}, {"surface.boundary": "periodic"}, FREE),
     ("leave block.surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, QUASI),
     ("give a larger q_max", {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.q_max": "4"}, STILL),
     ('or kind = "flat"', {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.kind": "flat"}, STILL),
