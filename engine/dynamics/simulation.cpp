@@ -23,7 +23,7 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 void Simulation::start(double height, double velocity) {
-    reference_height_ = height;
+    interface_.set_reference_height(height);
     top_ = {};
     step_ = 0;
     record_ = {};
@@ -77,7 +77,7 @@ void Simulation::step_on_device(bool observe) {
     host_is_newer_ = false;
     device_is_newer_ = true;
     const DeviceSums sums = device_->step(
-        block_, reference_height_,
+        block_, interface_.reference_height(),
         {options_.dt, options_.damping, options_.damping_from, top_.velocity.z, observe},
         thermostat_ ? std::optional(noise(step_)) : std::nullopt);
     top_.move(options_.dt);
@@ -102,8 +102,8 @@ void Simulation::download() const {
 
 void Simulation::sweep_interface(bool observe) {
     if (slides()) interface_.slide_to(top_.place[0], top_.place[1]);
-    sums_.interface = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                       reference_height_, {.observe = observe});
+    sums_.interface =
+        interface_.sweep(block_.lowest_layer(), block_.interface_force(), {.observe = observe});
     if (slides()) {
         const VectorPlane<double> f = block_.interface_force();
         sums_.lateral = {};
@@ -167,7 +167,7 @@ void Simulation::enter_in_ledger() {
                 kinetic, of_step] = sums;
     const double sites = static_cast<double>(options_.block.sites);
     StepTotals now{.top = top_.z_before(options_.dt),
-                   .mean_height = reference_height_ + lowest / (sites * sites),
+                   .mean_height = interface_.reference_height() + lowest / (sites * sites),
                    .force = force,
                    .top_force = top_force,
                    .dissipated = dissipated,

@@ -55,7 +55,6 @@ public:
     void take_to_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return ledger_.balance(); }
     const SimulationOptions& options() const { return options_; }
-    double reference_height() const { return reference_height_; }
     /// Returns the top plane at the next step.
     const Top& top() const { return top_; }
     /// Sets the displacement of the top plane at the next step, Å.
@@ -126,7 +125,6 @@ private:
     bool host_is_newer_ = true;
     Phases phases_;
 
-    double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     long long step_ = 0;
     StepRecord record_;
     StepLedger ledger_;
@@ -137,7 +135,9 @@ private:
 template <class Visitor>
 void Simulation::visit(Visitor& v) {
     v("step", step_);
-    v("reference_height", reference_height_);
+    double height = interface_.reference_height();
+    v("reference_height", height);
+    if constexpr (Visitor::restores) interface_.set_reference_height(height);
     v("top", top_.z);
     v("record", record_);
     v("ledger", ledger_);

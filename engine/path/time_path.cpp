@@ -100,7 +100,9 @@ bool TimePath::tell_drive(const StepRecord& now) {
     const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
     const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
-    if (!drive_.observe({now.time, now.force, now.top, apart})) return false;
+    if (!drive_.observe(
+            {now.time, now.force, now.top, apart, simulation_.interface().reference_height()}))
+        return false;
     end_ = now;
     scatter_.reset();
     if (const auto average = drive_.averaged())
@@ -122,8 +124,9 @@ std::optional<LayerAtRest> TimePath::state_from_here() {
 
 std::optional<LayerAtRest> TimePath::state_at(const std::array<double, 2>& place) {
     LayerAtRest found = bring_to_rest(
-        std::as_const(simulation_).block(), surface_, reference_height(), case_,
-        [this](long long iteration, double residual) { return told(iteration, residual); }, place);
+        std::as_const(simulation_).block(), surface_, simulation_.interface().reference_height(),
+        case_, [this](long long iteration, double residual) { return told(iteration, residual); },
+        place);
     if (!found.numbers) return std::nullopt;
     return found;
 }
