@@ -99,7 +99,7 @@ void Drive::begin(const Observation& step) {
         normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, HUGE_VAL};
         break;
     case Segment::height:
-        normal_ = VelocityProfile::over(next.amount - step.reference_height - step.top, from, v,
+        normal_ = VelocityProfile::over(next.amount - step.reference_height - step.at, from, v,
                                         options_.ramp);
         break;
     case Segment::slide:

@@ -92,10 +92,10 @@ public:
     TopMotion motion(double t) const;
 
     /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
-    /// displacement of the top plane (Å), the result of beyond_range(), and the height of the
-    /// lowest layer at zero displacement of the top plane (Å).
+    /// displacement of the machine (Å), the result of beyond_range(), and the height of the
+    /// lowest layer at zero displacement (Å).
     struct Observation {
-        double time = 0.0, force = 0.0, top = 0.0;
+        double time = 0.0, force = 0.0, at = 0.0;
         bool beyond_range = false;
         double reference_height = 0.0;
     };
