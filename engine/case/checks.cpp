@@ -312,7 +312,7 @@ std::vector<io::Problem> device_problems(const Case& c) {
         refuse("a slide in drive.path",
                "a device keeps its copy of the substrate where it is, and a slide moves it",
                "take numerics.device = \"none\"");
-    if (c.effects.spring)
+    if (c.scene.drive.stiffness)
         refuse("drive.stiffness", "a device moves the top plane as the drive moves",
                "take numerics.device = \"none\"");
     if (!fuses(processor_level()))
