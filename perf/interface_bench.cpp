@@ -85,7 +85,7 @@ double time_sweeps(benchmark::State& state, const Surface& substrate,
     const std::clock_t begin = std::clock();
     for (auto _ : state)
         benchmark::DoNotOptimize(
-            interface.sweep(seen.plane(0), f.plane(0), height, {.observe = observe})
+            interface.sweep(seen.plane(0), f.plane(0), {.observe = observe, .height = height})
                 .force_z.bin[0]);
     const double sweep = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC /
                          static_cast<double>(state.iterations());

@@ -109,7 +109,7 @@ Effects effects_of(const Case& c) {
                     : fmt::format("block.layers has {} of them", s.block.layers.size())};
     e.surface_stress = {s.block.surface_stress > 0.0,
                         fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
-    e.spring = {s.drive.stiffness.has_value() && !dynamic && follows_path,
+    e.spring = {s.drive.stiffness.has_value() && follows_path,
                 s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
                                   : "drive.stiffness = \"none\""};
     e.relaxation = {!dynamic || !finite,

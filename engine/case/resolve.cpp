@@ -294,6 +294,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.area = c.area();
     drive.control = scene.drive.control;
     drive.stiffness = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
+    drive.mass = scene.drive.mass.value_or(0.0) * units::atomic_mass;
     if (scene.drive.max_steps > 0) drive.max_steps = scene.drive.max_steps;
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
     if (c.effects.temperature)
@@ -315,15 +316,23 @@ void fill_motion(Case& c, io::Problems& refused) {
     if (c.effects.temperature) c.simulation.temperature = scene.drive.temperature;
     c.simulation.seed = static_cast<std::uint64_t>(scene.drive.seed);
 
-    c.longest_timestep = 2.0 / block.highest_frequency(c.scales.stiffness);
+    const double highest = block.highest_frequency(c.scales.stiffness);
+    double of_top = 0.0;
+    if (drive.mass > 0.0) {
+        const double column = (block.lame() + 2.0 * block.shear_modulus()) * block.spacing;
+        of_top = std::sqrt((drive.stiffness + column * c.sites()) / drive.mass);
+    }
+    c.longest_timestep = 2.0 / std::max(highest, of_top);
     const double period = std::numbers::pi * c.longest_timestep; // period of the fastest vibration
     if (c.effects.dynamic && scene.drive.timestep >= c.longest_timestep)
         refused.add(
             "drive.timestep",
             fmt::format("= {:.4g} fs is over the stability limit of {:.4g} fs",
                         scene.drive.timestep, c.longest_timestep),
-            fmt::format("the block's fastest vibration has a period of {:.4g} fs, and velocity "
-                        "Verlet diverges for steps longer than 1/pi of it",
+            fmt::format("the {} has a period of {:.4g} fs, and velocity Verlet diverges for steps "
+                        "longer than 1/pi of it",
+                        of_top > highest ? "vibration of a top plane of drive.mass"
+                                         : "block's fastest vibration",
                         period),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",

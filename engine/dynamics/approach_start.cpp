@@ -56,7 +56,7 @@ ApproachStart approach_start(Block& block, const Interface& interface) {
     for (int n = 0; n <= 100; ++n) {
         const double height = top - n * stride;
         const InterfaceSums sums = interface.sweep(block.lowest_layer(), block.interface_force(),
-                                                   height, {.observe = true});
+                                                   {.observe = true, .height = height});
         const auto [energy, force] =
             global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
         if (force > 0.0) break;

@@ -44,11 +44,10 @@ Drive::Drive(const DriveOptions& options) : options_(options) {
     begin_rule(0.0);
 }
 
-void Drive::begin_at(double reference_height) {
-    reference_height_ = reference_height;
+void Drive::begin_at(double height) {
     if (at_ == 0 && begun_ == 0.0 && now().kind == Segment::height)
-        normal_ = VelocityProfile::over(now().amount - reference_height, 0.0, options_.velocity,
-                                        options_.ramp);
+        normal_ =
+            VelocityProfile::over(now().amount - height, 0.0, options_.velocity, options_.ramp);
 }
 
 std::size_t Drive::segment() const {
@@ -100,7 +99,7 @@ void Drive::begin(const Observation& step) {
         normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, HUGE_VAL};
         break;
     case Segment::height:
-        normal_ = VelocityProfile::over(next.amount - reference_height_ - step.top, from, v,
+        normal_ = VelocityProfile::over(next.amount - step.reference_height - step.at, from, v,
                                         options_.ramp);
         break;
     case Segment::slide:

@@ -81,8 +81,8 @@ struct AveragedForce {
 class Drive {
 public:
     explicit Drive(const DriveOptions& options);
-    /// Sets the height of the lowest layer at zero displacement of the top plane, Å.
-    void begin_at(double reference_height);
+    /// Begins with the lowest layer at this height, Å, with no displacement of the top plane.
+    void begin_at(double height);
 
     /// Returns the number of the current segment, from 0; the last one when the path is done.
     std::size_t segment() const;
@@ -92,10 +92,12 @@ public:
     TopMotion motion(double t) const;
 
     /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
-    /// displacement of the top plane (Å), and the result of beyond_range().
+    /// displacement of the machine (Å), the result of beyond_range(), and the height of the
+    /// lowest layer at zero displacement (Å).
     struct Observation {
-        double time = 0.0, force = 0.0, top = 0.0;
+        double time = 0.0, force = 0.0, at = 0.0;
         bool beyond_range = false;
+        double reference_height = 0.0;
     };
     /// Returns the average by which segments of a warm block end; empty: the force of each step
     /// counts.
@@ -117,7 +119,6 @@ public:
         v("normal", normal_);
         v("slide_x", slide_[0]);
         v("slide_y", slide_[1]);
-        v("reference_height", reference_height_);
     }
 
 private:
@@ -126,7 +127,6 @@ private:
     bool ended(const Observation& step);
 
     DriveOptions options_;
-    double reference_height_ = 0.0;
     std::size_t at_ = 0;
     double begun_ = 0.0; ///< time at which the segment began, fs
     SegmentRule rule_;   ///< rule of a segment that ends at a force

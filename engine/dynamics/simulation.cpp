@@ -16,6 +16,10 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
       interface_(substrate, grid.tile(0), options.block.spacing, options.interface) {
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
+    if (options.drive.stiffness > 0.0)
+        top_spring_ = {options.drive.stiffness,
+                       options.drive.mass > 0.0 ? options.drive.mass : block_.mass(),
+                       options.damping};
     if (options.device) device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);
 }
 
@@ -23,8 +27,8 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
 void Simulation::start(double height, double velocity) {
-    reference_height_ = height;
-    top_ = {};
+    interface_.set_reference_height(height);
+    top_ = {.velocity = velocity};
     step_ = 0;
     record_ = {};
     ledger_ = {};
@@ -34,7 +38,7 @@ void Simulation::start(double height, double velocity) {
 }
 
 void Simulation::set_top(double z) {
-    top_.z = z;
+    top_.z = top_.drive = z;
     block_to_write().set_top(z);
 }
 
@@ -46,9 +50,10 @@ void Simulation::set_top(double z) {
 //   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
 //   exchange      halos of u(n+1)
 //   sums          what the ranks summed at n, added up; work and dissipation integrated
-// The top plane moves to n+1 at the end of advance.
+// The top plane moves to n+1 at the end of advance: as the machine does, or, on a spring, by the
+// force of the block on it at n.
 const StepRecord& Simulation::step(const TopMotion& motion, bool observe) {
-    top_.velocity = motion;
+    top_.machine = motion;
     if (device_) {
         phases_.during(Phase::device, [&] { step_on_device(observe); });
         enter_in_ledger();
@@ -77,8 +82,8 @@ void Simulation::step_on_device(bool observe) {
     host_is_newer_ = false;
     device_is_newer_ = true;
     const DeviceSums sums = device_->step(
-        block_, reference_height_,
-        {options_.dt, options_.damping, options_.damping_from, top_.velocity.z, observe},
+        block_, interface_.reference_height(),
+        {options_.dt, options_.damping, options_.damping_from, top_.machine.z, observe},
         thermostat_ ? std::optional(noise(step_)) : std::nullopt);
     top_.move(options_.dt);
     block_.note_top(top_.z);
@@ -88,6 +93,7 @@ void Simulation::step_on_device(bool observe) {
              .top_force = sums.top_force,
              .lowest_z = sums.lowest_z,
              .elastic = sums.elastic,
+             .top = {},
              .lateral = {}};
     begin_record(observe);
 }
@@ -102,8 +108,8 @@ void Simulation::download() const {
 
 void Simulation::sweep_interface(bool observe) {
     if (slides()) interface_.slide_to(top_.place[0], top_.place[1]);
-    sums_.interface = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                       reference_height_, {.observe = observe});
+    sums_.interface =
+        interface_.sweep(block_.lowest_layer(), block_.interface_force(), {.observe = observe});
     if (slides()) {
         const VectorPlane<double> f = block_.interface_force();
         sums_.lateral = {};
@@ -119,9 +125,9 @@ void Simulation::add_noise() {
     sums_.kick.kinetic.merge(sums_.noise.kinetic); // one sum, as on a device
 }
 
-/// Returns the noise of a step over which the top plane moves at its velocity.
+/// Returns the noise of a step over which the medium moves with the machine.
 ThermalNoise Simulation::noise(long long step) const {
-    return thermostat_->noise(options_.dt, step, top_.velocity.z);
+    return thermostat_->noise(options_.dt, step, top_.machine.z);
 }
 
 void Simulation::take_to_step(const VectorPlane<double>& v) const {
@@ -132,12 +138,21 @@ void Simulation::take_to_step(const VectorPlane<double>& v) const {
 void Simulation::advance_block(bool observe) {
     if (thermostat_) thermostat_->keep_velocities(block_, options_.damping_from);
     sums_.kick = {};
-    block_.advance({options_.dt, options_.damping, options_.damping_from, top_.velocity.z, observe},
+    block_.advance({options_.dt, options_.damping, options_.damping_from, top_.machine.z, observe},
                    sums_.kick);
     sums_.top_force = {};
     block_.add_top_force(sums_.top_force);
-    top_.move(options_.dt);
+    move_top();
     block_.set_top(top_.z);
+}
+
+void Simulation::move_top() {
+    if (!top_spring_) return top_.move(options_.dt);
+    const double before = top_.velocity;
+    top_.move(options_.dt, top_spring_, global_sum(communicator(), sums_.top_force));
+    const double mean = 0.5 * (before + top_.velocity), slip = mean - top_.machine.z;
+    const double drag = top_spring_.mass * top_spring_.damping * options_.dt;
+    sums_.top = {0.5 * top_spring_.mass * mean * mean, drag * slip * slip, drag * slip};
 }
 
 /// Sums over u(n), before it moves on.
@@ -166,17 +181,22 @@ void Simulation::enter_in_ledger() {
     const auto [force, lowest, top_force, dissipated, dragged, heat, interface_energy, elastic,
                 kinetic, of_step] = sums;
     const double sites = static_cast<double>(options_.block.sites);
-    StepTotals now{.top = top_.z_before(options_.dt),
-                   .mean_height = reference_height_ + lowest / (sites * sites),
+    const double top = top_.z_before(options_.dt), drive = top_.drive_before(options_.dt);
+    const double spring = top_spring_.stiffness * (drive - top);
+    StepTotals now{.top = top,
+                   .drive = top_spring_ ? drive : top,
+                   .mean_height = interface_.reference_height() + lowest / (sites * sites),
                    .force = force,
                    .top_force = top_force,
-                   .dissipated = dissipated,
-                   .drag = top_.velocity.z * dragged,
+                   .drive_force = top_spring_ ? -spring : top_force,
+                   .dissipated = dissipated + sums_.top.dissipated,
+                   .drag = top_.machine.z * (dragged + sums_.top.dragged),
                    .heat = heat,
                    .interface_energy = interface_energy,
-                   .elastic_energy = elastic,
-                   .kinetic_energy = kinetic,
-                   .time_step_energy = thermostat_ ? of_step : 0.0};
+                   .elastic_energy = elastic + 0.5 * spring * (drive - top),
+                   .kinetic_energy = kinetic + sums_.top.kinetic,
+                   .time_step_energy = thermostat_ ? of_step : 0.0,
+                   .machine_energy = 0.5 * spring * (drive - top)};
     if (slides()) {
         now.slide = interface_.place();
         now.lateral_force = global_sums(communicator(), sums_.lateral);

@@ -44,7 +44,7 @@ public:
     /// Begins anew with the undeformed block, its lowest layer at this height (Å), moving along z
     /// at this velocity (Å/fs).
     void start(double height, double velocity);
-    /// Makes one time step, over which the top plane moves so, and returns its record. observe: sum
+    /// Makes one time step, over which the machine moves so, and returns its record. observe: sum
     /// the energies and contacts too. Collective.
     const StepRecord& step(const TopMotion& motion, bool observe);
 
@@ -55,11 +55,12 @@ public:
     void take_to_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return ledger_.balance(); }
     const SimulationOptions& options() const { return options_; }
-    double reference_height() const { return reference_height_; }
     /// Returns the top plane at the next step.
     const Top& top() const { return top_; }
-    /// Sets the displacement of the top plane at the next step, Å.
+    /// Sets the displacement of the top plane and the machine at the next step, Å.
     void set_top(double z);
+    /// Returns the mass of the block and of a top plane on a spring, eV fs^2/Å^2. Not collective.
+    double moving_mass() const { return block_.mass() + top_spring_.mass; }
     long long steps() const { return step_; }
     double time() const { return static_cast<double>(step_) * options_.dt; }
     /// Returns the time in the middle of the next step, fs, to which the top's velocity belongs.
@@ -96,12 +97,17 @@ public:
     void visit(Visitor& v);
 
 private:
+    /// Energies of a top plane that a spring pulls, eV, and its drag, eV fs/Å.
+    struct MotionOfTop {
+        double kinetic = 0.0, dissipated = 0.0, dragged = 0.0;
+    };
     /// Sums of a step, of this rank.
     struct Sums {
         InterfaceSums interface;
         KickSums kick;
         NoiseSums noise;
         ExactSum top_force, lowest_z, elastic;
+        MotionOfTop top;                 ///< the same on every rank
         std::array<ExactSum, 2> lateral; ///< force along x and y, of a path that slides
     };
     void step_on_device(bool observe);
@@ -112,6 +118,7 @@ private:
     void begin_record(bool observe);
     void sweep_interface(bool observe);
     void advance_block(bool observe);
+    void move_top();
     void add_noise();
     void collect(bool observe);
     void enter_in_ledger();
@@ -120,13 +127,13 @@ private:
     mutable Block block_; ///< fields of the host; const functions bring them up to date
     Interface interface_;
     Top top_;
+    TopSpring top_spring_;
     std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
     std::unique_ptr<DeviceBlock> device_;  ///< only if the scene asks for one
     mutable bool device_is_newer_ = false;
     bool host_is_newer_ = true;
     Phases phases_;
 
-    double reference_height_ = 0.0; ///< z of the undisplaced lowest layer, Å
     long long step_ = 0;
     StepRecord record_;
     StepLedger ledger_;
@@ -137,13 +144,20 @@ private:
 template <class Visitor>
 void Simulation::visit(Visitor& v) {
     v("step", step_);
-    v("reference_height", reference_height_);
+    double height = interface_.reference_height();
+    v("reference_height", height);
+    if constexpr (Visitor::restores) interface_.set_reference_height(height);
     v("top", top_.z);
     v("record", record_);
     v("ledger", ledger_);
+    if (top_spring_) {
+        v("machine", top_.drive);
+        v("top_velocity", top_.velocity);
+    }
     if (slides()) v("place", top_.place);
     if constexpr (Visitor::restores) {
-        set_top(top_.z);
+        if (!top_spring_) top_.drive = top_.z;
+        block_to_write().set_top(top_.z);
         if (slides()) interface_.slide_to(record_.slide[0], record_.slide[1]);
     }
 }

@@ -10,8 +10,9 @@ namespace asperity {
 
 void StepLedger::enter(const StepTotals& now, StepRecord& record) {
     if (has_previous_) {
-        // The top plane pushes the block with minus the force it feels.
-        balance_.top_work -= 0.5 * (now.top_force + record.top_force) * (now.top - record.top);
+        // The machine pushes with minus the force on it.
+        balance_.top_work -=
+            0.5 * (now.drive_force + pending_.drive_force) * (now.drive - record.drive);
         balance_.interface +=
             0.5 * (now.force + record.force) * (now.mean_height - record.mean_height);
         balance_.damped += 0.5 * (now.dissipated + pending_.dissipated);
@@ -28,9 +29,10 @@ void StepLedger::enter(const StepTotals& now, StepRecord& record) {
         balance_.external += now.external;
     }
     has_previous_ = true;
-    pending_ = {now.dissipated, now.drag, now.heat};
+    pending_ = {now.dissipated, now.drag, now.heat, now.drive_force};
 
     record.top = now.top;
+    record.drive = now.drive;
     record.mean_height = now.mean_height;
     record.force = now.force;
     record.top_force = now.top_force;
@@ -44,6 +46,7 @@ void StepLedger::balance_energies(const StepTotals& now, StepRecord& record) {
     record.elastic_energy = now.elastic_energy;
     record.kinetic_energy = now.kinetic_energy;
     record.time_step_energy = now.time_step_energy;
+    record.machine_energy = now.machine_energy;
     const double energy = record.energy() + record.time_step_energy;
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
     record.work = balance_.work() + *energy_brought_;

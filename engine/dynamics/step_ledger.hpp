@@ -16,7 +16,7 @@ namespace asperity {
 
 /// Work and dissipation since the start, eV.
 struct EnergyBalance {
-    double top_work = 0.0;  ///< work of the top plane on the block, sideways too
+    double top_work = 0.0;  ///< work of the machine on what it holds, sideways too
     double lateral = 0.0;   ///< part of top_work that moves the block sideways
     double drag_work = 0.0; ///< work of the moving damping medium on the block
     double damped = 0.0;    ///< energy dissipated against the medium
@@ -42,15 +42,17 @@ struct EnergyBalance {
 
 /// Amounts of a step, summed over all ranks.
 struct StepTotals {
-    double top = 0.0, mean_height = 0.0;             ///< Å
-    double force = 0.0, top_force = 0.0;             ///< eV/Å
-    double dissipated = 0.0, drag = 0.0, heat = 0.0; ///< eV
+    double top = 0.0, drive = 0.0, mean_height = 0.0; ///< Å
+    double force = 0.0, top_force = 0.0;              ///< eV/Å
+    double drive_force = 0.0;                         ///< force on the machine along z, eV/Å
+    double dissipated = 0.0, drag = 0.0, heat = 0.0;  ///< eV
     double external = 0.0; ///< work of forces from outside since the step before, eV
     /// Place over the substrate, Å, and force of the substrate, eV/Å; of a path that slides
     std::array<double, 2> slide{}, lateral_force{};
     // Energies at an observed step, eV:
     double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
     double time_step_energy = 0.0; ///< zero without a temperature (thermostat.hpp)
+    double machine_energy = 0.0;   ///< part of elastic_energy in the spring that holds the top
 };
 
 /// Ledger of the steps of a simulation.
@@ -74,6 +76,7 @@ public:
         v("pending.dissipated", pending_.dissipated);
         v("pending.drag", pending_.drag);
         v("pending.heat", pending_.heat);
+        v("pending.drive_force", pending_.drive_force);
     }
 
 private:
@@ -84,9 +87,9 @@ private:
     std::optional<double> energy_brought_;
     double scale_ = 0.0;        ///< largest energy seen, for the residual, eV
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
-    /// Terms of the step before, eV: integrated with those of the next step.
+    /// Terms of the step before, eV and eV/Å: integrated with those of the next step.
     struct Pending {
-        double dissipated = 0.0, drag = 0.0, heat = 0.0;
+        double dissipated = 0.0, drag = 0.0, heat = 0.0, drive_force = 0.0;
     } pending_;
 };
 

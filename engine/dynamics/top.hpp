@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The top plane of the block, which is rigid: where it is, and how it moves. What moves it is the
-// machine (drive.hpp), or the caller of Simulation::step(). A machine that is not rigid, with a
-// spring between it and a plane with a mass, would change move() alone: the plane's own velocity
-// and place are all that the step, the damping medium and the energy balance use.
+// The top plane of the block, which is rigid: where it is, and how it moves. The machine
+// (drive.hpp), or the caller of Simulation::step(), moves the plane itself, or the far end of a
+// spring that pulls a plane with a mass. The damping medium of the block moves with the machine.
 #pragma once
 
 #include <array>
@@ -12,26 +11,53 @@
 
 namespace asperity {
 
-/// Velocity of the top plane over a time step, Å/fs.
+/// Velocity of the machine over a time step, Å/fs.
 struct TopMotion {
     double z = 0.0;                ///< away from the substrate
     std::array<double, 2> slide{}; ///< over the substrate
 };
 
-/// The top plane. At a time step n its velocity is that between n and n + 1.
+/// The spring between the machine and the top plane, and the mass of the plane.
+struct TopSpring {
+    double stiffness = 0.0; ///< eV/Å^2; 0: the machine moves the plane itself
+    double mass = 0.0;      ///< eV fs^2/Å^2
+    double damping = 0.0;   ///< rate of the drag against the medium, 1/fs
+    explicit operator bool() const { return stiffness > 0.0; }
+};
+
+/// The top plane. At a time step n velocities are those between n and n + 1.
 struct Top {
     double z = 0.0;                ///< displacement along z, Å
+    double drive = 0.0;            ///< displacement of the machine along z, Å; rigid: z
     std::array<double, 2> place{}; ///< place of the block over the substrate, Å
-    TopMotion velocity;
+    double velocity = 0.0;         ///< along z, Å/fs
+    TopMotion machine;             ///< velocity of the machine
 
-    /// Moves over a step of dt, fs, to the place at the next step.
+    /// Moves with the machine over a step of dt, fs, to the place at the next step.
     void move(double dt) {
-        z += dt * velocity.z;
-        for (std::size_t axis : {0u, 1u})
-            place[axis] += dt * velocity.slide[axis];
+        velocity = machine.z;
+        advance(dt);
     }
-    /// Returns the displacement a step before the present one, Å.
-    double z_before(double dt) const { return z - dt * velocity.z; }
+    /// Moves likewise as the spring, the block (its force on the plane, eV/Å) and the drag make it.
+    void move(double dt, const TopSpring& spring, double force) {
+        const double g = 0.5 * spring.damping * dt;
+        const double pull = spring.stiffness * (drive - z) + force;
+        velocity =
+            ((1.0 - g) * velocity + dt / spring.mass * pull + 2.0 * g * machine.z) / (1.0 + g);
+        advance(dt);
+    }
+    /// Returns the displacement of the plane a step before the present one, Å.
+    double z_before(double dt) const { return z - dt * velocity; }
+    /// Returns that of the machine.
+    double drive_before(double dt) const { return drive - dt * machine.z; }
+
+private:
+    void advance(double dt) {
+        z += dt * velocity;
+        drive += dt * machine.z;
+        for (std::size_t axis : {0u, 1u})
+            place[axis] += dt * machine.slide[axis];
+    }
 };
 
 } // namespace asperity

@@ -74,6 +74,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
       map_(substrate, options.free_edges ? tile.sites / 2 : tile.sites, spacing),
       method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
+    set_reference_height(start_height());
     if (options.tail && !wall()) find_mean_heights();
     if (options.slides) atoms_ = substrate.atoms;
 }
@@ -167,11 +168,15 @@ void Interface::find_mean_heights() {
 }
 
 InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
-                               const VectorPlane<double>& force, double reference_height,
-                               SweepOptions how) const {
-    return sweep_sites(
-        {over_substrate(displacement), force, spacing_, reference_height, tile_.x0, tile_.y0, {}},
-        how);
+                               const VectorPlane<double>& force, SweepOptions how) const {
+    return sweep_sites({over_substrate(displacement),
+                        force,
+                        spacing_,
+                        how.height.value_or(reference_height_),
+                        tile_.x0,
+                        tile_.y0,
+                        {}},
+                       how);
 }
 
 InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions how) const {
@@ -206,8 +211,7 @@ InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions h
     return total;
 }
 
-InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
-                              double reference_height) const {
+InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) const {
     VectorField<double> force(tile_, 1);
     Field<double> nearest(tile_, 1);
     InterfaceMaps maps;
@@ -220,7 +224,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
     const InterfaceSites sites{u,
                                force.plane(0),
                                spacing_,
-                               reference_height,
+                               reference_height_,
                                tile_.x0,
                                tile_.y0,
                                nearest.plane(0),
@@ -239,7 +243,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement,
             const double below = wall() ? wall()->height()(x, y)
                                         : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
                                                        (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
-            maps.gap.push_back(reference_height + displacement.z(x, y) - below);
+            maps.gap.push_back(reference_height_ + displacement.z(x, y) - below);
         }
     return maps;
 }

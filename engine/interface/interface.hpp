@@ -74,8 +74,12 @@ public:
     /// Computes the forces of the substrate on the tile's sites (overwritten), eV/Å. Returns their
     /// sums over the tile. how.rough: only if the options have mixed_on_request.
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
-                        const VectorPlane<double>& force, double reference_height,
-                        SweepOptions how = {}) const;
+                        const VectorPlane<double>& force, SweepOptions how = {}) const;
+
+    /// Returns the height of the undisplaced lowest layer above the zero of the substrate's
+    /// heights, Å; at first start_height().
+    double reference_height() const { return reference_height_; }
+    void set_reference_height(double height) { reference_height_ = height; }
 
     /// Moves the block to the place (x, y) over the substrate, Å; (0, 0) at first. Whole spacings
     /// move a substrate of atoms and make its tables anew; the remainder is added to the
@@ -87,8 +91,7 @@ public:
     const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
 
     /// Returns maps of the state, after a sweep of its own.
-    InterfaceMaps maps(const VectorPlane<const double>& displacement,
-                       double reference_height) const;
+    InterfaceMaps maps(const VectorPlane<const double>& displacement) const;
 
     /// Returns the reference height from which undisplaced sites are beyond the interaction range,
     /// Å: highest atom + reach_of().
@@ -133,6 +136,7 @@ private:
     Substrate substrate_;
     /// For the tail: mean heights of the atoms within the cutoff sideways
     Field<double> mean_height_;
+    double reference_height_ = 0.0; ///< Å
 
     // Place of a block that slides.
     AtomPositions atoms_;           ///< initial positions of atoms anywhere

@@ -18,10 +18,10 @@ InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components, double 
 }
 
 double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<const double>& u,
-                                const VectorPlane<const double>& force, double reference_height,
-                                const Communicator& ranks) {
+                                const VectorPlane<const double>& force, const Communicator& ranks) {
     const double step = difference_;
-    interface.sweep(u, force_.plane(0), reference_height + step, {.rough = true});
+    interface.sweep(u, force_.plane(0),
+                    {.rough = true, .height = interface.reference_height() + step});
     const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
     ExactSum sum;
     for (int y = 0; y < here.ny; ++y) {
@@ -33,7 +33,7 @@ double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<co
 }
 
 void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<const double>& u,
-                                 const VectorPlane<const double>& force, double reference_height) {
+                                 const VectorPlane<const double>& force) {
     const VectorPlane<const double> moved = std::as_const(force_).plane(0);
     difference_ = -difference_;
     const double step = difference_;
@@ -42,7 +42,8 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
         return static_cast<float>((here(x, y) - there(x, y)) / step);
     };
     // Along z all sites go with the block.
-    interface.sweep(u, force_.plane(0), reference_height + step, {.rough = true});
+    interface.sweep(u, force_.plane(0),
+                    {.rough = true, .height = interface.reference_height() + step});
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.x.ny; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
@@ -64,8 +65,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
                 d.y(x, y) = u.y(x, y) + (along_x ? 0.0 : step);
                 d.z(x, y) = u.z(x, y);
             }
-        interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), reference_height,
-                        {.rough = true});
+        interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), {.rough = true});
 #pragma omp parallel for schedule(static)
         for (int y = 0; y < u.x.ny; ++y)
             for (int x = 0; x < u.x.nx; ++x) {

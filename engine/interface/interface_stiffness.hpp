@@ -28,12 +28,11 @@ public:
 
     /// Measures the stiffness at these displacements, at which the force is given.
     void measure(const Interface& interface, const VectorPlane<const double>& u,
-                 const VectorPlane<const double>& force, double reference_height);
+                 const VectorPlane<const double>& force);
     /// Returns the mean over all sites of -dF_z/du_z, zero where it is negative, eV/Å^2.
     /// Collective.
     double mean(const Interface& interface, const VectorPlane<const double>& u,
-                const VectorPlane<const double>& force, double reference_height,
-                const Communicator& ranks);
+                const VectorPlane<const double>& force, const Communicator& ranks);
     /// Multiplies the sites of row y: v <- H v; v: the row of each component.
     void apply_row(int y, float* const* v) const;
 

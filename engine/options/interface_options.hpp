@@ -42,8 +42,9 @@ struct InterfaceOptions {
 
 /// Options of one sweep.
 struct SweepOptions {
-    bool observe = false; ///< energies, contacts and nearest distances too
-    bool rough = false;   ///< forces good to some 1e-6 eV/Å are enough
+    bool observe = false;         ///< energies, contacts and nearest distances too
+    bool rough = false;           ///< forces good to some 1e-6 eV/Å are enough
+    std::optional<double> height; ///< reference height for this sweep, Å; none: the interface's own
 };
 
 /// Returns the distance beyond which the substrate does not act on a site, Å: the cutoff; with the

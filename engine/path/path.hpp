@@ -127,8 +127,6 @@ public:
     virtual VectorPlane<const double> velocities() const { return {}; }
     /// Returns the interface as it was at now().
     virtual const Interface& interface() const = 0;
-    /// Returns the height of the undisplaced lowest layer above the substrate's zero, Å.
-    virtual double reference_height() const = 0;
     const Case& scene_case() const { return case_; }
     const Surface& surface() const { return surface_; }
     const PathResults& results() const { return results_; }

@@ -15,7 +15,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
       interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, !c.effects.lateral) {
     if (c.effects.spring) block_.set_machine(c.simulation.drive.stiffness);
-    nowhere_.mean_height = interface_.start_height();
+    nowhere_.mean_height = interface_.reference_height();
 }
 
 void StaticPath::make_points() {
@@ -68,7 +68,7 @@ void StaticPath::record_slide() {
 
 void StaticPath::look_at_edges() {
     if (!case_.effects.free_edges) return;
-    const InterfaceMaps maps = interface_.maps(layer(), reference_height());
+    const InterfaceMaps maps = interface_.maps(layer());
     const int n = interface_.sites_across(), first = interface_.tile().y0;
     int nearest = n;
     for (int y = 0; y < maps.ny && first + y < n; ++y)
@@ -86,8 +86,8 @@ std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = segment_to_conclude().kind != Segment::relax;
     if (held) points_->put_back(); // the same state as after a resume, bitwise
     const std::optional<ZeroLoad> found = find_zero_load(
-        block_, interface_, reference_height(), held ? 0.0 : case_.simulation.drive.load_force,
-        case_, [this](long long iteration, double residual) { return told(iteration, residual); });
+        block_, interface_, held ? 0.0 : case_.simulation.drive.load_force, case_,
+        [this](long long iteration, double residual) { return told(iteration, residual); });
     LayerAtRest state;
     if (found) look_at_edges();
     if (found) {

@@ -24,7 +24,6 @@ public:
     std::size_t segment() const override { return concluded(); }
     VectorPlane<const double> layer() const override { return block_.lowest_layer(); }
     const Interface& interface() const override { return interface_; }
-    double reference_height() const override { return interface_.start_height(); }
     const ProcessGrid& grid() const override { return grid_; }
     const Communicator& communicator() const override { return block_.communicator(); }
     std::string position() const override;

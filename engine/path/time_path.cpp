@@ -73,7 +73,7 @@ void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
         // is part of it.
         const bool as_seen = drive_.motion(0.0).z != 0.0 && !case_.effects.temperature;
         kinetic_at_full_speed_ =
-            as_seen ? now.kinetic_energy : 0.5 * std::as_const(simulation_).block().mass() * v * v;
+            as_seen ? now.kinetic_energy : 0.5 * simulation_.moving_mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
         // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
@@ -99,8 +99,11 @@ void TimePath::keep(const Wish& wish) {
 bool TimePath::tell_drive(const StepRecord& now) {
     const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
-    const bool apart = beyond_range(now.top, now.force, results_.strongest, start_.force);
-    if (!drive_.observe({now.time, now.force, now.top, apart})) return false;
+    const bool apart =
+        beyond_range(std::min(now.top, now.drive), now.force, results_.strongest, start_.force);
+    if (!drive_.observe(
+            {now.time, now.force, now.drive, apart, simulation_.interface().reference_height()}))
+        return false;
     end_ = now;
     scatter_.reset();
     if (const auto average = drive_.averaged())
@@ -122,8 +125,9 @@ std::optional<LayerAtRest> TimePath::state_from_here() {
 
 std::optional<LayerAtRest> TimePath::state_at(const std::array<double, 2>& place) {
     LayerAtRest found = bring_to_rest(
-        std::as_const(simulation_).block(), surface_, reference_height(), case_,
-        [this](long long iteration, double residual) { return told(iteration, residual); }, place);
+        std::as_const(simulation_).block(), surface_, simulation_.interface().reference_height(),
+        case_, [this](long long iteration, double residual) { return told(iteration, residual); },
+        place);
     if (!found.numbers) return std::nullopt;
     return found;
 }

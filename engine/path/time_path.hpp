@@ -36,7 +36,6 @@ public:
     VectorPlane<const double> layer() const override { return layer_.plane(0); }
     VectorPlane<const double> velocities() const override { return velocities_.plane(0); }
     const Interface& interface() const override { return simulation_.interface(); }
-    double reference_height() const override { return simulation_.reference_height(); }
     const ProcessGrid& grid() const override { return simulation_.block().grid(); }
     const Communicator& communicator() const override { return simulation_.communicator(); }
     std::string position() const override;

@@ -155,6 +155,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     const double height =
         height_of_strongest_attraction(*waves, *below, lowest, piece.scales.length);
     const double start = below->start_height();
+    below->set_reference_height(height);
     done.making = now() - begin;
     const double limit = now() + seconds;
     const auto stop = [&](long long iteration = 0, double = 0.0) {
@@ -201,9 +202,8 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
     std::optional<io::PayloadWriter> record;
     if (piece.effects.maps)
-        part(Piece::maps, [&] {
-            record = Recorder::record_of_fields("", layer, Communicator(), grid, *below, height);
-        });
+        part(Piece::maps,
+             [&] { record = Recorder::record_of_fields("", layer, Communicator(), grid, *below); });
     done.bytes[Piece::maps] *= 2.0; // and the maps that the record is made of
     return done;
 }

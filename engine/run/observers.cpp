@@ -110,7 +110,7 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
                               (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
                      c.effects.dynamic ? now.time : 0.0,
-                     way_done(c, path.reference_height(), path.segment(), now.top)});
+                     way_done(c, path.interface().reference_height(), path.segment(), now.top)});
 }
 
 } // namespace

@@ -44,7 +44,6 @@ void PathMaps::look_at_step(const Path& path) {
     if (kind != Segment::pull_off || -now.force <= attraction_ || !times_.pull_off) return;
     attraction_ = -now.force;
     place_ = path.interface().place();
-    reference_height_ = path.reference_height();
     kept_ = true;
     const auto t = session_.phases().time(Phase::output);
     copy_layer(path.layer(), layer_.plane(0));
@@ -68,13 +67,14 @@ void PathMaps::finish(const Path& path) {
     path.free_workspace();
     const auto write_over = [&](const Interface& interface) {
         session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
-                                   interface, reference_height_);
+                                   interface);
     };
     if (place_ == path.interface().place()) return write_over(path.interface());
     // The block has slid since.
     const Interface& now = path.interface();
     Interface then(path.surface(), now.tile(), path.scene_case().simulation.block.spacing,
                    now.options());
+    then.set_reference_height(now.reference_height());
     then.slide_to(place_[0], place_[1]);
     write_over(then);
 }
@@ -83,8 +83,7 @@ void PathMaps::write(const Path& path, const std::string& state,
                      const VectorPlane<const double>& layer) {
     const auto t = session_.phases().time(Phase::output);
     path.free_workspace();
-    session_.recorder().fields(state, layer, path.grid(), path.interface(),
-                               path.reference_height());
+    session_.recorder().fields(state, layer, path.grid(), path.interface());
 }
 
 namespace {

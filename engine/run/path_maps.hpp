@@ -30,7 +30,6 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("attraction", attraction_);
-        v("reference_height", reference_height_);
         v("place", place_);
         v("kept", kept_);
         v("delayed_written", delayed_written_);
@@ -52,7 +51,7 @@ private:
     const MapTimes& times_;
     std::size_t delayed_written_ = 0; ///< number of times_.after_approach that have been written
     // The lowest layer at the largest attraction of the pull-off.
-    double attraction_ = 0.0, reference_height_ = 0.0; ///< eV/Å, Å
+    double attraction_ = 0.0;       ///< eV/Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     bool kept_ = false;             ///< the kept layer is to be written
     VectorField<double> layer_;     ///< only if the scene asks for these maps

@@ -201,18 +201,16 @@ void Recorder::append_rows() {
 }
 
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
-                      const ProcessGrid& grid, const Interface& interface,
-                      double reference_height) {
-    const io::PayloadWriter record =
-        record_of_fields(state, layer, communicator_, grid, interface, reference_height);
+                      const ProcessGrid& grid, const Interface& interface) {
+    const io::PayloadWriter record = record_of_fields(state, layer, communicator_, grid, interface);
     communicator_.on_root([&] { journal_->append(group_record, record.bytes()); });
 }
 
 io::PayloadWriter Recorder::record_of_fields(const std::string& state,
                                              const VectorPlane<const double>& layer,
                                              const Communicator& ranks, const ProcessGrid& grid,
-                                             const Interface& interface, double reference_height) {
-    const InterfaceMaps maps = interface.maps(layer, reference_height);
+                                             const Interface& interface) {
+    const InterfaceMaps maps = interface.maps(layer);
     const int across = grid.tile(0).sites, inner = interface.sites_across();
     const auto n = static_cast<std::uint64_t>(inner);
     io::PayloadWriter record;
@@ -243,7 +241,7 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
         const auto put_number = [&](const char* name, double value) {
             put_member(record, attribute, name, {}, std::span<const double>(&value, 1));
         };
-        put_number("reference_height", reference_height);
+        put_number("reference_height", interface.reference_height());
         if (slide_x != 0.0 || slide_y != 0.0) {
             put_number("slide_x", slide_x);
             put_number("slide_y", slide_y);
@@ -279,7 +277,8 @@ void Recorder::frame(const Path& path, bool velocities) {
             // Sites stand over the hollows of the substrate (docs/explanation/model.md).
             const std::array<double, 3> rest = {
                 (static_cast<double>(i % sites) + 0.5) * block.spacing,
-                (static_cast<double>(i / sites) + 0.5) * block.spacing, path.reference_height()};
+                (static_cast<double>(i / sites) + 0.5) * block.spacing,
+                path.interface().reference_height()};
             for (std::size_t c = 0; c < 3; ++c)
                 position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
         }

@@ -57,12 +57,12 @@ public:
     /// Appends maps of a state: gap, pressure, contact, displacement; and the distribution of gaps
     /// P(u). Must be called once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
-                const ProcessGrid& grid, const Interface& interface, double reference_height);
+                const ProcessGrid& grid, const Interface& interface);
     /// Returns the record that fields() appends to the journal, on the root. Collective.
     static io::PayloadWriter record_of_fields(const std::string& state,
                                               const VectorPlane<const double>& layer,
                                               const Communicator& ranks, const ProcessGrid& grid,
-                                              const Interface& interface, double reference_height);
+                                              const Interface& interface);
     /// Appends a frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities
     /// if they are wanted.
     void frame(const Path& path, bool velocities);

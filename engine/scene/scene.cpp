@@ -413,13 +413,17 @@ io::Schema bind(Scene& scene) {
     schema
         .number_or("stiffness", drive.stiffness, "none", "N/m", positive(),
                    "of the spring that holds the top plane of the whole box, as the cantilever of "
-                   "an instrument does, on a quasi-static path: the drive moves its far end; "
-                   "\"none\": the drive moves the top plane")
+                   "an instrument does: the drive moves its far end; \"none\": the drive moves the "
+                   "top plane")
         .needs = {
-        needs.refusing(needs.equilibria, "N/m on a dynamic path",
-                       "a spring holds the top plane of a quasi-static path",
-                       "take drive.mode = \"quasistatic\", or leave stiffness out"),
         {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
+    schema
+        .number_or("mass", drive.mass, "block", "u", positive(),
+                   "of the top plane on the spring of drive.stiffness; \"block\": that of the "
+                   "block's nodes, so that block and spring oscillate together, and no faster")
+        .needs = {
+        needs.dynamic,
+        {[&scene] { return scene.drive.stiffness.has_value(); }, "drive.stiffness = \"none\""}};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet").needs = {

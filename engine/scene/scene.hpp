@@ -124,6 +124,7 @@ struct Scene {
         double displacement_step = 0.25;                          ///< Å
         Control control = Control::top;  ///< held quantity of a quasi-static path
         std::optional<double> stiffness; ///< N/m, of the whole box; empty: rigid
+        std::optional<double> mass;      ///< u, of a top plane on a spring; empty: the block's
         double timestep = 10.0;          ///< fs
         double damping = 0.05;           ///< 1/ps
         double damping_from = 0.0;       ///< fraction of the thickness above which damping acts

@@ -56,7 +56,7 @@ LedPath::LedPath(const Case& c)
       block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
     if (const double spring = case_.simulation.drive.stiffness; spring > 0.0)
         block_.set_machine(spring);
-    before_.mean_height = reference_height();
+    before_.mean_height = interface_.reference_height();
 }
 
 void LedPath::set_mean_height(double z) { go_to(Held::mean_height, z); }
@@ -65,7 +65,7 @@ void LedPath::set_top(double z) { go_to(Held::top, z); }
 void LedPath::go_to(Held held, double at) {
     require_number(at);
     hold(held);
-    target_ = {.at = held == Held::top ? at : at - reference_height()};
+    target_ = {.at = held == Held::top ? at : at - interface_.reference_height()};
 }
 
 void LedPath::set_load(double pressure) {
@@ -187,7 +187,7 @@ LedPath::Point LedPath::now() const {
 
 InterfaceMaps LedPath::maps() const {
     block_.workspace()->free_kept();
-    InterfaceMaps maps = interface_.maps(block_.lowest_layer(), reference_height());
+    InterfaceMaps maps = interface_.maps(block_.lowest_layer());
     const int across = maps.nx, n = interface_.sites_across();
     maps.nx = maps.ny = n;
     crop_map(maps.contact, across, n);
@@ -202,8 +202,7 @@ RestState LedPath::release(const Look& look) {
         if (!points_ && !remembers_) place_for_relaxation(block_, interface_, surface_, case_);
         const Looking looking(watch_, look);
         const std::optional<ZeroLoad> found =
-            find_zero_load(block_, interface_, reference_height(),
-                           case_.simulation.drive.load_force, case_, watch_);
+            find_zero_load(block_, interface_, case_.simulation.drive.load_force, case_, watch_);
         if (!found) looking.rethrow();
         State there = copy();
         there.branches.clear();

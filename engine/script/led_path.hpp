@@ -79,7 +79,6 @@ private:
     void begin();
     void place(const State& state);
     void lead_to_goal(const Look& look);
-    double reference_height() const { return interface_.start_height(); }
 
     const Case case_;
     const Surface surface_;

@@ -197,7 +197,7 @@ const Interface& SteppedPath::interface_here() {
 }
 
 InterfaceMaps SteppedPath::maps() {
-    return interface_here().maps(simulation().block().lowest_layer(), path_.reference_height());
+    return interface_here().maps(simulation().block().lowest_layer());
 }
 
 void SteppedPath::set_external(const VectorPlane<const double>& field) {
@@ -242,8 +242,7 @@ RestState SteppedPath::relax(const Look& look) {
     };
     const std::optional<LayerAtRest> found =
         path_.while_watched(told, [this] { return path_.state_from_here(); });
-    return {*found->numbers,
-            interface_here().maps(found->layer.view()[0], path_.reference_height())};
+    return {*found->numbers, interface_here().maps(found->layer.view()[0])};
 }
 
 void SteppedPath::require_whole() const {

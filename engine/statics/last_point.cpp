@@ -62,8 +62,7 @@ RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
     options.balance = balance_;
     options.report = report;
     options.force_window = window;
-    const RelaxedState state =
-        relax(block_, interface_, options_.reference_height, constraint(at), options, phases_);
+    const RelaxedState state = relax(block_, interface_, constraint(at), options, phases_);
     iterations_ += state.iterations;
     return state;
 }

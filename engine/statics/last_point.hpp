@@ -25,7 +25,6 @@ public:
         Constraint::Of along = Constraint::Of::top;
         double tolerance = 0.0; ///< tolerance of the first point, eV/Å
         Scales scales;
-        double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
     };
     LastPoint(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}

@@ -14,10 +14,9 @@ Newton::Newton(const Response& block, const Preconditioner& preconditioner, cons
                  block.workspace()),
       r_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
 
-bool Newton::direction(const Interface& interface, double reference_height, double forcing,
-                       const Waves<double>& g, Waves<float>& d) {
-    stiffness_.measure(interface, block_.lowest_layer(), block_.interface_force(),
-                       reference_height);
+bool Newton::direction(const Interface& interface, double forcing, const Waves<double>& g,
+                       Waves<float>& d) {
+    stiffness_.measure(interface, block_.lowest_layer(), block_.interface_force());
     combine(-1.0, g, 0.0, r_);
     d.clear();
     double rz = advance(0.0, d);
@@ -73,9 +72,9 @@ double Newton::advance(double a, Waves<float>& d) {
     return sums.total()[0];
 }
 
-double Newton::mean_stiffness(const Interface& interface, double reference_height) {
+double Newton::mean_stiffness(const Interface& interface) {
     return stiffness_.mean(interface, block_.lowest_layer(), block_.interface_force(),
-                           reference_height, block_.communicator());
+                           block_.communicator());
 }
 
 } // namespace asperity

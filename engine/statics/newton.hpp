@@ -20,11 +20,11 @@ public:
     /// are up to date, to a residual of `forcing` times the gradient, both measured by the
     /// preconditioner. Returns false, without a direction, if the curvature along it is negative.
     /// Collective.
-    bool direction(const Interface& interface, double reference_height, double forcing,
-                   const Waves<double>& g, Waves<float>& d);
+    bool direction(const Interface& interface, double forcing, const Waves<double>& g,
+                   Waves<float>& d);
     /// Returns the mean stiffness of the interface for a site at the block's displacements, eV/Å^2.
     /// Collective.
-    double mean_stiffness(const Interface& interface, double reference_height);
+    double mean_stiffness(const Interface& interface);
 
 private:
     /// Sets p to P r + fraction p and q to (S + H) p. Returns p.q.

@@ -19,7 +19,6 @@ PathOptions path_options(const Case& c, const Interface& interface,
     o.scales = c.scales;
     o.load = c.simulation.drive.load_force;
     if (c.effects.branches) o.velocity = c.simulation.drive.velocity;
-    o.reference_height = interface.start_height();
     o.over_wall = interface.wall() != nullptr;
     o.report = std::move(report);
     const double flat = c.flat.work_of_adhesion / units::milli_per_unit;

@@ -19,9 +19,8 @@ struct PathOptions {
     double step = 0.25;                         ///< largest step of the prescribed coordinate, Å
     double tolerance = 0.0;                     ///< tolerance at small forces, eV/Å
     Scales scales;
-    double load = 0.0;             ///< force at which the approach ends, eV/Å
-    double reference_height = 0.0; ///< z of the undisplaced lowest layer, Å
-    double velocity = 0.0;         ///< velocity of the drive if the block relaxes in time, Å/fs
+    double load = 0.0;     ///< force at which the approach ends, eV/Å
+    double velocity = 0.0; ///< velocity of the drive if the block relaxes in time, Å/fs
     /// Energy that flat surfaces of this area bind with, eV; infinite if they do not.
     double depth = HUGE_VAL;
     bool over_wall = false;

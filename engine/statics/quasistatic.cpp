@@ -148,7 +148,7 @@ StepDecision QuasistaticPath::judge(const RelaxedState& state, const Try& t) con
 /// Returns the outcome of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
     if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
-    const bool apart = options_.reference_height + record_.top >= interface_.start_height() &&
+    const bool apart = interface_.reference_height() + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
     switch (course_.rule.look(record_.force, apart, slack(record_.in_contact),
                               course_.aim.take_beside())) {

@@ -79,7 +79,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
         record_.drive = options_.along == Constraint::Of::top ? block_.drive() : state.mean_height;
     if (interface_.options().slides) record_.lateral_force = lateral_force();
     record_.top = options_.along == Constraint::Of::top ? state.top : record_.drive;
-    record_.mean_height = options_.reference_height + state.mean_height;
+    record_.mean_height = interface_.reference_height() + state.mean_height;
     record_.force = state.force;
     record_.top_force = state.top_force;
     record_.observed = true;
@@ -107,7 +107,7 @@ Instability QuasistaticPath::describe(const RelaxedState& state, double energy) 
     instability.segment = course_.number;
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
-    instability.height_after = options_.reference_height + state.mean_height;
+    instability.height_after = interface_.reference_height() + state.mean_height;
     instability.slide = record_.slide;
     instability.force_before = force();
     instability.force_after = point(state, at()).force;

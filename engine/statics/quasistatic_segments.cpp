@@ -70,9 +70,7 @@ QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, Pat
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
       box_sites_(static_cast<double>(block.options().sites) * block.options().sites),
-      last_(
-          block, interface,
-          {options_.along, 0.25 * options_.tolerance, options_.scales, options_.reference_height}),
+      last_(block, interface, {options_.along, 0.25 * options_.tolerance, options_.scales}),
       length_(options_.step) {}
 
 void QuasistaticPath::start() {
@@ -136,7 +134,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         break;
     }
     case Segment::height:
-        begin_to(segment.amount - options_.reference_height);
+        begin_to(segment.amount - interface_.reference_height());
         return;
     case Segment::slide:
         course_.end = from + segment.amount;
@@ -154,7 +152,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
 
 void QuasistaticPath::begin_to(double at) {
     if (options_.along == Constraint::Of::mean_height)
-        refuse_deep(options_.reference_height + at, interface_, block_, options_.scales);
+        refuse_deep(interface_.reference_height() + at, interface_, block_, options_.scales);
     course_.kind = Segment::height;
     course_.load.reset();
     course_.end = at;

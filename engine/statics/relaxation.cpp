@@ -58,10 +58,10 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
 /// The relaxation: where it is, what is left, and how it goes on.
 class Minimiser {
 public:
-    Minimiser(Response& block, const Interface& interface, double reference_height,
-              const RelaxOptions& options, Phases& phases)
-        : block_(block), interface_(interface), height_(reference_height), options_(options),
-          phases_(phases), preconditioner_(block, options.scales.stiffness), ball_(block),
+    Minimiser(Response& block, const Interface& interface, const RelaxOptions& options,
+              Phases& phases)
+        : block_(block), interface_(interface), options_(options), phases_(phases),
+          preconditioner_(block, options.scales.stiffness), ball_(block),
           newton_(block, preconditioner_, options.scales), g_(block.new_waves<double>()),
           d_(block.new_waves<float>()), at_sites_(block.new_field<float>()) {
         find_forces();
@@ -102,7 +102,7 @@ public:
 private:
     void sweep(bool observe) {
         const auto t = phases_.time(Phase::interface);
-        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
+        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
                                  {.observe = observe, .rough = rough_ && !observe});
     }
     void measure() {
@@ -119,7 +119,7 @@ private:
     void tune() {
         const auto t = phases_.time(Phase::interface);
         const double k = std::max(Constants::least_stiffness * options_.scales.stiffness,
-                                  Constants::softer * newton_.mean_stiffness(interface_, height_));
+                                  Constants::softer * newton_.mean_stiffness(interface_));
         if (std::abs(k - preconditioner_.k()) > Constants::changed * preconditioner_.k())
             preconditioner_.tune(block_, k);
     }
@@ -151,7 +151,7 @@ private:
             if (forcing_ == Constants::tight) return false;
             forcing_ = Constants::tight;
         }
-        if (!newton_.direction(interface_, height_, forcing_, g_, d_)) return false;
+        if (!newton_.direction(interface_, forcing_, g_, d_)) return false;
         to_sites(d_, block_.transform<float>(), at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
         const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
@@ -164,7 +164,6 @@ private:
 
     Response& block_;
     const Interface& interface_;
-    double height_;
     const RelaxOptions& options_;
     Phases& phases_;
     Preconditioner preconditioner_;
@@ -285,28 +284,28 @@ std::string why_not_converged(const RelaxedState& state, double tolerance) {
     return why;
 }
 
-RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
-                   const Constraint& constraint, const RelaxOptions& options, Phases& phases) {
+RelaxedState relax(SpectralBlock& block, const Interface& interface, const Constraint& constraint,
+                   const RelaxOptions& options, Phases& phases) {
     if (!(options.scales.length > 0.0 && options.scales.stiffness > 0.0))
         throw std::invalid_argument("relax: a relaxation needs the scales of its interface");
     long long products = 0;
     if (interface.options().wall && options.start == Start::near)
-        products = follow_tangent(block, interface, reference_height, constraint,
+        products = follow_tangent(block, interface, constraint,
                                   Constants::max_move * options.scales.length);
     else
         block.hold(constraint);
-    const double height =
-        std::abs(reference_height) + std::abs(block.mean_height()) + interface.start_height();
+    const double height = std::abs(interface.reference_height()) + std::abs(block.mean_height()) +
+                          interface.start_height();
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
     if (interface.options().wall) {
         RelaxOptions whole = options;
         whole.force_window = {}; // the steps over a wall do not add up the force
-        WallMinimiser minimiser(block, interface, reference_height, whole, phases);
+        WallMinimiser minimiser(block, interface, whole, phases);
         RelaxedState state = follow(minimiser, block, whole, rounding);
         state.iterations += products;
         return state;
     }
-    Minimiser minimiser(block, interface, reference_height, options, phases);
+    Minimiser minimiser(block, interface, options, phases);
     return follow(minimiser, block, options, rounding);
 }
 

@@ -147,7 +147,7 @@ double rounding_of_forces(const Scales& scales, const BlockOptions& block, doubl
 std::string why_not_converged(const RelaxedState& state, double tolerance);
 
 /// Relaxes the block in place under the constraint, after setting it. Collective.
-RelaxedState relax(SpectralBlock& block, const Interface& interface, double reference_height,
-                   const Constraint& constraint, const RelaxOptions& options, Phases& phases);
+RelaxedState relax(SpectralBlock& block, const Interface& interface, const Constraint& constraint,
+                   const RelaxOptions& options, Phases& phases);
 
 } // namespace asperity

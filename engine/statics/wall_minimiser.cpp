@@ -17,10 +17,10 @@ using Constants = RelaxationConstants;
 
 } // namespace
 
-WallMinimiser::WallMinimiser(Response& block, const Interface& interface, double reference_height,
+WallMinimiser::WallMinimiser(Response& block, const Interface& interface,
                              const RelaxOptions& options, Phases& phases)
-    : block_(block), interface_(interface), height_(reference_height), options_(options),
-      phases_(phases), waves_(block.new_waves<double>()), field_(block.new_field<double>()),
+    : block_(block), interface_(interface), options_(options), phases_(phases),
+      waves_(block.new_waves<double>()), field_(block.new_field<double>()),
       single_field_(block.new_field<float>()), next_(block.new_map<double>()),
       step_(block.new_map<float>()) {
     spring_ = block.stiffest_wave();
@@ -52,8 +52,8 @@ double WallMinimiser::conclude() {
     block_.apply_constraint();
     {
         const auto t = phases_.time(Phase::interface);
-        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(), height_,
-                                 {.observe = true});
+        sums_ =
+            interface_.sweep(block_.lowest_layer(), block_.interface_force(), {.observe = true});
     }
     const auto t = phases_.time(Phase::sums);
     block_.gradient(waves_);
@@ -94,7 +94,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
     const Constraint& constraint = block_.constraint();
     const double n = block_.slab().sites, sites = n * n, load = constraint.load() / sites;
     const PlaneView<double> u = block_.moving_layer(0);
-    WallRule rule{.reference_height = height_,
+    WallRule rule{.reference_height = interface_.reference_height(),
                   .spring = spring_,
                   .momentum = momentum_,
                   .norm = 1.0 / sites,

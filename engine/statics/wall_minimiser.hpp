@@ -40,8 +40,8 @@ namespace asperity {
 
 class WallMinimiser {
 public:
-    WallMinimiser(Response& block, const Interface& interface, double reference_height,
-                  const RelaxOptions& options, Phases& phases);
+    WallMinimiser(Response& block, const Interface& interface, const RelaxOptions& options,
+                  Phases& phases);
 
     /// Returns the residual after the last step, eV/Å: the largest L |z - u|.
     double residual() const { return estimate_ / doubt_; }

@@ -17,8 +17,7 @@ constexpr long long most_products = 100;
 
 class Tangent {
 public:
-    Tangent(SpectralBlock& block, const Interface& interface, double reference_height,
-            const Constraint& constraint)
+    Tangent(SpectralBlock& block, const Interface& interface, const Constraint& constraint)
         : block_(block), u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
           sites_(static_cast<double>(block.slab().sites) * block.slab().sites),
           product_(block.new_field<float>()), h_(block.new_map<double>()),
@@ -28,7 +27,7 @@ public:
         const double mean = block.mean_height();
         block.constrain(constraint);
         lift_ = held_ ? constraint.value - mean : 0.0;
-        interface.sweep(block.lowest_layer(), block.interface_force(), reference_height, {});
+        interface.sweep(block.lowest_layer(), block.interface_force(), {});
         Waves<double> g = block.new_waves<double>();
         SiteField<double> at_sites = block.new_field<double>();
         block.gradient(g);
@@ -39,10 +38,10 @@ public:
         std::visit(
             [&](const auto& law) {
                 for_sites([&](int x, int y) {
-                    const double h =
-                        std::isnan(below(x, y))
-                            ? 0.0
-                            : law.stiffness_at(reference_height + u_(x, y) - below(x, y));
+                    const double h = std::isnan(below(x, y))
+                                         ? 0.0
+                                         : law.stiffness_at(interface.reference_height() +
+                                                            u_(x, y) - below(x, y));
                     h_.plane(0)(x, y) = h;
                     weight_.plane(0)(x, y) = 1.0 / (spring + std::max(0.0, h));
                 });
@@ -149,9 +148,9 @@ private:
 
 } // namespace
 
-long long follow_tangent(SpectralBlock& block, const Interface& interface, double reference_height,
+long long follow_tangent(SpectralBlock& block, const Interface& interface,
                          const Constraint& constraint, double furthest) {
-    Tangent tangent(block, interface, reference_height, constraint);
+    Tangent tangent(block, interface, constraint);
     const long long products = tangent.solve();
     tangent.move(furthest);
     return products;

@@ -28,7 +28,7 @@ namespace asperity {
 /// block is in equilibrium under an earlier constraint. furthest: the tangent is cut where a site
 /// would move further than this beside the change of the mean height, Å. Returns the number of
 /// products with S. Collective.
-long long follow_tangent(SpectralBlock& block, const Interface& interface, double reference_height,
+long long follow_tangent(SpectralBlock& block, const Interface& interface,
                          const Constraint& constraint, double furthest);
 
 } // namespace asperity

@@ -22,8 +22,8 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     double best_height = interface.attraction_grows_down_to(), strongest = 0.0;
     const double stride = 0.057 * range;
     for (double height = best_height;; height -= stride) {
-        const InterfaceSums sums =
-            interface.sweep(block.lowest_layer(), block.interface_force(), height, {.rough = true});
+        const InterfaceSums sums = interface.sweep(block.lowest_layer(), block.interface_force(),
+                                                   {.rough = true, .height = height});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
         if (force > negligible || height < lowest_atom) return best_height;
@@ -35,7 +35,7 @@ void place_for_relaxation(SpectralBlock& block, const Interface& interface, cons
     const double height =
         height_of_strongest_attraction(block, interface, surface.statistics.lowest, c.scales.length,
                                        c.tolerance * surface.sites * surface.sites);
-    block.set_uniform(height - interface.start_height());
+    block.set_uniform(height - interface.reference_height());
 }
 
 std::string rounding_note(const Case& c, double height) {
@@ -48,7 +48,7 @@ std::string rounding_note(const Case& c, double height) {
 }
 
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
-                                       double reference_height, double load, const Case& c,
+                                       double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop) {
     RelaxOptions options;
     // A site's part of the load is the scale if the load is larger than the scale of forces.
@@ -57,8 +57,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     options.report = stop;
     Phases own;                                                // apart from the lines of the step
     block.begin_step(std::numeric_limits<double>::infinity()); // branches have relaxed at the end
-    const RelaxedState s =
-        relax(block, interface, reference_height, Constraint::load(load), options, own);
+    const RelaxedState s = relax(block, interface, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;
     if (!s.converged)
         throw io::PhysicsError(
@@ -75,7 +74,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     z.elastic = units::milli_per_unit * elastic / area;
     z.contact_fraction = c.fraction(s.in_contact);
     z.repulsive_fraction = c.fraction(s.repulsive);
-    z.mean_height = reference_height + s.mean_height;
+    z.mean_height = interface.reference_height() + s.mean_height;
     z.residual = s.residual;
     z.iterations = s.iterations;
     // Half of force^2 / stiffness at each site, of the softest wave of the box, by the forces that
@@ -103,12 +102,13 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     InterfaceOptions options = c.simulation.interface;
     options.mixed_on_request = true;
     Interface interface(surface, block.tile(), c.simulation.block.spacing, options);
+    interface.set_reference_height(reference_height);
     interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)
         move(moving.grid(), components(moving.lowest_layer())[k], slabs,
              components(block.layer().plane(0))[k]);
     LayerAtRest found;
-    found.numbers = find_zero_load(block, interface, reference_height, 0.0, c, stop);
+    found.numbers = find_zero_load(block, interface, 0.0, c, stop);
     if (!found.numbers) return found;
     found.layer = VectorField<double>(moving.levels().front().tile, 1);
     for (std::size_t k = 0; k < 3; ++k)

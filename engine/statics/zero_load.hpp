@@ -65,7 +65,7 @@ std::string rounding_note(const Case& c, double height);
 /// stop(iteration, residual) asked for an end. Collective. Throws io::PhysicsError if no state is
 /// found.
 std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& interface,
-                                       double reference_height, double load, const Case& c,
+                                       double load, const Case& c,
                                        const std::function<bool(long long, double)>& stop);
 
 /// A relaxed state as one rank sees it.
@@ -75,9 +75,10 @@ struct LayerAtRest {
 };
 /// Relaxes a copy of a block in motion at zero load. The displacements of its lowest layer are all
 /// that the state depends on (spectral_block.hpp): they are sent from the ranks' tiles to slabs of
-/// rows, relaxed there by all ranks, and sent back. place: place of the block over the substrate,
-/// Å. The state is bitwise identical on any number of ranks; it has no numbers and no layer if stop
-/// asked for an end. Collective.
+/// rows, relaxed there by all ranks, and sent back. reference_height: that of the block's
+/// interface, Å. place: place of the block over the substrate, Å. The state is bitwise
+/// identical on any number of ranks; it has no numbers and no layer if stop asked for an end.
+/// Collective.
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,
                           const Case& c, const std::function<bool(long long, double)>& stop,
                           const std::array<double, 2>& place);

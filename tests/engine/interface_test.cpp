@@ -143,8 +143,8 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
     const int n = 9;
     const Tile tile{0, 0, n, n, n};
     for (const PairPotential& potential : test::potentials(15.5)) {
-        const Interface interface(scattered(n, n * a, 0.5, 11), tile, a,
-                                  with(InterfaceMethod::automatic, potential));
+        Interface interface(scattered(n, n * a, 0.5, 11), tile, a,
+                            with(InterfaceMethod::automatic, potential));
         const State state(n, 0.4, 0.3, 12), way(n, 1.0, 1.0, 13);
         const double z = 3.6, h = 5e-4;
         const auto force_at = [&](double step) {
@@ -154,14 +154,15 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
                     moved.u[k][i] += step * way.u[k][i];
             VectorField<double> f(tile, 1);
             const VectorField<double> u = moved.on(tile);
-            interface.sweep(u.plane(0), f.plane(0), z, {});
+            interface.sweep(u.plane(0), f.plane(0), {.height = z});
             return f;
         };
         const VectorField<double> u = state.on(tile), f = force_at(0.0);
         const VectorField<double> above = force_at(h), below = force_at(-h);
         InterfaceStiffness all(tile, 3, 1e-3), normal(tile, 1, 1e-3);
-        all.measure(interface, u.plane(0), f.plane(0), z);
-        normal.measure(interface, u.plane(0), f.plane(0), z);
+        interface.set_reference_height(z);
+        all.measure(interface, u.plane(0), f.plane(0));
+        normal.measure(interface, u.plane(0), f.plane(0));
         SiteField<float> v, up;
         for (int k = 0; k < 3; ++k) {
             v.emplace_back(tile, 1, 0);
@@ -194,8 +195,7 @@ TEST(InterfaceStiffness, IsMinusTheSlopeOfTheForce) {
                 expect_slope(v[2].plane(0)(x, y), above.z, below.z, x, y);
                 mean += std::max(0.0f, up[0].plane(0)(x, y)) / (n * n);
             }
-        EXPECT_NEAR(all.mean(interface, u.plane(0), f.plane(0), z, Communicator()), mean,
-                    1e-6 * mean);
+        EXPECT_NEAR(all.mean(interface, u.plane(0), f.plane(0), Communicator()), mean, 1e-6 * mean);
         EXPECT_GT(mean, 0.1);
     }
 }
@@ -264,13 +264,14 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     const int n = 9;
     const Surface s = test::flat_surface(n);
     const Tile tile{0, 0, n, n, n};
-    const Interface interface(s, tile, a, {});
+    Interface interface(s, tile, a, {});
+    interface.set_reference_height(3.2);
     const State still(n, 0.0, 0.0, 1);
     const VectorField<double> u = still.on(tile);
-    const InterfaceMaps maps = interface.maps(u.plane(0), 3.2);
+    const InterfaceMaps maps = interface.maps(u.plane(0));
     const double nearest = std::sqrt(3.2 * 3.2 + 2.0 * 1.3 * 1.3);
     VectorField<double> f(tile, 1);
-    const InterfaceSums sums = interface.sweep(u.plane(0), f.plane(0), 3.2, {.observe = true});
+    const InterfaceSums sums = interface.sweep(u.plane(0), f.plane(0), {.observe = true});
     EXPECT_EQ(sums.in_contact, n * n);
     for (std::size_t i = 0; i < maps.gap.size(); ++i) {
         EXPECT_EQ(maps.contact[i], 1);
@@ -279,7 +280,8 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
         EXPECT_NEAR(maps.pressure[i], sums.force_z.value() / (n * n) / (a * a) * 160.21766208,
                     1e-9);
     }
-    const InterfaceMaps far = interface.maps(u.plane(0), 20.0);
+    interface.set_reference_height(20.0);
+    const InterfaceMaps far = interface.maps(u.plane(0));
     EXPECT_EQ(far.contact[0], 0);
     EXPECT_TRUE(std::isinf(far.distance[0]));
     EXPECT_EQ(far.pressure[0], 0.0);
@@ -309,10 +311,11 @@ TEST(InterfaceMaps, TheGapIsBilinearBetweenTheAtomsBelow) {
     };
     const Surface surface = test::surface_from(n, height);
     const Tile tile{0, 0, n, n, n};
-    const Interface interface(surface, tile, a, {});
+    Interface interface(surface, tile, a, {});
+    interface.set_reference_height(4.0);
     const State state(n, 1.9, 0.5, 7);
     const VectorField<double> u = state.on(tile);
-    const InterfaceMaps maps = interface.maps(u.plane(0), 4.0);
+    const InterfaceMaps maps = interface.maps(u.plane(0));
     for (int y = 1; y < n - 2; ++y)
         for (int x = 1; x < n - 2; ++x) {
             const auto at = static_cast<std::size_t>(y * n + x);
@@ -366,7 +369,9 @@ double expect_mixed_close(const Surface& substrate, const State& state, double z
     const Outcome reference = sweep(substrate, state, options, z, true);
     const Tile tile{0, 0, state.n, state.n, state.n};
     const VectorField<double> u = state.on(tile);
-    const InterfaceMaps maps = Interface(substrate, tile, a, options).maps(u.plane(0), z);
+    Interface interface(substrate, tile, a, options);
+    interface.set_reference_height(z);
+    const InterfaceMaps maps = interface.maps(u.plane(0));
     double worst = 0.0, energies = 1e-3;
     for (std::size_t i = 0; i < maps.distance.size(); ++i) {
         const double r = maps.distance[i];

@@ -130,7 +130,8 @@ TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
     std::vector<double> told;
     while (path.step(100, {}) == 100) {
         const Simulation& s = path.simulation();
-        told.push_back(way_done(c, s.reference_height(), path.drive().segment(), s.now().top));
+        told.push_back(
+            way_done(c, s.interface().reference_height(), path.drive().segment(), s.now().top));
     }
     ASSERT_GT(told.size(), 4u);
     const double all = static_cast<double>(path.now().step);

@@ -21,13 +21,15 @@ struct Contact : test::PathCase {
                                                    test::paper_scales().length);
     Phases phases;
 
-    Contact() : PathCase(test::paper_block(8, 6, 0), test::reference_surface("n8_b_rms1.0")) {}
+    Contact() : PathCase(test::paper_block(8, 6, 0), test::reference_surface("n8_b_rms1.0")) {
+        interface.set_reference_height(height);
+    }
     RelaxedState relax_with(double tolerance, double load = 0.0, long long most = 200000) {
         RelaxOptions o;
         o.tolerance = tolerance;
         o.scales = test::paper_scales();
         o.max_iterations = most;
-        return asperity::relax(block, interface, height, Constraint::load(load), o, phases);
+        return asperity::relax(block, interface, Constraint::load(load), o, phases);
     }
 };
 
@@ -90,12 +92,13 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     SpectralBlock block(options, Communicator());
     InterfaceOptions both = test::paper_interface();
     both.mixed_on_request = true;
-    const Interface interface(surface, block.tile(), options.spacing, both);
+    Interface interface(surface, block.tile(), options.spacing, both);
     const double height = height_of_strongest_attraction(
         block, interface, surface.statistics.lowest, test::paper_scales().length);
+    interface.set_reference_height(height);
     const auto energy = [&](bool rough) {
         return interface
-            .sweep(block.lowest_layer(), block.interface_force(), height,
+            .sweep(block.lowest_layer(), block.interface_force(),
                    {.observe = true, .rough = rough})
             .energy.value();
     };
@@ -105,7 +108,7 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
         o.tolerance = 1e-3;
         o.scales = test::paper_scales();
         if (stopped) o.report = [](long long, double) { return true; };
-        const RelaxedState state = relax(block, interface, height, {}, o, phases);
+        const RelaxedState state = relax(block, interface, {}, o, phases);
         ASSERT_EQ(state.converged, !stopped);
         EXPECT_EQ(state.interface_energy, energy(false));
         EXPECT_NE(state.interface_energy, energy(true))

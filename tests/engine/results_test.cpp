@@ -233,8 +233,7 @@ namespace {
 /// The force on the lowest layer, summed anew.
 double force_of_sites(const Path& path) {
     VectorField<double> force(path.grid().tile(0), 1);
-    const InterfaceSums sums =
-        path.interface().sweep(path.layer(), force.plane(0), path.reference_height());
+    const InterfaceSums sums = path.interface().sweep(path.layer(), force.plane(0));
     return global_sum(path.communicator(), sums.force_z);
 }
 

@@ -145,9 +145,10 @@ TEST(SubstrateCells, ASiteIsInContactByTheTypeOfTheAtom) {
         0.5 * (contact_distance(options.by_type[0]) + contact_distance(options.by_type[1]));
     for (auto method : {InterfaceMethod::cells, InterfaceMethod::reference}) {
         options.method = method;
-        const Interface interface(two, whole, a, options);
+        Interface interface(two, whole, a, options);
+        interface.set_reference_height(height);
         const VectorField<double> u(whole, 1);
-        const InterfaceMaps maps = interface.maps(u.plane(0), height);
+        const InterfaceMaps maps = interface.maps(u.plane(0));
         EXPECT_EQ(maps.contact[0], 1);
         EXPECT_EQ(maps.contact[12 * sites + 12], 0);
         EXPECT_EQ(std::count(maps.contact.begin(), maps.contact.end(), 1), 1);

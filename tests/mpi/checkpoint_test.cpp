@@ -152,6 +152,13 @@ TEST(Checkpoint, AtFiniteStrain) {
     goes_on(finite, "finite");
 }
 
+TEST(Checkpoint, OfATopPlaneOnASpring) {
+    SimulationOptions o = options();
+    o.temperature = 0.0;
+    o.drive.stiffness = 20.0;
+    goes_on(o, "spring");
+}
+
 TEST(Checkpoint, OfAnotherSceneIsRefusedByTheKeysThatDiffer) {
     const test::SharedScratch scratch("other_scene");
     test::Driven s = make(world());

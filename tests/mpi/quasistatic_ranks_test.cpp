@@ -71,7 +71,6 @@ struct Contact {
         o.step = 0.5;
         o.tolerance = 1e-3;
         o.scales = test::paper_scales();
-        o.reference_height = interface.start_height();
         if (!options.branches.empty()) o.velocity = 1e-4;
         o.report = [this](long long, double) { return ++looks == stop_at; };
         return o;

@@ -35,6 +35,7 @@ struct Stack {
     bool atoms = false;  ///< a substrate of atoms anywhere
     bool types = false;  ///< of two types
     bool slides = false; ///< in contact
+    bool spring = false; ///< holds the top plane
 };
 constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"deep", 62, 2, 0.0},
@@ -45,7 +46,8 @@ constexpr Stack stacks[] = {{"shallow", 32, 3, 0.0},
                             {"atoms", 32, 3, 0.0, false, true},
                             {"types", 32, 3, 0.0, false, true, true},
                             {"sliding", 32, 3, 0.0, false, false, false, true},
-                            {"sliding over atoms", 32, 3, 0.0, false, true, false, true}};
+                            {"sliding over atoms", 32, 3, 0.0, false, true, false, true},
+                            {"spring", 32, 3, 0.0, false, false, false, false, true}};
 void PrintTo(const Stack& s, std::ostream* out) { *out << s.name; }
 
 Surface surface_of(const Stack& stack, const char* name) {
@@ -80,6 +82,7 @@ SimulationOptions options_of(const Stack& stack) {
     options.damping_from = 0.3;
     options.temperature = stack.temperature;
     options.seed = 7;
+    if (stack.spring) options.drive.stiffness = 20.0;
     // Over more than a spacing: the substrate's tables are made anew.
     if (stack.slides) {
         options.drive.ramp = 100.0;

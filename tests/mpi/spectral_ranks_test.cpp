@@ -94,14 +94,14 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
     SpectralBlock block(options, ranks, frictionless);
     InterfaceOptions over = test::paper_interface();
     over.wall = wall;
-    const Interface interface(surface, block.tile(), options.spacing, over);
+    Interface interface(surface, block.tile(), options.spacing, over);
+    interface.set_reference_height(surface.statistics.highest + 2.5);
     RelaxOptions relaxation;
     relaxation.tolerance = 1e-7;
     relaxation.scales = test::paper_scales();
     Phases phases;
     State state;
-    state.relaxed =
-        relax(block, interface, surface.statistics.highest + 2.5, constraint, relaxation, phases);
+    state.relaxed = relax(block, interface, constraint, relaxation, phases);
     state.top = block.top();
     return state;
 }

@@ -49,8 +49,9 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
         // The deepest energy of the rigid block, in finer steps.
         double deepest = 0.0;
         for (double height = start.height;; height -= 0.01) {
-            const InterfaceSums sums = c.interface.sweep(
-                c.block.lowest_layer(), c.block.interface_force(), height, {.observe = true});
+            const InterfaceSums sums =
+                c.interface.sweep(c.block.lowest_layer(), c.block.interface_force(),
+                                  {.observe = true, .height = height});
             if (sums.force_z.value() > 0.0) break;
             deepest = std::min(deepest, sums.energy.value());
         }
@@ -59,9 +60,9 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
         RelaxOptions options;
         options.tolerance = 1e-10;
         options.scales = c.setup.scales;
+        c.interface.set_reference_height(start.height);
         Phases phases;
-        const RelaxedState state =
-            relax(block, c.interface, start.height, Constraint::top(0.0), options, phases);
+        const RelaxedState state = relax(block, c.interface, Constraint::top(0.0), options, phases);
         ASSERT_TRUE(state.converged);
         const double gained = start.energy - state.interface_energy - state.elastic_energy;
         EXPECT_GT(gained, 0.0);

@@ -435,7 +435,7 @@ Approach approach_slowly(int layers, const Surface& surface) {
     result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
     result.work = 1e3 * s.balance().interface / area;
     const LayerAtRest rest =
-        test::bring_to_rest(s.block(), surface, s.reference_height(), options, 1e-6);
+        test::bring_to_rest(s.block(), surface, s.interface().reference_height(), options, 1e-6);
     result.binding = rest.numbers.value().binding_energy;
     return result;
 }

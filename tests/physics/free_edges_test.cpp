@@ -59,8 +59,7 @@ struct Free {
         how.tolerance = tolerance;
         how.scales = scales;
         Phases phases;
-        const RelaxedState s =
-            asperity::relax(block, interface, interface.start_height(), constraint, how, phases);
+        const RelaxedState s = asperity::relax(block, interface, constraint, how, phases);
         EXPECT_TRUE(s.converged) << s.residual << " at " << constraint.value;
         return s;
     }

@@ -245,8 +245,7 @@ TEST(MeanHeight, FallsThatTakeTheForceTooFarAreGivenUp) {
         o.scales = test::paper_scales();
         o.force_window = window;
         Phases phases;
-        return relax(c.block, c.interface, c.interface.start_height(),
-                     {Constraint::Of::mean_height, after}, o, phases);
+        return relax(c.block, c.interface, {Constraint::Of::mean_height, after}, o, phases);
     };
     const RelaxedState whole = fall({});
     ASSERT_TRUE(whole.converged);

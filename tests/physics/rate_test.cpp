@@ -46,7 +46,6 @@ QuasistaticPath path_of(test::PathCase& c, double velocity, double tolerance, do
     p.step = step;
     p.tolerance = tolerance;
     p.scales = test::paper_scales();
-    p.reference_height = c.interface.start_height();
     p.velocity = velocity;
     return {c.block, c.interface, p};
 }

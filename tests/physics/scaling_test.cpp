@@ -320,8 +320,7 @@ TEST(Scaling, ATolerancesUnitAndItsFloorAreNamed) {
         o.tolerance = of_floor * floor;
         o.scales = test::paper_scales();
         Phases phases;
-        const RelaxedState s = relax(at.block, at.interface, at.interface.start_height(),
-                                     Constraint::load(0.0), o, phases);
+        const RelaxedState s = relax(at.block, at.interface, Constraint::load(0.0), o, phases);
         EXPECT_EQ(s.converged, converges) << of_floor << ": " << s.residual << " of " << floor;
     }
 }

@@ -86,7 +86,7 @@ TEST(Slides, AreTheSameAsDisplacedSites) {
     for (const Surface& surface : {rough(), rows, test::disordered(rough())})
         for (const auto& [x, y] : {std::pair{0.4, 0.0}, {1.3, -1.29}, {7.9, 3.1}, {-30.0, 100.3}}) {
             Interface slides(surface, whole, 2.6, sliding());
-            const Interface still(surface, whole, 2.6, slow);
+            Interface still(surface, whole, 2.6, slow);
             test::State state(16, 0.2, 0.2, ++seed);
             const VectorField<double> u = state.on(whole);
             for (double& at : state.u[0])
@@ -96,11 +96,10 @@ TEST(Slides, AreTheSameAsDisplacedSites) {
             const VectorField<double> moved = state.on(whole);
             VectorField<double> f(whole, 1), g(whole, 1);
             slides.slide_to(x, y);
-            const double height = slides.start_height() - 10.0;
-            const InterfaceSums one =
-                slides.sweep(u.plane(0), f.plane(0), height, {.observe = true});
-            const InterfaceSums other =
-                still.sweep(moved.plane(0), g.plane(0), height, {.observe = true});
+            slides.set_reference_height(slides.start_height() - 10.0);
+            still.set_reference_height(slides.reference_height());
+            const InterfaceSums one = slides.sweep(u.plane(0), f.plane(0), {.observe = true});
+            const InterfaceSums other = still.sweep(moved.plane(0), g.plane(0), {.observe = true});
             ASSERT_LT(other.energy.value(), -1.0);
             EXPECT_NEAR(one.energy.value(), other.energy.value(), 1e-9);
             EXPECT_EQ(one.repulsive, other.repulsive);
@@ -108,8 +107,8 @@ TEST(Slides, AreTheSameAsDisplacedSites) {
                 test::largest_difference(test::values_of(f.plane(0)), test::values_of(g.plane(0))),
                 1e-9);
             // Maps too: gaps are over what is below the sites where they are.
-            EXPECT_LT(test::largest_difference(slides.maps(u.plane(0), height).gap,
-                                               still.maps(moved.plane(0), height).gap),
+            EXPECT_LT(test::largest_difference(slides.maps(u.plane(0)).gap,
+                                               still.maps(moved.plane(0)).gap),
                       1e-9);
         }
 }
@@ -275,7 +274,7 @@ TEST(SegmentsInTime, EndWhereTheyShouldAndCloseTheBalance) {
             EXPECT_NEAR(now.slide[0], 1.5, 1e-6);
             break;
         case 5:
-            EXPECT_NEAR(now.top, 30.0 - s.reference_height(), 1e-6);
+            EXPECT_NEAR(now.top, 30.0 - s.interface().reference_height(), 1e-6);
             break;
         default:
             break;

@@ -166,8 +166,8 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
                     const auto energy = [&] {
                         return block.energies().elastic +
                                interface
-                                   .sweep(block.lowest_layer(), block.interface_force(), 3.7,
-                                          {.observe = true})
+                                   .sweep(block.lowest_layer(), block.interface_force(),
+                                          {.observe = true, .height = 3.7})
                                    .energy.value();
                     };
                     // A central difference: of order h^2, and rounding 1e-16 U / h.

@@ -218,11 +218,11 @@ TEST(Wall, ClosestIsTheLeastGap) {
         AtWall at(s, a, law);
         at.block.set_uniform(0.0);
         for (const double gap : {2.0, 0.25, -0.25}) {
-            const InterfaceSums sums =
-                at.interface.sweep(at.block.lowest_layer(), at.block.interface_force(),
-                                   highest + gap, {.observe = true});
+            at.interface.set_reference_height(highest + gap);
+            const InterfaceSums sums = at.interface.sweep(
+                at.block.lowest_layer(), at.block.interface_force(), {.observe = true});
             EXPECT_NEAR(count_contacts(sums, Communicator()).closest, std::max(gap, 0.0), 1e-12);
-            const InterfaceMaps maps = at.interface.maps(at.block.lowest_layer(), highest + gap);
+            const InterfaceMaps maps = at.interface.maps(at.block.lowest_layer());
             for (std::size_t i = 0; i < s.height.size(); ++i)
                 EXPECT_NEAR(maps.distance[i], std::max(highest + gap - s.height[i], 0.0), 1e-12);
         }

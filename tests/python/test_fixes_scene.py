@@ -187,8 +187,8 @@ CASES = [
     ('take drive.mode = "quasistatic"', {"block.prony": '[[1.0, "1 ns"]]'}, {"drive.mode": "quasistatic"}, MOVING),
     ("or leave prony out", {"block.prony": '[[1.0, "1 ns"]]'}, {"block.prony": None}, MOVING),
     ("write the branches in the order", {"block.prony": '[[1.0, "2 ns"], [2.0, "1 ns"]]'}, {"block.prony": '[[2.0, "1 ns"], [1.0, "2 ns"]]'}, QUASI),
-    ('take drive.mode = "quasistatic"', {"drive.stiffness": "0.2"}, {"drive.mode": "quasistatic"}, MOVING),
-    ("or leave stiffness out", {"drive.stiffness": "0.2"}, {"drive.stiffness": None}, MOVING),
+    ("leave stiffness or temperature out", {"drive.stiffness": "0.2", "drive.temperature": "300"}, {"drive.stiffness": None}, MOVING),
+    ("leave stiffness or temperature out", {"drive.stiffness": "0.2", "drive.temperature": "300"}, {"drive.temperature": None}, MOVING),
     ('take control = "top", or', {"drive.stiffness": "0.2", "drive.control": "mean-height"}, {"drive.control": "top"}, QUASI),
     ("or leave stiffness out", {"drive.stiffness": "0.2", "drive.control": "mean-height"}, {"drive.stiffness": None}, QUASI),
     ("leave stiffness or prony out", {"drive.stiffness": "0.2", "block.prony": '[[1.0, "1 ns"]]'}, {"drive.stiffness": None}, QUASI),
@@ -230,6 +230,7 @@ CASES = [
     ("or surface.lattice_ratio = 1", {"numerics.device": "emulated", "surface.lattice_ratio": "2"}, {"surface.lattice_ratio": "1"}, MOVING),
     ('or block.strain = "linear"', {"numerics.device": "emulated", "block.strain": "finite"}, {"block.strain": "linear"}, MOVING),
     ('take numerics.device = "none"', {"numerics.device": "emulated", "drive.path": '["approach", "slide x 5 Å"]'}, {"numerics.device": "none"}, MOVING),
+    ('take numerics.device = "none"', {"numerics.device": "emulated", "drive.stiffness": "0.2"}, {"numerics.device": "none"}, MOVING),
     ('take "auto"', {"numerics.device": "7"}, {"numerics.device": "auto"}, MOVING),
     # Potentials
     ('take interface.kind = "atoms"', {"interface.kind": "wall", "interface.law": "smeared"}, {"interface.kind": "atoms"}, TABLE),

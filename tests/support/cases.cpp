@@ -143,14 +143,15 @@ Scales paper_scales() {
 Relaxed relax_spectral(const BlockOptions& options, const InterfaceOptions& interface_options,
                        const Surface& surface, double tolerance, bool frictionless) {
     SpectralBlock block(options, Communicator(), frictionless);
-    const Interface interface(surface, block.tile(), options.spacing, interface_options);
+    Interface interface(surface, block.tile(), options.spacing, interface_options);
     const double height = height_of_strongest_attraction(
         block, interface, surface.statistics.lowest, paper_scales().length);
+    interface.set_reference_height(height);
     RelaxOptions relax_options;
     relax_options.tolerance = tolerance;
     relax_options.scales = paper_scales();
     Phases phases;
-    return numbers_of(relax(block, interface, height, {}, relax_options, phases), options, height);
+    return numbers_of(relax(block, interface, {}, relax_options, phases), options, height);
 }
 
 LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double reference_height,

@@ -31,8 +31,8 @@ Relaxed relax_levels(const BlockOptions& options, const InterfaceOptions& interf
     const double sites = std::pow(options.sites, 2);
     const auto feel = [&] {
         lattice.set(u, top);
-        sums = interface.sweep(block.lowest_layer(), block.interface_force(), height,
-                               {.observe = true});
+        sums = interface.sweep(block.lowest_layer(), block.interface_force(),
+                               {.observe = true, .height = height});
         f = lattice.force();
         f.push_back(lattice.top_force()[2] / sites);
         return largest_of(f);

@@ -89,7 +89,6 @@ struct PathCase {
         p.tolerance = tolerance;
         p.scales = paper_scales();
         p.load = load;
-        p.reference_height = interface.start_height();
         return KeptPath(block, interface, p);
     }
     /// At the end of its approach.
@@ -100,8 +99,7 @@ struct PathCase {
         how.tolerance = tolerance;
         how.scales = paper_scales();
         Phases phases;
-        const RelaxedState s =
-            asperity::relax(block, interface, interface.start_height(), constraint, how, phases);
+        const RelaxedState s = asperity::relax(block, interface, constraint, how, phases);
         EXPECT_TRUE(s.converged) << s.residual << " at " << constraint.value;
         return s;
     }

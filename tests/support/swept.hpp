@@ -58,7 +58,8 @@ inline Outcome sweep(const Surface& substrate, const State& state, const Interfa
             const Interface interface(substrate, tile, spacing, options);
             const VectorField<double> u = state.on(tile);
             VectorField<double> f(tile, 1);
-            out.sums.merge(interface.sweep(u.plane(0), f.plane(0), z, {.observe = observe}));
+            out.sums.merge(
+                interface.sweep(u.plane(0), f.plane(0), {.observe = observe, .height = z}));
             for (int y = 0; y < tile.ny; ++y)
                 for (int x = 0; x < tile.nx; ++x)
                     for (std::size_t k = 0; k < 3; ++k)
