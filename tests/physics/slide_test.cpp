@@ -47,7 +47,6 @@ struct Slider {
         p.step = step;
         p.tolerance = tolerance;
         p.scales = test::paper_scales();
-        p.reference_height = interface.start_height();
         p.velocity = velocity;
         p.over_wall = true;
         p.depth =
