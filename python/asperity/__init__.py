@@ -20,7 +20,7 @@ them. Errors of the program are the exceptions SceneError, PhysicsError, InputOu
 
 from typing import TYPE_CHECKING
 
-from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped
+from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName
 
 if TYPE_CHECKING:
     from .forms import (
@@ -44,7 +44,7 @@ _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
-__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName",
            *(name for name, module in _LAZY.items() if module == ".forms")]
 
 

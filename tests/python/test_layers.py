@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """A module of the package imports only what stands before it here, inside functions too: no circles, between subpackages or
-within one."""
+within one. Imports that only type checkers see (if TYPE_CHECKING) do not count: nothing runs them."""
 
 import ast
 import re
@@ -31,8 +31,11 @@ PLACE = {name: place for place, name in enumerate(ORDER)}
 
 def imported(text: str, name: str):
     """Modules of the package that the text of a module imports."""
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom) and node.level:
+    tree = ast.parse(text)
+    unseen = {id(node) for branch in ast.walk(tree) if isinstance(branch, ast.If) and ast.unparse(branch.test) == "TYPE_CHECKING"
+              for child in branch.body for node in ast.walk(child)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and id(node) not in unseen:
             above = name.split(".")[:-1][:2 - node.level] if node.level <= 2 else None
             assert above is not None, f"{name} imports from outside of the package"
             module = ".".join(above + (node.module.split(".") if node.module else []))

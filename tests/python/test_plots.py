@@ -90,7 +90,7 @@ def test_maps_are_seen_from_above(path_run):
 def test_what_is_not_there_is_a_message(state_run):
     with pytest.raises(asperity.InputOutputError, match="separation"):
         state_run.plot.separation(axes())
-    with pytest.raises(asperity.InputOutputError, match="states: relaxed"):
+    with pytest.raises(asperity.UnknownName, match="has no state 'pull-off'\n.*it has relaxed"):
         state_run.plot.map("gap", axes(), state="pull-off")
     with pytest.raises(AttributeError, match="separation"):
         state_run.plot.sepration

@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import InputOutputError
+from ..errors import UnknownName
 from ..results.result import Result, State
 from ..theory import theories
 from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
@@ -489,19 +489,31 @@ class RunPlots:
         return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data",
                           "see drive.path, output.series and output.fields")
 
-    def __getattr__(self, name: str) -> Callable[..., Axes]:
-        if name in OF_RUN:
-            return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
-        if name in OF_STATE:
-            return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
-        raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
+    if TYPE_CHECKING:
+        def separation(self, ax: Axes | None = None) -> Axes: ...
+        def loading(self, ax: Axes | None = None) -> Axes: ...
+        def contact(self, ax: Axes | None = None) -> Axes: ...
+        def friction(self, ax: Axes | None = None) -> Axes: ...
+        def energy(self, ax: Axes | None = None) -> Axes: ...
+        def balance(self, ax: Axes | None = None) -> Axes: ...
+        def spectrum(self, ax: Axes | None = None) -> Axes: ...
+        def roughness(self, ax: Axes | None = None) -> Axes: ...
+        def height(self, ax: Axes | None = None) -> Axes: ...
+        def gaps(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+        def pressures(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+    else:
+        def __getattr__(self, name: str) -> Callable[..., Axes]:
+            if name in OF_RUN:
+                return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
+            if name in OF_STATE:
+                return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
+            raise UnknownName.among(str(self._run.directory), name, [*OF_RUN, *OF_STATE, "map"], what="plot")
 
     def _state(self, name: str | None) -> State:
         if name is None:  # of what a script wrote, that of the last moment
             name = next((n for n in ("relaxed", *self._run.fields) if n in self._run.fields), "relaxed")
         if name not in self._run.fields:
-            raise InputOutputError(str(self._run.directory), f"has no state {name!r}",
-                                   f"states: {', '.join(self._run.fields) or 'none'}", "see output.fields")
+            raise UnknownName.among(str(self._run.directory), name, self._run.fields, "it has no states: see output.fields", "state")
         return self._run.fields[name]
 
     def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
@@ -523,12 +535,11 @@ class RunPlots:
 
         Raises
         ------
-        InputOutputError
+        UnknownName
             The run has no such state or map.
         """
         if name not in (shown := self._state(state)):
-            raise InputOutputError(str(self._run.directory), f"has no map {name!r}", f"maps: {', '.join(shown)}",
-                                   "take one of these")
+            raise UnknownName.among(str(self._run.directory), name, shown, what="map")
         return self._draw(name, ax, map_of, self._run, shown, name)
 
     def __dir__(self) -> list[str]:

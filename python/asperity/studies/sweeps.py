@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
@@ -33,6 +33,9 @@ from ..running.scene import SceneLike, inputs_of, scene_file
 from ..theory import theories
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .tables import Columns, Table, columns_of, text_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
 TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
@@ -64,6 +67,10 @@ class Sweep:
     directory : Path
         Directory of the sweep.
     """
+
+    if TYPE_CHECKING:
+        def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes: ...
+        def report(self) -> Path: ...
 
     name: str
     scene: dict[str, Any]
