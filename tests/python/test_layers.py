@@ -16,13 +16,13 @@ SUBPACKAGES = {
     "results": ("result",),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
-    "theory": ("renormalised", "sphere", "theories"),
+    "theories": ("renormalised", "sphere", "combined"),
     "studies": ("grid", "tables", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
                 "estimates", "map_scene", "states"),
     "plots": ("style", "run", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "sweep", "export"),
     "commands": ("studies", "theory", "adhesion"),
-    "forms": (), "crack": (), "__init__": (), "__main__": (),
+    "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()
          for name in ([f"{package}.{module}" for module in ("__init__", *modules)] if modules else [package])]

@@ -15,7 +15,7 @@ import pytest
 import asperity
 from asperity.reports import sentences
 from asperity.reports.sweep import key_numbers, write_page
-from asperity.theory import theories
+from asperity.theories import combined
 from conftest import ROOT, SMALL, STATE, command, unsealed
 
 
@@ -177,7 +177,7 @@ def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
     for name in ("JKR", "JKR with images", "Maugis-Dugdale with images"):
         assert f"theory: smooth sphere, {name}" in labels
     # The curve goes as deep as JKR's pull-off force, 3πγR/2.
-    _, _, force = theories.sphere_curves(sphere_run, 1.0)[0]
+    _, _, force = combined.sphere_curves(sphere_run, 1.0)[0]
     assert force.min() == pytest.approx(-1.5 * np.pi * sphere_run.delta_gamma * 1e-3 * 100, rel=1e-3)
 
 

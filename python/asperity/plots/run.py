@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from ..errors import UnknownName
 from ..results.result import Result, State
-from ..theory import theories
+from ..theories import combined
 from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (
     BLUE,
@@ -104,7 +104,7 @@ def separation(run: Result, ax: Axes) -> bool:
         return False
     height, force, _ = columns
     unit, label = force_unit(run)
-    beside = theories.sphere_curves(run, force.max())
+    beside = combined.sphere_curves(run, force.max())
     for number, (words, x, y) in enumerate(beside):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
               colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
@@ -352,7 +352,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     if run.key("surface.kind") == "flat":
         return []
     values = [1.8 * rms * i / 16 for i in range(1, 17)]
-    points = theories.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
+    points = combined.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
     if not all("theory" in p for p in points):
         return []
     curves: list[tuple[str, list, list, Any]] = []

@@ -260,10 +260,23 @@ class SurfaceMade(NamedTuple):
     doubts: list[str]
 
 
-def surface_made(file: str) -> SurfaceMade:
-    """Returns the surface that a scene makes."""
+def surface_made(file: str, overrides: Iterable[str] = ()) -> SurfaceMade:
+    """Makes the surface of a scene.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    overrides : Iterable[str]
+        Overrides.
+
+    Returns
+    -------
+    SurfaceMade
+        Heights (Å) and their statistics.
+    """
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        made = program.surface(file, out=str(Path(place) / "surface"))
+        made = program.surface(file, overrides, out=str(Path(place) / "surface"))
         heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
     return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
