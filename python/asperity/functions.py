@@ -33,13 +33,13 @@ __all__ = ["Checked", "Planned", "Surface", "TheoryOfScene", "check", "convert",
 
 @dataclass
 class Checked:
-    """A scene as it would be run: its keys, notes on it, the longest stable time step (fs; None on quasi-static paths), and the
+    """A scene as it would be run: its keys, notes on it, the longest stable time step of dynamic paths (fs), and the
     factor by which a coarse spacing increases the pull-off force of a sphere."""
 
     name: str
     scene: Scene
     notes: list[str]
-    longest_timestep: float | None
+    longest_timestep: float
     edge_pinning: float
 
 
@@ -110,7 +110,7 @@ def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
         found = _values(program.check(file, assignments(overrides)))
         if found["problems"]:
             raise SceneError.of(found["problems"])
-    return Checked(found.text("name"), cast("Scene", found["scene"]), found.listed("notes", str), found.number("longest_timestep") or None,
+    return Checked(found.text("name"), cast("Scene", found["scene"]), found.listed("notes", str), found.number("longest_timestep", 0.0),
                    found.number("edge_pinning", 1.0))
 
 

@@ -24,8 +24,7 @@ def file(place):
 def test_check_returns_the_scene_or_all_mistakes():
     found = asperity.check(SCENE, {"surface.spacing": 2.5})
     assert found.name == "state" and found.scene.surface.spacing == 2.5 and found.scene.block.young == 77.2
-    assert found.longest_timestep is None and found.edge_pinning == 1.0
-    assert asperity.check({"surface": {"sites": 32}}).longest_timestep > 10.0  # fs, of a dynamic path
+    assert 10.0 < found.longest_timestep < 200.0 and found.edge_pinning == 1.0  # fs
     assert any("has no effect" in note for note in asperity.check(SCENE, {"interface.morse_a": 2.0}).notes)
     with pytest.raises(asperity.SceneError, match="test_functions.py") as error:
         asperity.check(SCENE, {"block.poisson": 0.6, "surface.rms": -1.0})
@@ -92,7 +91,7 @@ def test_convert_and_export(place, state_run):
 
 def test_results_are_tables_in_a_notebook(place, state_run, light):
     html = state_run._repr_html_()
-    assert html.count("<tr>") > 3 and "binding energy" in html and f"{state_run.binding_energy / state_run.delta_gamma:.3f}" in html
+    assert html.count("<tr>") == 3 and "binding energy" in html and f"{state_run.binding_energy / state_run.delta_gamma:.3f}" in html
     sweep = asperity.sweep(SCENE, {"surface.rms": [0.2, 0.4]}, out="sweep")
     html = sweep._repr_html_()
     assert html.count("<tr>") == 3 and "surface.rms" in html and "2 done" not in html

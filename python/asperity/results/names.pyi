@@ -106,6 +106,18 @@ class ContactRadius(Values):
     pull_off: float
     """Å: √"""
 
+class Instrument(Values):
+    approach_force: float
+    """nN: approach_force in the units of instruments, of a sphere or a box with free edges, like the following"""
+    pull_off_force: float
+    """nN: pull_off_force"""
+    contact_radius: float
+    """nm: contact_radius.relaxed"""
+    spring: float
+    """N/m: drive.stiffness"""
+    edge_distance: float
+    """nm: least distance of a contact of the path from a free edge of the box"""
+
 class Segment(Values):
     segment: int
     """its number in drive.path, from 0"""
@@ -133,6 +145,8 @@ class Segment(Values):
     """eV/Å: the largest force against the slide"""
     pressure: float
     """MPa: at its end"""
+    force: float
+    """nN: the same as a force, of a sphere or a box with free edges"""
     pressure_scatter: float
     """MPa: thermal noise"""
     pressure_averaged_over: float
@@ -380,6 +394,7 @@ class Numbers:
     """eV/Å: largest attraction during the pull-off"""
     jkr: Jkr
     contact_radius: ContactRadius
+    instrument: Instrument
     dissipated: Dissipated
     theory: Theory
     relaxed: Relaxed
@@ -395,6 +410,8 @@ class SceneSurface(Values):
     """the substrate"""
     sites: Any
     """N"""
+    boundary: Any
+    """edges of the box"""
     spacing: Any
     """Å: lattice constant a of the block"""
     lattice_ratio: Any
@@ -510,7 +527,7 @@ class SceneDrive(Values):
     ramp: Any
     """ps: time over which the top plane's velocity is reversed smoothly"""
     load: Any
-    """MPa: pressure at which an approach ends, or under which 'relax' finds the state"""
+    """MPa: pressure, or force on the box"""
     temperature: Any
     """K: above 0"""
     seed: Any
