@@ -54,7 +54,7 @@ _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion",
                           "load_sweep", "run", "sweep"), ".forms"),
          **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
-_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
+_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName",
            *(name for name, module in _LAZY.items() if module in (".forms", ".functions"))]
