@@ -517,7 +517,9 @@ class SceneDrive(Values):
     displacement_step: Any
     """Å: largest displacement from point to point of a quasi-static path, of what drive.control prescribes"""
     stiffness: Any
-    """N/m: of the spring that holds the top plane of the whole box, as the cantilever of an instrument does, on a ..."""
+    """N/m: of the spring that holds the top plane of the whole box, as the cantilever of an instrument does"""
+    mass: Any
+    """u: of the top plane on the spring of drive.stiffness"""
     timestep: Any
     """fs: of velocity Verlet"""
     damping: Any
