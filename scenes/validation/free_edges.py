@@ -7,15 +7,13 @@
 
 hertz: a sphere without adhesion, in boxes of 1.25 and 2.5 contact diameters. punch: a flat round punch, a map with holes. jkr: an
 adhesive sphere at the height of its apex and pulled off, beside rings (rings.py) under the same law, as the range falls. images: the
-sphere in a free box of 1.25 contact diameters and in a periodic one of ten, with the time and the memory of both. --small: few
+sphere in a free box of 1.25 contact diameters and in a periodic one of ten, with the time of both. --small: few
 sites, in seconds. Lengths in nm, forces in nN.
 """
 import argparse
 import math
 import pathlib
-import resource
 import sys
-import time
 
 import h5py
 import numpy as np
@@ -40,20 +38,18 @@ class Runs:
         out.mkdir(parents=True, exist_ok=True)
 
     def run(self, name: str, sites: int, box: float, keys: dict) -> dict:
-        """The series of a quasi-static path over a wall, its result, and the wall time. A result that is there is an error."""
+        """The series of a quasi-static path over a wall, its result, and its processor time. A result that is there is an error."""
         settings = {"interface.kind": "wall", "interface.adhesion": 0, "drive.mode": "quasistatic", "block.poisson": POISSON,
                     "block.young": f"{E * (1 - POISSON**2)} GPa", "surface.kind": "flat", "surface.boundary": "free",
                     "surface.sites": sites, "surface.spacing": f"{box / sites} nm", "output.fields": ["segments"],
                     "output.checkpoint": "none", **keys}
-        begun = time.monotonic()
         result = asperity.run({}, settings, self.out / name)
-        seconds = time.monotonic() - begun
         with h5py.File(result.directory / "run.h5") as file:
             series = {k: file[f"series/{k}"][:] for k in ("force", "top_displacement", "contact_fraction", "segment")}
             there = file["fields/segment-0"]
             height = there.attrs["reference_height"]
             pressure = there["pressure"][:].max()
-        return {"result": result, "seconds": seconds, "force": 1.602176634 * series["force"], "segment": series["segment"],
+        return {"result": result, "seconds": result.run.processor_seconds, "force": 1.602176634 * series["force"], "segment": series["segment"],
                 "height": 0.1 * (series["top_displacement"] + height), "pressure": pressure,
                 "radius": box * np.sqrt(series["contact_fraction"] / math.pi)}
 
@@ -117,13 +113,12 @@ def around(reach: float) -> tuple[np.ndarray, np.ndarray]:
 def jkr(runs: Runs) -> list[dict]:
     """-4/3 F0 at the height of the apex, -3/2 F0 at most. The box is 1.25 times as wide as the contact without a load."""
     rows = []
-    for reach, wide, sites in ((0.4, 1.25, 64), (0.4, 2.5, 128), (0.28, 1.25, 128), (0.2, 1.25, 256), (0.14, 0, 0))[:1 if runs.small else 5]:
-        row = {"range/D0": reach, "box/diameters": wide, "sites": sites}
-        if sites:
-            r = runs.run(f"jkr-{reach}-{wide}-{sites}", sites, 2 * wide * math.cbrt(6) * A0, {
-                "surface.radius": f"{R} nm", "interface.adhesion": f"{WORK} J/m^2", "interface.range": f"{reach * D0} nm",
-                "drive.displacement_step": f"{0.05 * D0} nm", "drive.path": ["height 0 nm", f"height {0.6 * D0} nm"]})
-            row |= {"at the apex/F0": r["force"][r["segment"] == 0][-1] / F0, "largest/F0": r["force"][r["segment"] == 1].min() / F0}
+    for reach, wide, sites in ((0.4, 1.25, 64), (0.4, 2.5, 128), (0.28, 1.25, 128), (0.2, 1.25, 256))[:1 if runs.small else 4]:
+        r = runs.run(f"jkr-{reach}-{wide}-{sites}", sites, 2 * wide * math.cbrt(6) * A0, {
+            "surface.radius": f"{R} nm", "interface.adhesion": f"{WORK} J/m^2", "interface.range": f"{reach * D0} nm",
+            "drive.displacement_step": f"{0.05 * D0} nm", "drive.path": ["height 0 nm", f"height {0.6 * D0} nm"]})
+        row = {"range/D0": reach, "box/diameters": wide, "sites": sites, "at the apex/F0": r["force"][r["segment"] == 0][-1] / F0,
+               "largest/F0": r["force"][r["segment"] == 1].min() / F0}
         heights, forces = around(reach * D0)
         row |= {"rings at the apex/F0": forces[0] / F0, "rings, largest/F0": forces.min() / F0}
         rows.append(row)
@@ -131,7 +126,7 @@ def jkr(runs: Runs) -> list[dict]:
 
 
 def images(runs: Runs) -> list[dict]:
-    """Hertz' contact, and the pull-off at a range of 0.4 D0, of a paraboloid; memory: the largest of a process so far."""
+    """Hertz' contact, and the pull-off at a range of 0.4 D0, of a paraboloid."""
     rows = []
     for boundary, wide in (("free", 1.25), ("periodic", 10)):
         for kind in ("hertz", "jkr"):
@@ -153,7 +148,7 @@ def images(runs: Runs) -> list[dict]:
                 row |= {"radius/Hertz": r["radius"][-1] / HERTZ, "pressure/Hertz": r["pressure"] / (1.5 * F / (math.pi * HERTZ**2))}
             else:
                 row |= {"largest attraction/F0": -r["force"].min() / F0}
-            rows.append(row | {"s": r["seconds"], "MB": resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1e3})
+            rows.append(row | {"processor/s": r["seconds"]})
     return rows
 
 
