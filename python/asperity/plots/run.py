@@ -60,7 +60,7 @@ def force_unit(run: Result) -> tuple[float, str]:
     tuple[float, str]
         Divisor of forces in eV/Å, and the label of the axis: nN, or GPa, MPa, kPa.
     """
-    if run.curved or not run.edge:
+    if run.curved or run.has_free_edges or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
     area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
     largest = np.abs(force[np.isfinite(force)]).max(initial=0.0) / area

@@ -667,6 +667,11 @@ class Result(Values, Numbers):
         return self.number("scene.surface.sites", 0.0) * self.number("scene.surface.spacing", 0.0)
 
     @property
+    def has_free_edges(self) -> bool:
+        """True for a box without periodic images."""
+        return self.text("scene.surface.boundary") == "free"
+
+    @property
     def curved(self) -> bool:
         """True for a sphere."""
         return self.radius is not None
