@@ -86,7 +86,7 @@ double FlatInterface::energy(double u) const {
 }
 
 double FlatInterface::tilt_cost(double u, bool sliding) const {
-    // D/q², κ/q and φ_tt (python/asperity/theory/renormalised.py) at q -> 0, of V_uu, V_Ru and the
+    // D/q², κ/q and φ_tt (python/asperity/theories/renormalised.py) at q -> 0, of V_uu, V_Ru and the
     // lateral Laplacian of each ring.
     double tilt = 0, kappa = 0, sideways = 0;
     for (const auto& [R, density] : rings) {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Two flat surfaces of atoms at a separation u: the start of the renormalised theory
-// (python/asperity/theory/renormalised.py). A block site sees the substrate atoms in rings:
+// (python/asperity/theories/renormalised.py). A block site sees the substrate atoms in rings:
 // `density` atoms per area of the interface at the lateral distance R. With V(r) the pair energy,
 // r² = R² + u², the energy per area is
 //     φ(u) = Σ_R density V(r).

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Johnson, Kendall and Roberts' adhesive sphere (its whole curve:
-// python/asperity/theory/sphere.py).
+// python/asperity/theories/sphere.py).
 #pragma once
 
 namespace asperity::theory::jkr {

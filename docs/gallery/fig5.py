@@ -27,7 +27,7 @@ K = 4 * E / 3
 
 
 def binding_energy(w, stress):
-    """Work to part a Maugis-Dugdale sphere from zero load. In contact along Maugis' curve (python/asperity/theory/sphere.py); before it the
+    """Work to part a Maugis-Dugdale sphere from zero load. In contact along Maugis' curve (python/asperity/theories/sphere.py); before it the
     attraction acts on a disc of the radius c, whose edge is at the opening w/stress (no images)."""
     reach, softening = w / stress, 2 * stress / E * (1 - 2 / math.pi)
     c = np.linspace(0, R * (-softening + math.sqrt(softening**2 + 2 * reach / R)), 4001)

@@ -14,7 +14,7 @@ import numpy as np
 
 import asperity
 from asperity.plots.style import BLUE, GREY, PINK, RED, style
-from asperity.theory import theories
+from asperity.theories import combined
 from asperity.units import NANONEWTON
 
 directory, picture, table = sys.argv[1:4]
@@ -31,7 +31,7 @@ with style():
                           label=name if number == 0 else None)
             felt = abs(force) > 0.01 * -force.min()
             lowest, left, right = min(lowest, force.min()), min(left, height[felt].min()), max(right, height[felt].max())
-            for label, x, y in theories.sphere_curves(run, force.max()):
+            for label, x, y in combined.sphere_curves(run, force.max()):
                 if "renormalised" in label:
                     axis.plot(x, y / NANONEWTON, "--", color=PINK, lw=1.1, zorder=1,
                               label="the same, renormalised law" if number == 0 else None)

@@ -386,9 +386,12 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                         "feel the rigid top plane",
                         scene.block.thickness, surface.sites));
     if (c.has(Segment::relax) && scene.drive.load != 0.0)
-        list.push_back(fmt::format("the relaxed state carries drive.load = {:.6g} MPa; its "
-                                   "binding energy leaves out the load's potential",
-                                   scene.drive.load));
+        list.push_back(fmt::format(
+            "the relaxed state carries drive.load = {}; its binding energy leaves out the load's "
+            "potential",
+            c.in_newtons() ? fmt::format("{:.6g} nN", scene.drive.load * units::megapascal *
+                                                          c.area() / units::nanonewton)
+                           : fmt::format("{:.6g} MPa", scene.drive.load)));
     double load = std::abs(scene.drive.load); // MPa
     for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)

@@ -216,9 +216,13 @@ private:
     double longest_step() const;
     double smallest_step() const;
     /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
-    /// (setup/scales.cpp), or of a site's part of this force, if that is larger.
+    /// (case/scales.cpp), or of a site's part of this force, if that is larger. Where nothing
+    /// attracts the sites in contact bear it.
     double tolerance_under(double force) const {
-        return options_.tolerance * std::max(1.0, force / (box_sites_ * options_.scales.force));
+        const double count = options_.reversible()
+                                 ? std::max(1.0, static_cast<double>(record_.in_contact))
+                                 : box_sites_;
+        return options_.tolerance * std::max(1.0, force / (count * options_.scales.force));
     }
     double tolerance_at(double force) const;
     double tolerance_to(double at) const;

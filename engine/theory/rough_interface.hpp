@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // The interface of a scene in the terms of theory/, and all numbers of a scene that the
-// renormalised theory (python/asperity/theory/renormalised.py) needs.
+// renormalised theory (python/asperity/theories/renormalised.py) needs.
 #pragma once
 
 #include "engine/case/case.hpp"

@@ -11,6 +11,7 @@
     sweep = asperity.sweep("scene.toml", {"surface.rms": [0.5, 1, 2]}, jobs=2)
     sweep.table["binding_energy"]                       # numpy array, a value a point
     asperity.estimate("scene.toml").quote()             # "γ_eff = 1170 ± 14 mJ/m² ...": with its error and the causes
+    asperity.theory("scene.toml"), .check, .plan, .surface, .cost  # as the commands
     sim = asperity.Simulation("scene.toml")             # the engine in a loop of your own (docs/howto/python-engine.md)
     sim.step(500); sim.force; sim.u.z                   # eV/Å; a view of the displacements, Å
 
@@ -20,7 +21,7 @@ them. Errors of the program are the exceptions SceneError, PhysicsError, InputOu
 
 from typing import TYPE_CHECKING
 
-from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped
+from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName
 
 if TYPE_CHECKING:
     from .forms import (
@@ -36,16 +37,27 @@ if TYPE_CHECKING:
         run as run,
         sweep as sweep,
     )
+    from .functions import (
+        check as check,
+        convert as convert,
+        cost as cost,
+        defaults as defaults,
+        export as export,
+        plan as plan,
+        surface as surface,
+        theory as theory,
+    )
     from .running.engine import Simulation as Simulation, State as State, Statics as Statics
     from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
                           "load_sweep", "run", "sweep"), ".forms"),
+         **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
-_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots")}
+_MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
-__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped",
-           *(name for name, module in _LAZY.items() if module == ".forms")]
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName",
+           *(name for name, module in _LAZY.items() if module in (".forms", ".functions"))]
 
 
 def __getattr__(name: str):

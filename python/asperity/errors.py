@@ -11,9 +11,10 @@ Each error has the exit code of the command that it ends, as in the program, and
 
 from __future__ import annotations
 
+import difflib
 import sys
 import sysconfig
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Self
 
@@ -92,6 +93,40 @@ class SceneError(Error):
     """Error in the scene, in the command line or in an input that the scene names (exit 2)."""
 
     code = 2
+
+
+class UnknownName(SceneError, AttributeError, KeyError):
+    """Error of a name that does not exist: of a number, map, state, column or plot. It is an AttributeError and a KeyError too, as
+    Python expects of attributes and mappings."""
+
+    __str__ = Exception.__str__  # that of KeyError would put it in quotation marks
+
+    @classmethod
+    def among(cls, where: str, name: object, names: Iterable[str], why: str = "", what: str = "") -> Self:
+        """Returns the error of a name that is none of some.
+
+        Parameters
+        ----------
+        where : str
+            Thing that was asked.
+        name : object
+            Name that it does not have.
+        names : Iterable[str]
+            Names that it has.
+        why : str
+            Reason if there are no names.
+        what : str
+            Kind of the name: "state".
+
+        Returns
+        -------
+        UnknownName
+            The error, to be raised.
+        """
+        there = list(names)
+        near = difflib.get_close_matches(str(name), there, 1)
+        fix = f"did you mean {near[0]}?" if near else "take one of these" * bool(there)
+        return cls(where, f"has no {what} {name!r}".replace("  ", " "), ("it has " + ", ".join(there)) if there else why, fix)
 
 
 class SceneWarning(UserWarning):

@@ -8,6 +8,8 @@ matplotlib and jinja2 are imported with the first of them.
 
 from __future__ import annotations
 
+import html
+from collections.abc import Iterable
 from pathlib import Path
 
 from .commands.adhesion import Adhesion, adhesion
@@ -15,6 +17,7 @@ from .results.result import Result, load
 from .running.runs import run
 from .studies.estimates import Estimate, estimate, load_estimate
 from .studies.sweeps import Sweep, load_sweep, sweep
+from .studies.tables import text_of
 
 __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
@@ -109,6 +112,37 @@ def _quote(self: Estimate, path: str = "") -> str:
     return quote(self.number(path))
 
 
+def _html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], below: str = "") -> str:
+    """Returns a small table for a notebook."""
+    def cells(tag: str, row: Iterable[str]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
+
+    heads = list(heads)
+    return (f"<p><b>{html.escape(title)}</b></p><table>" + (cells("th", heads) if heads else "") + "".join(cells("td", row) for row in rows)
+            + "</table>" + (f"<p>{html.escape(below)}</p>" if below else ""))
+
+
+def _html_of_run(self: Result) -> str:
+    from .reports.sentences import key_numbers
+
+    return _html_table(self.title, (), [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in key_numbers(self)],
+                       self.failure_text or ("stopped early: " + self.stopped if self.stopped else ""))
+
+
+def _html_of_sweep(self: Sweep) -> str:
+    heads, rows, meaning = text_of(self.table)
+    return _html_table(self.name, heads, rows, meaning)
+
+
+def _html_of_estimate(self: Estimate) -> str:
+    return _html_table(self.name, (), [[_quote(self, path)] for path in self.numbers],
+                       f"not measured: {'; '.join(self.unseen)}" if self.unseen else "")
+
+
+def _html_of_adhesion(self: Adhesion) -> str:
+    return _html_of_estimate(self.estimate)
+
+
 def _text_of_estimate(self: Estimate) -> str:
     from .reports.estimate import text_of
 
@@ -131,6 +165,8 @@ def _report_of_estimate(self: Estimate) -> Path:
 
 
 for kind, name, form in ((Estimate, "plot", _plot_of_estimate), (Estimate, "quote", _quote), (Estimate, "report", _report_of_estimate),
-                         (Estimate, "__str__", _text_of_estimate), (Result, "plot", property(_plot_of_run)),
+                         (Estimate, "__str__", _text_of_estimate), (Estimate, "_repr_html_", _html_of_estimate),
+                         (Adhesion, "_repr_html_", _html_of_adhesion), (Result, "_repr_html_", _html_of_run),
+                         (Sweep, "_repr_html_", _html_of_sweep), (Result, "plot", property(_plot_of_run)),
                          (Result, "report", _report_of_run), (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep)):
     setattr(kind, name, form)

@@ -23,7 +23,7 @@ sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scenes/validation")]
 import rings  # noqa: E402
 
 import asperity  # noqa: E402
-from asperity.theory import theories  # noqa: E402
+from asperity.theories import combined  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
@@ -105,7 +105,7 @@ def sphere(runs: Runs) -> list[dict]:
             largest = -rings.pulled(around, shape, law, deepest - 0.03 * reach, 0.002 * reach, deepest + 0.03 * reach)[1].min()
         out = (r["segment"] == r["segment"].max()) & (r["mean_height"] < height[np.abs(force) > 1e-3 * -force.min()].max())
         off = np.interp(r["mean_height"][out], height, force) - r["force"][out]
-        theory = theories.of_run(r["result"])["theory"]["sphere"]
+        theory = combined.of_run(r["result"])["theory"]["sphere"]
         rows.append({"energy": energy, "range": reach, "sites": sites, "lambda": theory["maugis_parameter"],
                      "program": -r["force"].min() / unit, "rings": largest / unit,
                      "maugis": 0.75 * theory["maugis_images"] / energy, "along": math.sqrt(np.mean(off**2)) / -force.min(),

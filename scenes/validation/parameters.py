@@ -26,7 +26,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity.theory import theories  # noqa: E402
+from asperity.theories import combined  # noqa: E402
 
 
 def drawn(hurst, epsilon, young, poisson, rolloff, r0, rms):
@@ -85,7 +85,7 @@ def state(name: str, keys: dict, interface: str, rms: float, seed: int, place: p
                 "surface.rms": rms, "surface.seed": seed}
     result = asperity.run(SCENE, settings, where)
     flat, theory = result["delta_gamma"], result["theory"]["persson"]
-    found = theories.of_run(result).part("theory.renormalised")
+    found = combined.of_run(result).part("theory.renormalised")
     renormalised = {key: found.get(key, math.nan) for key in (
         "gamma_eff_ratio", "gamma_eff_error", "gamma_eff_expected_error", "contact_fraction", "contact_fraction_expected_error")}
     return {"set": name, "interface": interface, "rms": rms, "seed": seed, "rms_slope": result["surface"]["rms_slope"],
@@ -116,7 +116,7 @@ def scenes_drawn(number: int, from_seed: int):
             seed, fraction = chance.randint(1, 10**6), chance.uniform(0.2, 1.3)
 
             def theory(rms: float, *more: str) -> dict:
-                return theories.points(str(SCENE), [[f"{k}={v}" for k, v in keys.items()] + [
+                return combined.points(str(SCENE), [[f"{k}={v}" for k, v in keys.items()] + [
                     f"surface.rms={rms}", f"surface.seed={seed}", *more]])[0]
             one = theory(1, "theory.area_factor=none")
             cost = 1 - one["theory"]["persson"]["gamma_full_contact"] / one["delta_gamma"]

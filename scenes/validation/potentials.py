@@ -17,7 +17,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity.theory import theories  # noqa: E402
+from asperity.theories import combined  # noqa: E402
 
 EPSILON, R0 = 0.1, 3.28
 R_M = 2 ** (1 / 6) * R0
@@ -54,7 +54,7 @@ def main() -> None:
         r = asperity.run({}, {"surface.sites": given.sites, "block.thickness": given.sites, "surface.rms": given.rms,
                               "drive.mode": "quasistatic", **keys},
                          out=given.out / name.replace(" ", "").replace("/", "over"))
-        theories.complete(r)
+        combined.complete(r)
         n = r.number
         print(f"{name:20s} {n('delta_gamma'):8.4f} {n('theory.renormalised.tension'):8.3f}   | "
               f"{n('binding_energy'):9.5f} {n('contact_fraction'):6.4f} | {-n('work_of_drive.approach'):9.4f} "

@@ -22,7 +22,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import asperity  # noqa: E402
-from asperity.theory import theories  # noqa: E402
+from asperity.theories import combined  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
 E = 77.2 * GPA / (1 - 0.42**2)
@@ -136,7 +136,7 @@ def load(runs: Runs) -> None:
         print(f"{pressure:7}" + "".join(f"{x:13.4f}" for x in found) + f"{exact:10.4f}{found[-1] - exact:10.4f}")
 
 
-# Sums over a square lattice (python/asperity/theory/sphere.py): the images' displacement near the contact.
+# Sums over a square lattice (python/asperity/theories/sphere.py): the images' displacement near the contact.
 PHI0, PHI2 = -3.9002649, 9.0336217
 
 
@@ -191,10 +191,10 @@ def jkr(runs: Runs) -> None:
         name = f"jkr-{sites}"
         r = runs.path(name, {"surface.kind": "flat", "surface.radius": 300, "surface.sites": sites, "surface.spacing": 332.8 / sites,
                              "interface.adhesion": 30, "interface.range": reach, "drive.tolerance": 1.2e-3 * reach})
-        sphere, unit = theories.of_run(r["run"])["theory"]["sphere"], 1.5 * math.pi * 0.03 * 300
+        sphere, unit = combined.of_run(r["run"])["theory"]["sphere"], 1.5 * math.pi * 0.03 * 300
         attached = (r["segment"] == r["segment"].max()) & (r["contact_fraction"] > 0.004)
         off = {}
-        for label, height, force in theories.sphere_curves(r["run"], r["force"].max()):
+        for label, height, force in combined.sphere_curves(r["run"], r["force"].max()):
             # From the deepest point outwards to where the theory's branch ends at a held height.
             if height[0] > height[-1]:
                 height, force = height[::-1], force[::-1]

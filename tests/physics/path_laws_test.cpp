@@ -124,3 +124,35 @@ TEST(WorkInTime, WithATailIsThatFromOutOfReach) {
     EXPECT_NEAR(run("work_of_interface.approach"), flat, 5e-4 * flat);
     EXPECT_NEAR(run("work_of_interface.pull_off"), -flat, 5e-4 * flat);
 }
+
+TEST(PathOverLoads, MeetsThemWithTheContactsOfAnExactPath) {
+    // Loads of four decades over a wall that only repels. The tolerance is a fraction of what a
+    // site in contact bears: pressures are met to 1e-3, as asked, and one site at most differs from
+    // a path relaxed a thousand times further, which takes many more iterations.
+    for (const int seed : {1, 2, 3}) {
+        const auto run = [&](const char* tolerance) {
+            return test::Written(
+                "[surface]\nsites = 32\nrms = 2\nq_max = 8\nseed = " + std::to_string(seed) +
+                "\n[block]\nyoung = 10\n[interface]\nkind = \"wall\"\nadhesion = 0\n"
+                "[drive]\nmode = \"quasistatic\"\n"
+                "path = [\"load 0.02\", \"load 0.2\", \"load 2\", \"load 20\", \"load 200\"]\n"
+                "tolerance = " +
+                tolerance);
+        };
+        const test::Written usual = run("2.5e-4"), exact = run("2.5e-7");
+        double load = 0.02;
+        for (std::size_t i = 0; i < 5; ++i, load *= 10.0) {
+            const auto segment = [&](const test::Written& of, const char* what) {
+                return of.json.at("segments").at(i).at(what).get<double>();
+            };
+            EXPECT_NEAR(segment(usual, "pressure"), load, 1e-3 * load);
+            EXPECT_NEAR(segment(usual, "contact_fraction"), segment(exact, "contact_fraction"),
+                        1.01 / 1024)
+                << load << " MPa, seed " << seed;
+            // The work follows the load that was met: twice as far off, relatively, as it.
+            const double work = segment(exact, "work_of_drive");
+            EXPECT_NEAR(segment(usual, "work_of_drive"), work, 4e-3 * work);
+        }
+        EXPECT_LT(usual("run.iterations"), 0.6 * exact("run.iterations"));
+    }
+}

@@ -18,6 +18,8 @@ LINES = [line for page in PAGES for line in re.findall(r"^    ((?:mpirun .*)?\./
 SMALL = " --set surface.sites=32 block.thickness=32 --progress off"
 SHORT = " --set drive.max_steps=30"
 FEW = " --set surface.rms=1,3"  # in place of all points of a figure
+WHOLE = ("sweep scenes/paper/small/fig2-equilibrium.toml --jobs 2", "report results/first-contact")
+"""Sweep and report with all theories and pictures, which take most of the time of the others and are left out there."""
 
 
 @pytest.fixture(scope="module")
@@ -34,13 +36,15 @@ def test_there_are_commands():
 
 
 @pytest.mark.parametrize("line", LINES)
-def test_commands(work, line):
+def test_commands(work, line, request):
     given = re.search(r"# exit (\d+)", line)
     wanted = int(given[1]) if given else 0
     # Devices are refused where the kernels do not fuse multiplications and additions.
     if "numerics.device=" in line and re.search(r"kernels for (portable|v2)\b", command("info")):
         wanted = 2
     words = line.partition("#")[0]
+    if re.search(" (sweep|report) ", words) and not words.strip().endswith(WHOLE):
+        request.getfixturevalue("light")
     if " run scenes/atoms/" in words:  # as wide as its atoms
         words += SHORT + " --progress off"
     elif " adhesion " in words:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """A module of the package imports only what stands before it here, inside functions too: no circles, between subpackages or
-within one."""
+within one. Imports that only type checkers see (if TYPE_CHECKING) do not count: nothing runs them."""
 
 import ast
 import re
@@ -16,13 +16,13 @@ SUBPACKAGES = {
     "results": ("result",),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
-    "theory": ("renormalised", "sphere", "theories"),
+    "theories": ("renormalised", "sphere", "combined"),
     "studies": ("grid", "tables", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
                 "estimates", "map_scene", "states"),
     "plots": ("style", "run", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "sweep", "export"),
     "commands": ("studies", "theory", "adhesion"),
-    "forms": (), "crack": (), "__init__": (), "__main__": (),
+    "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()
          for name in ([f"{package}.{module}" for module in ("__init__", *modules)] if modules else [package])]
@@ -31,8 +31,11 @@ PLACE = {name: place for place, name in enumerate(ORDER)}
 
 def imported(text: str, name: str):
     """Modules of the package that the text of a module imports."""
-    for node in ast.walk(ast.parse(text)):
-        if isinstance(node, ast.ImportFrom) and node.level:
+    tree = ast.parse(text)
+    unseen = {id(node) for branch in ast.walk(tree) if isinstance(branch, ast.If) and ast.unparse(branch.test) == "TYPE_CHECKING"
+              for child in branch.body for node in ast.walk(child)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and node.level and id(node) not in unseen:
             above = name.split(".")[:-1][:2 - node.level] if node.level <= 2 else None
             assert above is not None, f"{name} imports from outside of the package"
             module = ".".join(above + (node.module.split(".") if node.module else []))

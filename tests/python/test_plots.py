@@ -15,7 +15,7 @@ import asperity
 from asperity import units
 from asperity.files import store
 from asperity.plots import run as run_plots, style
-from asperity.theory import theories
+from asperity.theories import combined
 from conftest import SMALL
 
 
@@ -66,7 +66,7 @@ def test_each_theory_is_over_its_own_reference(state_run):
                        out=state_run.directory.with_name("given"))
     curves = {c.label: c for c in style.drawn(run.plot.roughness(axes())).curves}
     for label, ratio in (("Persson’s theory", run.theory.persson.gamma_eff / 130),
-                         ("renormalised theory", theories.of_run(run).number("theory.renormalised.gamma_eff_ratio"))):
+                         ("renormalised theory", combined.of_run(run).number("theory.renormalised.gamma_eff_ratio"))):
         curve = curves[label + " under a load of 100 MPa"]
         assert np.interp(run.surface.rms, curve.x, curve.y) == pytest.approx(ratio, abs=2e-3)
     assert curves["binding energy under a load of 100 MPa"].y == pytest.approx(run.binding_energy / run.delta_gamma)
@@ -90,7 +90,7 @@ def test_maps_are_seen_from_above(path_run):
 def test_what_is_not_there_is_a_message(state_run):
     with pytest.raises(asperity.InputOutputError, match="separation"):
         state_run.plot.separation(axes())
-    with pytest.raises(asperity.InputOutputError, match="states: relaxed"):
+    with pytest.raises(asperity.UnknownName, match="has no state 'pull-off'\n.*it has relaxed"):
         state_run.plot.map("gap", axes(), state="pull-off")
     with pytest.raises(AttributeError, match="separation"):
         state_run.plot.sepration

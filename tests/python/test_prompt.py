@@ -74,7 +74,7 @@ def test_numbers_may_have_units():
 
 
 def test_a_wrong_column_of_a_simulation_is_answered_with_those_that_there_are():
-    with pytest.raises(KeyError, match="no x in series; there are step, time, .*force"):
+    with pytest.raises(KeyError, match="series: has no 'x'\n.*it has step, time, .*force"):
         asperity.Simulation(TINY).series["x"]
 
 
@@ -130,7 +130,7 @@ def test_what_a_script_wrote_can_be_plotted(tmp_path):
         steps, at, of = numpy.intersect1d(run.series["step"], result.series["step"], return_indices=True)
         assert len(steps) > 40 and numpy.array_equal(run.series[name][at], result.series[name][of]), name
     assert result.report().exists()
-    with pytest.raises(asperity.InputOutputError, match="states: now"):
+    with pytest.raises(asperity.UnknownName, match="has no state 'relaxed'\\n.*it has now"):
         result.plot.map("gap", axes(), state="relaxed")
 
 
@@ -223,7 +223,7 @@ def test_run_says_how_far_it_is(tmp_path, capfd):
 def test_a_wrong_name_is_told_what_there_is(path_run, results):
     for error, call, says in (
             (KeyError, lambda: path_run["gama"], "binding_energy"), (KeyError, lambda: path_run.series["time_"], "force"),
-            (asperity.InputOutputError, lambda: path_run.plot.map("gapp"), "maps: .*gap"),
+            (KeyError, lambda: path_run.plot.map("gapp"), "has no map 'gapp'\n.*it has .*\n.*did you mean gap?"),
             (asperity.InputOutputError, lambda: asperity.load_sweep(path_run.directory), "asperity.load"),
             (asperity.InputOutputError, lambda: asperity.load_sweep("none"), "no such directory"),
             (asperity.SceneError, lambda: asperity.run({"block": {"poisson": 0.6}}), "block.poisson = 0.6 is")):
@@ -232,5 +232,17 @@ def test_a_wrong_name_is_told_what_there_is(path_run, results):
     sweep = asperity.sweep(STATIC, {"surface.rms": [0.1, 0.2], "drive.path": "relax"}, out=results / "wrong-names")
     with pytest.raises(KeyError, match="binding_energy"):
         sweep.table["gama"]
+    # One kind of error, whatever it is a name of.
+    found = asperity.estimate(STATIC, {"surface.rms": 0.1, "drive.path": "relax"}, parts="tail", out=results / "wrong-estimate")
+    for call in (lambda: path_run.binding_enregy, lambda: path_run["gama"], lambda: path_run.work_of_drive.aproach,
+                 lambda: path_run.series["time_"], lambda: path_run.fields["relaxt"], lambda: path_run.fields["relaxed"].gapp,
+                 lambda: path_run.plot.sepration, lambda: path_run.plot.map("gapp"), lambda: path_run.plot.map("gap", state="relaxt"),
+                 lambda: path_run.needed("scene.surface.rsm"), lambda: sweep.table["binding_enregy"], lambda: sweep.plot("gama"),
+                 lambda: found.number("gamma")):
+        with pytest.raises(asperity.UnknownName) as error:
+            call()
+        assert isinstance(error.value, asperity.SceneError) and "why: it has " in str(error.value) and "fix: " in str(error.value)
+    assert not hasattr(path_run, "gama") and path_run.get("gama", 3) == 3 and "did you mean binding_energy?" in str(
+        pytest.raises(AttributeError, getattr, path_run, "binding_enregy").value)
     with pytest.raises(asperity.InputOutputError, match="holds a sweep"):
         asperity.load(results / "wrong-names")

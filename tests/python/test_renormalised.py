@@ -11,8 +11,8 @@ import pytest
 from scipy.special import ndtr
 
 from asperity.running import program
-from asperity.theory import renormalised as theory, theories
-from asperity.theory.sphere import RATIOS, Sphere, jkr, maugis
+from asperity.theories import combined, renormalised as theory
+from asperity.theories.sphere import RATIOS, Sphere, jkr, maugis
 from asperity.units import GIGAPASCAL
 from conftest import ROOT
 
@@ -102,12 +102,12 @@ def test_a_smooth_surface_is_the_flat_one():
     ("surface.rms=1 interface.kind=wall", "exponential wall"),
     ("surface.rms=1 drive.load=1e9", "press less")])
 def test_no_number_without_a_reason(given, says):
-    found = theories.renormalised(rough_of(*SMALL, *given.split()))
+    found = combined.renormalised(rough_of(*SMALL, *given.split()))
     assert "gamma_eff" not in found and says in found["note"]
 
 
 def test_steep_roughness_is_said():
-    found = theories.renormalised(rough_of(*SMALL, "surface.rms=4"))
+    found = combined.renormalised(rough_of(*SMALL, "surface.rms=4"))
     assert "gamma_eff" in found and "calibrated up to an rms slope of 0.6" in found["note"]
 
 
@@ -175,7 +175,7 @@ def test_spheres_with_and_without_images():
 
 
 def test_a_curved_scene_has_its_sphere():
-    point, = theories.points(SCENE, [[*SMALL, "surface.rms=0.5", "surface.radius=200"]])
+    point, = combined.points(SCENE, [[*SMALL, "surface.rms=0.5", "surface.radius=200"]])
     flat, found = point["delta_gamma"], point["theory"]["sphere"]
     assert flat < found["jkr_images"] < 1.1 * flat and found["maugis_images"] > found["jkr_images"]
     assert found["renormalised"] < found["maugis_images"] and found["renormalised_parameter"] < found["maugis_parameter"]

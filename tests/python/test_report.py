@@ -15,7 +15,7 @@ import pytest
 import asperity
 from asperity.reports import sentences
 from asperity.reports.sweep import key_numbers, write_page
-from asperity.theory import theories
+from asperity.theories import combined
 from conftest import ROOT, SMALL, STATE, command, unsealed
 
 
@@ -133,7 +133,7 @@ def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     assert sentences.state_in_words(run, f"segment-{len(path) - 1}") == f"at the end of segment {len(path)}, “{path[-1]}”"
 
 
-def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path):
+def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path, light):
     run = stored(tmp_path, ["approach", "pull-off"], 0.0)
     numbers = {n.name: n for n in sentences.key_numbers(run)}
     assert numbers["Persson’s theory"].value == "0.500" and numbers["renormalised theory"].value == "0.750"
@@ -177,11 +177,11 @@ def test_a_sphere_has_its_own_numbers_and_curves(sphere_run):
     for name in ("JKR", "JKR with images", "Maugis-Dugdale with images"):
         assert f"theory: smooth sphere, {name}" in labels
     # The curve goes as deep as JKR's pull-off force, 3πγR/2.
-    _, _, force = theories.sphere_curves(sphere_run, 1.0)[0]
+    _, _, force = combined.sphere_curves(sphere_run, 1.0)[0]
     assert force.min() == pytest.approx(-1.5 * np.pi * sphere_run.delta_gamma * 1e-3 * 100, rel=1e-3)
 
 
-def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path):
+def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path, light):
     with pytest.raises(asperity.PhysicsError):
         asperity.run(SMALL, {"drive.timestep": 70, "drive.velocity": 200, "drive.load": 20000}, out=tmp_path / "failed")
     found = page(tmp_path / "failed")
@@ -192,7 +192,7 @@ def test_runs_that_failed_or_stopped_say_so_at_the_top(tmp_path):
     assert "stopped early" in found.text and "max_steps" in found.text and "Not simulated" in found.text
 
 
-def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path):
+def test_what_is_missing_or_damaged_is_left_out_and_told(path_run, tmp_path, light):
     bare, damaged, shaped = (tmp_path / n for n in ("a <b> & c", "damaged", "shaped"))
     for copy in (bare, damaged, shaped):
         shutil.copytree(path_run.directory, copy, ignore=shutil.ignore_patterns("report*", "export"))
@@ -239,7 +239,7 @@ def test_hostile_results_give_a_page_or_a_message(tmp_path, text):
         assert "How to cite" in page(tmp_path).text
 
 
-def test_contact_is_what_the_interface_counts(state_run, tmp_path):
+def test_contact_is_what_the_interface_counts(state_run, tmp_path, light):
     assert "nearer to an atom of the substrate than the inflection" in page(state_run.directory).text
     for law, text in (("smeared", "nearer to the wall than the inflection"), ("exponential", "that touch the wall")):
         run = asperity.run(STATE, {"surface.rms": 0.5, "interface.kind": "wall", "interface.law": law,
@@ -248,7 +248,7 @@ def test_contact_is_what_the_interface_counts(state_run, tmp_path):
         assert text in found and "to an atom of the substrate" not in found
 
 
-def test_theory_and_states(state_run, tmp_path):
+def test_theory_and_states(state_run, tmp_path, light):
     found = page(state_run.directory)
     assert "Gap" in found.text and "dynamic: a state of force balance" in found.text
     scene = tmp_path / "s.toml"
@@ -258,7 +258,7 @@ def test_theory_and_states(state_run, tmp_path):
     assert "nothing was simulated" in found.text and "Persson’s theory" in found.text
 
 
-def test_a_measured_surface_says_whose_it_is(tmp_path):
+def test_a_measured_surface_says_whose_it_is(tmp_path, light):
     measured = ROOT / "scenes/measured"
     for name in ("uncd.toml", "uncd_afm_100nm_512.h5"):
         shutil.copy(measured / name, tmp_path)
@@ -297,7 +297,7 @@ def test_the_page_of_a_sweep(tmp_path):
     assert "This sweep is not finished" in found.text
 
 
-def test_the_page_of_a_sweep_of_paths(tmp_path):
+def test_the_page_of_a_sweep_of_paths(tmp_path, light):
     sweep = asperity.sweep(SMALL, {"surface.rms": [0.3, 0.6]}, out=tmp_path / "paths", jobs=2)
     page(sweep.directory)
     columns = np.genfromtxt(sweep.directory / "report/curves.csv", delimiter=",", names=True)
@@ -326,13 +326,13 @@ def test_where_a_sweep_over_roughness_has_half(curved, says):
     assert [(n.name, n.value, n.note) for n in found] == [("rms where " + a, b, c) for a, b, c in says]
 
 
-def test_the_page_of_a_sweep_of_the_theory(tmp_path):
+def test_the_page_of_a_sweep_of_the_theory(tmp_path, light):
     scene = tmp_path / "small.toml"
     scene.write_text("[surface]\nsites = 32\n")
-    command("sweep", scene, "--theory-only", "--set", "surface.rms=0.2:1:0.2", "drive.load=0,100", "--out",
+    command("sweep", scene, "--theory-only", "--set", "surface.rms=0.2:1:0.4", "drive.load=0,100", "--out",
             tmp_path / "sweep")
     found = page(tmp_path / "sweep")
-    for text in ("10 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "if the whole area were in contact"):
+    for text in ("6 points over surface.rms (0.2 to 1), drive.load (0 to 100)", "All points", "if the whole area were in contact"):
         assert text in found.text, text
     labels = [label for d in found.data for label, _ in d["curves"]]
     assert "Persson’s theory, load = 100 MPa" in labels
@@ -353,4 +353,4 @@ def test_what_is_no_result_is_a_message(tmp_path):
 
 def test_under_mpirun_one_rank_speaks(state_run):
     assert command("report", state_run.directory, ranks=2, expect=2).count("not one of several ranks") == 1
-    command("report", state_run.directory, ranks=1)
+    command("export", state_run.directory, "--to", "xyz", ranks=1)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Running scenes and reading results: values, arrays, units, errors, damaged files."""
 
+import ast
 import json
 import os
 import re
@@ -17,7 +18,7 @@ import pytest
 import asperity
 from asperity.results.result import finite
 from asperity.running import program, scene
-from conftest import SMALL, STATE, command, unsealed
+from conftest import ROOT, SMALL, STATE, command, unsealed
 
 
 def test_a_result_is_what_the_files_hold(path_run):
@@ -42,9 +43,78 @@ def test_a_result_is_what_the_files_hold(path_run):
 
 
 def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
-    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=dict))  # what a frame is made from
+    class Frame(dict):  # what a frame is made from
+        def __init__(self, columns):
+            super().__init__(columns)
+            self.attrs = {}
+
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=Frame))
     frame = path_run.series.frame()
     assert set(frame) == set(path_run.series) and (frame["force"] == path_run.series["force"]).all()
+    units = frame.attrs["units"]
+    assert set(units) == set(frame) and units["force"] == "eV/Å" and units["time"] == "ps" and units["step"] == "1"
+
+
+def names_of_stub():
+    """Classes of the stub of results: the annotations of each."""
+    tree = ast.parse((ROOT / "python/asperity/results/names.pyi").read_text(encoding="utf-8"))
+    return {node.name: {line.target.id: ast.unparse(line.annotation) for line in node.body if isinstance(line, ast.AnnAssign)}
+            for node in tree.body if isinstance(node, ast.ClassDef)}
+
+
+def untyped(value, kind, classes, path):
+    """Paths of values that the stub does not have, or with another type."""
+    many = re.fullmatch(r"(list|dict)\[(?:str, )?(\w+)\]", kind)
+    if many:
+        members = value if many[1] == "list" else list(value.values())
+        assert isinstance(value, list if many[1] == "list" else dict), path
+        return [found for i, member in enumerate(members) for found in untyped(member, many[2], classes, f"{path}[{i}]")]
+    if kind in classes:
+        return [found for name, member in value.items()
+                for found in (untyped(member, classes[kind][name], classes, f"{path}.{name}") if name in classes[kind] else [f"{path}.{name}"])]
+    right = {"float": (int, float), "int": (int,), "str": (str,), "bool": (bool,), "Any": (object,)}[kind]
+    return [] if isinstance(value, right) and (kind in ("bool", "Any") or not isinstance(value, bool)) else [f"{path}: {value!r} is no {kind}"]
+
+
+def test_the_stub_has_the_names_and_types_of_results(path_run, state_run, sphere_run, results):
+    still = asperity.run(STATE, {"drive.path": ["approach", "slide x 3 Å", "pull-off"], "drive.mode": "quasistatic", "surface.rms": 0.5,
+                                 "block.thickness": 24}, out=results / "still")
+    classes = names_of_stub()
+    classes["Numbers"] |= {"segments": "list[Segment]", "scene": "Scene"}  # of Result
+    for run in (path_run, state_run, sphere_run, still):
+        found = untyped({name: value for name, value in run.items() if name != "units"}, "Numbers", classes, "")
+        assert not found, found
+        assert set(run.series) <= set(classes["SeriesArrays"]) and set(run.substrate) <= set(classes["SubstrateMaps"])
+        for state in run.fields.values():
+            assert set(state) <= set(classes["StateMaps"])
+    assert still.segments and still.dissipated.jumps is not None
+    # A value that the stub does not have, and one of another type, are seen.
+    assert untyped({"binding_energy": 1.0, "gama": 1.0, "name": 3}, "Numbers", classes, "") == [".gama", ".name: 3 is no str"]
+
+
+MISTAKEN = """
+import asperity
+r = asperity.load("results/first-contact")
+good: float = r.binding_energy + r.work_of_drive.pull_off + r.segments[0].lost + r.theory.persson.gamma_eff
+r.fields["relaxed"].pressure.max(), r.series.force.min(), r.plot.separation(), r.report(), r.scene.surface.rms, r.units.binding_energy
+r.binding_enregy
+r.work_of_drive.aproach
+r.fields["relaxed"].presure
+r.series.forse
+r.plot.sepration()
+r.scene.surface.rsm
+r.segments[0].lots
+asperity.estimate("s.toml").quot()
+asperity.sweep("s.toml").tabel
+"""
+
+
+def test_a_wrong_name_is_found_by_a_type_checker(tmp_path):
+    api = pytest.importorskip("mypy.api", reason="no mypy: pip install mypy")
+    (tmp_path / "script.py").write_text(MISTAKEN)
+    said = api.run([str(tmp_path / "script.py"), "--config-file", str(ROOT / "pyproject.toml"), "--cache-dir", str(tmp_path / "cache")])[0]
+    lines = [int(n) for n in re.findall(r"script\.py:(\d+): error: .* has no attribute", said)]
+    assert lines == list(range(6, 15)) and said.count("error") == 10, said  # and the line that counts them
 
 
 def test_numbers_are_found_by_their_paths(path_run):
@@ -113,7 +183,7 @@ def test_a_run_file_that_another_program_writes_to_says_so(state_run, tmp_path, 
             file.close()
         result = asperity.load(tmp_path / "copy")
         for missing in (lambda: result.fields["relaxed"], lambda: result.series["force"]):
-            with pytest.raises(KeyError, match="run.h5 cannot be read to its end"):
+            with pytest.raises(asperity.UnknownName, match="run.h5 cannot be read to its end"):
                 missing()
 
 

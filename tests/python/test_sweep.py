@@ -56,7 +56,7 @@ checkpoint = 0.2
 
 
 @pytest.fixture()
-def place(place):
+def place(place, light):
     (place / "state.toml").write_text(SCENE)
     (place / "path.toml").write_text(PATH)
     return place
@@ -523,24 +523,30 @@ AMONG_OTHERS = [{"OMPI_COMM_WORLD_SIZE": "2", "OMPI_COMM_WORLD_RANK": "0", "PMIX
 
 @pytest.mark.parametrize("env", ALONE)
 def test_one_process_of_a_launcher_is_one_process(place, env):
-    command("sweep", "state.toml", "--theory-only", "--set", "surface.rms=0.2,0.4", env=env)
+    command("theory", "state.toml", "--json", "--set", "surface.sites=16", env=env)  # a command of Python, and the program that it starts
     command("check", "-", given=SCENE, env=env, says="nothing wrong")
 
 
-@pytest.mark.parametrize("env", AMONG_OTHERS)
-@pytest.mark.parametrize("words", [["sweep", "state.toml"], ["sweep", "state.toml", "--theory-only"]])
-def test_a_sweep_is_not_one_of_several_ranks(place, env, words):
-    assert "not one of several ranks" in command(*words, expect=2, env=env)
-    other = {name: "1" if "RANK" in name or "PROCID" in name else value for name, value in env.items()}
-    assert command(*words, expect=2, env=other) == ""  # one of them says it
+def test_a_sweep_is_not_one_of_several_ranks(place):
+    def start(env):
+        return subprocess.Popen([os.environ["ASPERITY_PROGRAM"], *words], env={**os.environ, **env}, text=True,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+
+    for words in (["sweep", "state.toml"], ["sweep", "state.toml", "--theory-only"]):
+        others = [{name: "1" if "RANK" in name or "PROCID" in name else value for name, value in env.items()} for env in AMONG_OTHERS]
+        first, second = ([start(env) for env in all_of] for all_of in (AMONG_OTHERS, others))  # side by side: the others wait for the first
+        for one, other in zip(first, second):
+            assert "not one of several ranks" in one.communicate()[0] and one.returncode == 2
+            assert other.communicate()[0] == "" and other.returncode == 2  # one of them says it
     assert not (place / "results").exists()
-    with pytest.MonkeyPatch.context() as patch:
-        for name, value in env.items():
-            patch.setenv(name, value)
-        with pytest.raises(asperity.SceneError, match="not one of several ranks"):
-            asperity.sweep("path.toml", {"surface.rms": [1, 2]}, out="none")
-        with pytest.raises(asperity.SceneError, match="not one of several ranks"):
-            asperity.run("path.toml", out="none")
+    for env in AMONG_OTHERS:
+        with pytest.MonkeyPatch.context() as patch:
+            for name, value in env.items():
+                patch.setenv(name, value)
+            with pytest.raises(asperity.SceneError, match="not one of several ranks"):
+                asperity.sweep("path.toml", {"surface.rms": [1, 2]}, out="none")
+            with pytest.raises(asperity.SceneError, match="not one of several ranks"):
+                asperity.run("path.toml", out="none")
 
 
 def test_the_table_is_the_same_for_any_number_of_jobs_and_from_python(place, monkeypatch):
@@ -643,7 +649,8 @@ def test_the_theory_of_a_realised_spectrum_has_all_seeds(place):
     assert len(asperity.sweep(STATE, given, out="target", jobs=2).theory) == 31
 
 
-def test_several_scenes_share_their_plots(place):
+def test_several_scenes_share_their_plots(place, light):
+    light.undo()
     (place / "other.toml").write_text(SCENE.replace("0.2, 0.4", "0.3, 0.5"))
     command("sweep", "state.toml", "other.toml", "--out", "both", "--progress", "off", "--jobs", "2")
     assert {s.name for s in load_sweeps(Path("both"))} == {"state", "other"}

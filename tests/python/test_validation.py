@@ -11,6 +11,7 @@ from conftest import ROOT
 
 sys.path.insert(0, str(ROOT / "scenes/validation"))
 import adhesion
+import free_edges
 import jumps
 import rate
 import rings
@@ -40,6 +41,18 @@ def test_a_sphere_parts_like_the_rings(results):
     assert row["program"] == pytest.approx(row["rings"], abs=0.003)
     assert row["along"] < 0.005
     assert 0.75 < row["maugis"] < row["rings"] < 1
+
+
+def test_free_edges_have_no_images(results):
+    runs = free_edges.Runs(results / "free-edges", small=True)
+    hertz, = free_edges.hertz(runs)
+    assert hertz["depth/Hertz"] == pytest.approx(1, abs=0.001)
+    assert hertz["radius/Hertz"] == pytest.approx(1, abs=0.007)  # of its sites
+    punch, = free_edges.punch(runs)
+    assert punch["force/2aE*d"] == pytest.approx(1, abs=0.006)
+    jkr, = free_edges.jkr(runs)
+    assert jkr["at the apex/F0"] == pytest.approx(jkr["rings at the apex/F0"], rel=0.006)
+    assert jkr["largest/F0"] == pytest.approx(jkr["rings, largest/F0"], rel=0.003)
 
 
 def test_the_loss_in_time_falls_to_that_without_time(results):

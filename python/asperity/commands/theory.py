@@ -7,7 +7,7 @@ from __future__ import annotations
 import json
 import time
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import h5py
 
@@ -18,7 +18,7 @@ from ..results.result import Values
 from ..running import lock, program
 from ..running.scene import inputs_of
 from ..studies.stated_number import cut, with_error
-from ..theory import theories
+from ..theories import combined
 
 STATUS = {
     "adhesive": "the surfaces adhere without load",
@@ -111,6 +111,46 @@ def _text(point: Values) -> str:
     return "\n".join(lines)
 
 
+class Computed(NamedTuple):
+    """Theories of a scene: what result.json holds, the columns over magnification, notes, and the printed text."""
+
+    values: Values
+    profile: list[dict[str, Any]]
+    notes: list[str]
+    text: str
+
+
+def computed(file: str, overrides: list[str]) -> Computed:
+    """Computes the theories of a scene.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    overrides : list[str]
+        Overrides.
+
+    Returns
+    -------
+    Computed
+        Numbers in the units of result.json, and their text.
+    """
+    start = time.monotonic()
+    point = combined.points(file, [overrides], profile=True)[0]
+    program.complaints([point])
+    profile, notes = point.pop("profile"), point.pop("notes")
+    text = _text(Values(point))
+    notes += [Values(point).part("theory." + part).text("note") for part in ("renormalised", "sphere")]
+    point.pop("flat")
+    for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):
+        point["theory"]["persson"].pop(key)
+    for part in ("renormalised", "sphere"):
+        if part in point["theory"]:
+            point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)
+    point.setdefault("run", {})["wall_seconds"] = time.monotonic() - start
+    return Computed(Values(json.loads(json.dumps(point), object_hook=Values)), profile, [note for note in notes if note], text)
+
+
 def theory_command(file: str, overrides: list[str], out: str | None, as_json: bool) -> int:
     """Carries out `asperity theory`.
 
@@ -130,30 +170,18 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
     int
         The exit code.
     """
-    start = time.monotonic()
-    point = theories.points(file, [overrides], profile=True)[0]
-    program.complaints([point])
-    profile, notes = point.pop("profile"), point.pop("notes")
-    values = Values(point)
-    text = _text(values)
-    notes += [values.part("theory." + part).text("note") for part in ("renormalised", "sphere")]
-    point.pop("flat")
-    for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):
-        point["theory"]["persson"].pop(key)
-    for part in ("renormalised", "sphere"):
-        if part in point["theory"]:
-            point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)
-    point.setdefault("run", {})["wall_seconds"] = time.monotonic() - start
+    found = computed(file, overrides)
+    point = found.values
     if as_json:
         print(json.dumps(point, ensure_ascii=False))
         return 0
-    place, said = _directory(out, values.text("name"))
+    place, said = _directory(out, point.text("name"))
     names = ("theory.h5", "result.json")
     with lock.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
-        _write_profile(written, profile)
+        _write_profile(written, found.profile)
         written.write("result.json", store.sealed_json(point))
-    print(text)
-    for note in filter(None, [*notes, *said]):
+    print(found.text)
+    for note in [*found.notes, *said]:
         print(f"  note: {note}")
     print(f"  written: {place}/result.json, {place}/theory.h5 (the profile over magnification)")
     return 0

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import InputOutputError
+from ..errors import UnknownName
 from ..results.result import Result, State
-from ..theory import theories
+from ..theories import combined
 from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (
     BLUE,
@@ -60,7 +60,7 @@ def force_unit(run: Result) -> tuple[float, str]:
     tuple[float, str]
         Divisor of forces in eV/Å, and the label of the axis: nN, or GPa, MPa, kPa.
     """
-    if run.curved or not run.edge:
+    if run.curved or run.has_free_edges or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
     area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
     largest = np.abs(force[np.isfinite(force)]).max(initial=0.0) / area
@@ -104,7 +104,7 @@ def separation(run: Result, ax: Axes) -> bool:
         return False
     height, force, _ = columns
     unit, label = force_unit(run)
-    beside = theories.sphere_curves(run, force.max())
+    beside = combined.sphere_curves(run, force.max())
     for number, (words, x, y) in enumerate(beside):
         curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
               colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
@@ -352,7 +352,7 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     if run.key("surface.kind") == "flat":
         return []
     values = [1.8 * rms * i / 16 for i in range(1, 17)]
-    points = theories.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
+    points = combined.variations_of(run, [{"surface.rms": value} for value in values], quick=True)
     if not all("theory" in p for p in points):
         return []
     curves: list[tuple[str, list, list, Any]] = []
@@ -489,19 +489,31 @@ class RunPlots:
         return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data",
                           "see drive.path, output.series and output.fields")
 
-    def __getattr__(self, name: str) -> Callable[..., Axes]:
-        if name in OF_RUN:
-            return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
-        if name in OF_STATE:
-            return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
-        raise AttributeError(f"no plot {name!r}; there are {', '.join([*OF_RUN, *OF_STATE, 'map'])}")
+    if TYPE_CHECKING:
+        def separation(self, ax: Axes | None = None) -> Axes: ...
+        def loading(self, ax: Axes | None = None) -> Axes: ...
+        def contact(self, ax: Axes | None = None) -> Axes: ...
+        def friction(self, ax: Axes | None = None) -> Axes: ...
+        def energy(self, ax: Axes | None = None) -> Axes: ...
+        def balance(self, ax: Axes | None = None) -> Axes: ...
+        def spectrum(self, ax: Axes | None = None) -> Axes: ...
+        def roughness(self, ax: Axes | None = None) -> Axes: ...
+        def height(self, ax: Axes | None = None) -> Axes: ...
+        def gaps(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+        def pressures(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+    else:
+        def __getattr__(self, name: str) -> Callable[..., Axes]:
+            if name in OF_RUN:
+                return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
+            if name in OF_STATE:
+                return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
+            raise UnknownName.among(str(self._run.directory), name, [*OF_RUN, *OF_STATE, "map"], what="plot")
 
     def _state(self, name: str | None) -> State:
         if name is None:  # of what a script wrote, that of the last moment
             name = next((n for n in ("relaxed", *self._run.fields) if n in self._run.fields), "relaxed")
         if name not in self._run.fields:
-            raise InputOutputError(str(self._run.directory), f"has no state {name!r}",
-                                   f"states: {', '.join(self._run.fields) or 'none'}", "see output.fields")
+            raise UnknownName.among(str(self._run.directory), name, self._run.fields, "it has no states: see output.fields", "state")
         return self._run.fields[name]
 
     def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes:
@@ -523,12 +535,11 @@ class RunPlots:
 
         Raises
         ------
-        InputOutputError
+        UnknownName
             The run has no such state or map.
         """
         if name not in (shown := self._state(state)):
-            raise InputOutputError(str(self._run.directory), f"has no map {name!r}", f"maps: {', '.join(shown)}",
-                                   "take one of these")
+            raise UnknownName.among(str(self._run.directory), name, shown, what="map")
         return self._draw(name, ax, map_of, self._run, shown, name)
 
     def __dir__(self) -> list[str]:

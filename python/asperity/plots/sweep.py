@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..errors import UnknownName
 from ..files import store
 from ..results.result import Values, load_words
 from ..running import program
@@ -359,11 +360,14 @@ def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
 
     Raises
     ------
+    UnknownName
+        The sweeps have no such plot.
     InputOutputError
         There is nothing to draw.
     """
-    return drawn_into(ax, lambda a: name in names(sweeps) and plot(sweeps, name, a), sweeps[0].name, name,
-                      f"plots: {', '.join(names(sweeps))}")
+    if name not in names(sweeps):
+        raise UnknownName.among(sweeps[0].name, name, names(sweeps), "there is nothing to draw", "plot")
+    return drawn_into(ax, lambda a: plot(sweeps, name, a), sweeps[0].name, name, f"plots: {', '.join(names(sweeps))}")
 
 
 def plot_files(simulated: bool) -> list[str]:

@@ -17,7 +17,7 @@ from ..results.result import Result, State, Values
 from ..running import program, scene
 from ..studies.tables import AREA, BOTH
 from ..terminal import minus
-from ..theory import theories
+from ..theories import combined
 from ..units import shown
 from . import sentences
 from .page import Page, file_name, page_files
@@ -250,7 +250,7 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
     Page
         The page.
     """
-    theories.complete(run)
+    combined.complete(run)
     page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),
                  partial(_figures, "energies"), _numbers, _times):

@@ -13,15 +13,21 @@ import functools
 import json
 import math
 import os
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast, overload
 
 import h5py
 import numpy as np
 
-from ..errors import InputOutputError
+from ..errors import InputOutputError, UnknownName
 from ..files import store
+
+if TYPE_CHECKING:
+    from ..plots.run import RunPlots
+    from .names import Numbers, Scene, Segment, SeriesArrays, StateMaps, SubstrateMaps, Units
+else:
+    Numbers = SeriesArrays = StateMaps = SubstrateMaps = object
 
 LARGEST_ARRAY = 2**28
 """Largest number of values of a data set that is read."""
@@ -59,19 +65,20 @@ class Attributes:
 
     _called = "the result"
 
-    def __getattr__(self, key: str) -> Any:
-        if key.startswith("_"):
-            raise AttributeError(key)
-        try:
-            return cast(Mapping[str, Any], self)[key]
-        except KeyError:
-            raise AttributeError(f"{self._called} has no {key!r}; it has {', '.join(self)}") from None
+    if not TYPE_CHECKING:  # type checkers know the names (names.pyi)
+        def __getattr__(self, key: str) -> Any:
+            if key.startswith("_"):
+                raise AttributeError(key)
+            try:
+                return self[key]
+            except KeyError:
+                raise UnknownName.among(self._called, key, self) from None
 
     def __missing__(self, key: str) -> Any:
-        raise KeyError(f"{self._called} has no {key!r}; it has {', '.join(self)}")
+        raise UnknownName.among(self._called, key, cast(Mapping[str, Any], self))
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *self]
+        return [*super().__dir__(), *cast(Mapping[str, Any], self)]
 
 
 class Values(Attributes, dict):
@@ -136,12 +143,12 @@ class Values(Attributes, dict):
 
         Raises
         ------
-        KeyError
+        UnknownName
             There is no such number.
         """
         number = self.number(name)
         if number is None:
-            raise KeyError(f"{self._called} has no number {name!r}")
+            raise UnknownName.among(self._called, name, self, what="number")
         return number
 
     def text(self, name: str) -> str:
@@ -301,23 +308,26 @@ class RunFile:
         """Keeps the path. unread: why the file is not read; "": it is."""
         self.path, self.unread = path, unread
 
-    def lacks(self, what: str, there: list[str]) -> KeyError:
+    def lacks(self, where: str, name: object, there: Iterable[str], what: str) -> UnknownName:
         """Returns the error of a part that the file does not have.
 
         Parameters
         ----------
-        what : str
+        where : str
+            Group that was asked.
+        name : object
             Name of the part.
-        there : list[str]
+        there : Iterable[str]
             Names of the parts that are there.
+        what : str
+            Kind of the part: "array" or "state".
 
         Returns
         -------
-        KeyError
+        UnknownName
             The error, to be raised.
         """
-        return KeyError(f"no {what}" + (f"; there are {', '.join(there)}" if there else "") +
-                        (f". {self.unread}" if self.unread else ""))
+        return UnknownName.among(where, name, there, self.unread or "it is empty", what)
 
     @functools.cached_property
     def _whole(self) -> bool | None:
@@ -419,7 +429,7 @@ class Group(Attributes, Mapping):
 
     def __getitem__(self, name: str) -> np.ndarray:
         if name not in self._read:
-            raise self._file.lacks(f"{name} in {self._path}", list(self))
+            raise self._file.lacks(self._path, name, self, "array")
         if (values := self._read[name]) is None:
             values = self._read[name] = self._file.array(f"{self._path}/{name}", 2)
             if values.shape[0] != values.shape[1] or not values.size:
@@ -449,7 +459,7 @@ class Group(Attributes, Mapping):
         return f"<{type(self).__name__} {self._called}: {', '.join(self)}>"
 
 
-class Series(Group):
+class Series(Group, SeriesArrays):
     """The path of a run: columns of equal length."""
 
     def __init__(self, file: RunFile):
@@ -459,13 +469,15 @@ class Series(Group):
         self._read = {name: column[:rows] for name, column in columns.items()}
 
     def frame(self):
-        """Returns the columns as a pandas DataFrame."""
+        """Returns the columns as a pandas DataFrame; its attrs["units"] has the unit of each column."""
         import pandas
 
-        return pandas.DataFrame(self._read)
+        found = pandas.DataFrame(self._read)
+        found.attrs["units"] = {name: self.unit(name) for name in self}
+        return found
 
 
-class State(Group):
+class State(Group, StateMaps):
     """The maps of one state: gap, distance, u_x, u_y, u_z (Å), pressure (GPa), contact."""
 
     lists = ("gap_edges", "gap_density")
@@ -495,7 +507,7 @@ class State(Group):
         return found if found and len(found[0]) == len(found[1]) + 1 else None
 
 
-class Substrate(Group):
+class Substrate(Group, SubstrateMaps):
     """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms
     anywhere also has atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs); else they are None."""
 
@@ -525,7 +537,7 @@ class Substrate(Group):
         return self._file.array(f"{self._path}/type", 1).astype(int)
 
 
-class States(dict):
+class States(dict[str, "State"]):
     """States of a run file by name."""
 
     def __init__(self, file: RunFile):
@@ -533,10 +545,10 @@ class States(dict):
         self._file = file
 
     def __missing__(self, name: str) -> State:
-        raise self._file.lacks(f"state {name}", list(self))
+        raise self._file.lacks("/fields", name, self, "state")
 
 
-class Result(Values):
+class Result(Values, Numbers):
     """Result of one run: the keys of result.json are attributes.
 
     Parameters
@@ -565,6 +577,12 @@ class Result(Values):
         If the directory holds no result.
     """
 
+    if TYPE_CHECKING:
+        scene: Scene
+        @property
+        def plot(self) -> RunPlots: ...
+        def report(self) -> Path: ...
+
     def __init__(self, directory: str | os.PathLike):
         self.directory = Path(directory)
         expect(self.directory, "result.json")
@@ -591,14 +609,14 @@ class Result(Values):
         self.series, self.substrate, self.fields = Series(file), Substrate(file), States(file)
 
     @property
-    def units(self) -> Values:
+    def units(self) -> Units:
         """Units of the numbers, by the same paths as the numbers."""
-        return self.part("units")
+        return cast("Units", self.part("units"))
 
     @property
-    def segments(self) -> list[Values]:
+    def segments(self) -> list[Segment]:
         """Segments that have ended, with their numbers: result.segments[0].work_of_drive (meV/Å²)."""
-        return [Values(s) for s in self.listed("segments") if isinstance(s, dict)]
+        return [cast("Segment", Values(s)) for s in self.listed("segments") if isinstance(s, dict)]
 
     @property
     def segment_names(self) -> list[str]:
@@ -647,6 +665,11 @@ class Result(Values):
     def edge(self) -> float:
         """Width of the box, Å; 0 without a scene."""
         return self.number("scene.surface.sites", 0.0) * self.number("scene.surface.spacing", 0.0)
+
+    @property
+    def has_free_edges(self) -> bool:
+        """True for a box without periodic images."""
+        return self.text("scene.surface.boundary") == "free"
 
     @property
     def curved(self) -> bool:

@@ -20,7 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import h5py
 import numpy
 
-from ..errors import Error, InputOutputError, SceneError
+from ..errors import Error, InputOutputError, SceneError, UnknownName
 from ..files import store
 from ..terminal import Progress, number
 from ..units import GIGAPASCAL
@@ -82,7 +82,8 @@ class Components(NamedTuple):
 def _set_what_is_there(self: object, name: str, value: Any) -> None:
     """Sets an existing attribute; refuses a misspelt name, which would have no effect."""
     if not name.startswith("_") and not hasattr(type(self), name):
-        raise AttributeError(f"{type(self).__name__} has no '{name}' that can be set", name=name, obj=self)
+        there = [n for n in dir(type(self)) if not n.startswith("_") and isinstance(getattr(type(self), n), property)]
+        raise UnknownName.among(type(self).__name__, name, there)
     object.__setattr__(self, name, value)
 
 
@@ -130,10 +131,10 @@ class Substrate(NamedTuple):
 
 
 class NamedArrays(dict):
-    """Arrays by name; a wrong name raises KeyError with the existing ones."""
+    """Arrays by name; a wrong name raises UnknownName with the existing ones."""
 
     def __missing__(self, name: object) -> numpy.ndarray:
-        raise KeyError(f"no {name} in series; there are {', '.join(self)}")
+        raise UnknownName.among("series", name, self)
 
 
 MPA = 1e3 / GIGAPASCAL

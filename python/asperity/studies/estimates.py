@@ -13,11 +13,11 @@ import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import BY_CODE, Error, InternalError, SceneError, Stopped
+from ..errors import BY_CODE, Error, InternalError, SceneError, Stopped, UnknownName
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
@@ -30,6 +30,9 @@ from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_
 from .quantities import CURVED, FLAT, number_of
 from .stated_number import Found, Number
 from .variations import Setting, Study, Variation, Variations
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 RESULT = "estimate.json"
 START = 0.3
@@ -48,6 +51,11 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 class Estimate:
     """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
     in their order: name, group, what (was varied, or why nothing was), failed; notes."""
+
+    if TYPE_CHECKING:
+        def plot(self, ax: Axes | None = None) -> Axes: ...
+        def quote(self, path: str = "") -> str: ...
+        def report(self) -> Path: ...
 
     name: str
     numbers: dict[str, Number]
@@ -77,11 +85,11 @@ class Estimate:
 
         Raises
         ------
-        SceneError
+        UnknownName
             The estimate has no number of this path.
         """
         if path and path not in self.numbers:
-            raise SceneError(self.name, f"has no number {path!r}", "it has " + ", ".join(self.numbers), "ask for one of these")
+            raise UnknownName.among(self.name, path, self.numbers, what="number")
         return self.numbers[path] if path else self.first
 
     @property
@@ -252,10 +260,23 @@ class SurfaceMade(NamedTuple):
     doubts: list[str]
 
 
-def surface_made(file: str) -> SurfaceMade:
-    """Returns the surface that a scene makes."""
+def surface_made(file: str, overrides: Iterable[str] = ()) -> SurfaceMade:
+    """Makes the surface of a scene.
+
+    Parameters
+    ----------
+    file : str
+        Scene file.
+    overrides : Iterable[str]
+        Overrides.
+
+    Returns
+    -------
+    SurfaceMade
+        Heights (Å) and their statistics.
+    """
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
-        made = program.surface(file, out=str(Path(place) / "surface"))
+        made = program.surface(file, overrides, out=str(Path(place) / "surface"))
         heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
     return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 

@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
@@ -30,9 +30,12 @@ from ..results.result import Result, Values, read_json
 from ..running import lock, program
 from ..running.pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from ..running.scene import SceneLike, inputs_of, scene_file
-from ..theory import theories
+from ..theories import combined
 from .grid import Axis, axes_of, is_seed, points_of, shown
 from .tables import Columns, Table, columns_of, text_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 TABLES = "sweep.csv, sweep.json, sweep.h5"
 TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
@@ -64,6 +67,10 @@ class Sweep:
     directory : Path
         Directory of the sweep.
     """
+
+    if TYPE_CHECKING:
+        def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes: ...
+        def report(self) -> Path: ...
 
     name: str
     scene: dict[str, Any]
@@ -290,7 +297,7 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
             values = [f"{low + (high - low) * i / 30:.12g}" for i in range(31)]
         finer.append(Axis(axis.key, values))
-    found = theories.points(file, [fixed + point for point in points_of(finer)], quick=True)
+    found = combined.points(file, [fixed + point for point in points_of(finer)], quick=True)
     return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number
 
 
@@ -309,7 +316,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
     before = [] if theory_only else _points_before(place, base["scene"], [axis.key for axis in axes])
     overrides = [fixed + point for point in points_of(axes)]
     # So many points of a theory are a curve.
-    answers = theories.points(file, overrides, runnable=not theory_only, quick=theory_only and len(overrides) > 40)
+    answers = combined.points(file, overrides, runnable=not theory_only, quick=theory_only and len(overrides) > 40)
     program.complaints(answers, {axis.key: axis.where for axis in axes if axis.where})
     notes = list(dict.fromkeys(note for answer in answers for note in answer["notes"]))
     sweep = Sweep(base["name"], base["scene"], [a.key for a in axes], [_point(axes, a) for a in answers], notes=notes,

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..errors import UnknownName
 from ..results.result import Values, finite
 from ..running import program
 from ..running.pool import DONE
@@ -94,7 +95,7 @@ class Columns(UserDict):
         return f"<{type(self).__name__}: {rows} rows, {len(self)} columns: {some}>"
 
     def __missing__(self, name: str) -> Any:
-        raise KeyError(f"no column {name!r}; there are {', '.join(self)}")
+        raise UnknownName.among("the table", name, self, what="column")
 
     @property
     def units(self) -> dict[str, str]:
@@ -102,10 +103,12 @@ class Columns(UserDict):
         return {name: "" if name.endswith(".count") else unit_of(name.removesuffix(".deviation")) for name in self}
 
     def frame(self):
-        """Returns the columns as a pandas DataFrame."""
+        """Returns the columns as a pandas DataFrame; its attrs["units"] has the unit of each column."""
         import pandas
 
-        return pandas.DataFrame(self.data)
+        found = pandas.DataFrame(self.data)
+        found.attrs["units"] = self.units
+        return found
 
 
 class Table(Columns):

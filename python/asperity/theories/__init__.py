@@ -4,5 +4,5 @@
 
     renormalised   what roughness leaves of the potential of two flat surfaces
     sphere         the smooth adhesive sphere, alone and in a periodic box
-    theories       the theories of scenes and runs, as results name them
+    combined       the theories of scenes and runs, as results name them
 """

@@ -1,0 +1,278 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The commands that need no run of their own as functions, and `cost`: each returns what its command prints."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+import numpy as np
+
+from .commands.theory import computed
+from .errors import BY_CODE, InternalError, SceneError, Stopped
+from .maps.convert import convert
+from .reports import cost as report_cost
+from .reports.export import export as write_exports
+from .results.result import Values
+from .running import lock, program
+from .running.pool import FAILED, PoolOptions, refuse_jobs
+from .running.scene import Overrides, SceneLike, assignments, scene_file
+from .studies.cost import Cost, Costing, target_of
+from .studies.estimates import surface_made
+
+if TYPE_CHECKING:
+    from .results.names import Scene, Theory
+
+__all__ = ["Checked", "Planned", "Surface", "TheoryOfScene", "check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"]
+
+
+@dataclass
+class Checked:
+    """A scene as it would be run: its keys, notes on it, the longest stable time step of dynamic paths (fs), and the
+    factor by which a coarse spacing increases the pull-off force of a sphere."""
+
+    name: str
+    scene: Scene
+    notes: list[str]
+    longest_timestep: float
+    edge_pinning: float
+
+
+@dataclass
+class Planned:
+    """Cost of a run: steps, memory in bytes and wall time in seconds, each by part with the sum as "altogether", and the effects
+    that are simulated or not, each with the reason ("on", "because")."""
+
+    name: str
+    steps: float
+    bytes: dict[str, float]
+    seconds: dict[str, float]
+    effects: dict[str, dict[str, Any]]
+    notes: list[str]
+
+
+@dataclass
+class Surface:
+    """Surface of a scene: heights [y, x] (Å), their rms (Å), rms slope of neighbours, and doubts about the file of a map."""
+
+    heights: np.ndarray
+    rms: float
+    slope: float
+    doubts: list[str]
+
+
+@dataclass
+class TheoryOfScene:
+    """Theories of a scene: numbers by their names in result.json (energies in meV/Å²), Δγ (meV/Å²), notes, and their text, which the
+    command prints."""
+
+    name: str
+    theory: Theory
+    delta_gamma: float
+    notes: list[str]
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+def _values(found: dict[str, Any]) -> Values:
+    """Returns an object of JSON whose members are attributes on every level."""
+    return json.loads(json.dumps(found), object_hook=Values)
+
+
+def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
+    """Checks a scene without running it.
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+
+    Returns
+    -------
+    Checked
+        The scene with its defaults filled in, and notes on it.
+
+    Raises
+    ------
+    SceneError
+        The scene has mistakes; the error lists all.
+    """
+    with scene_file(scene, overrides=overrides) as file:
+        found = _values(program.check(file, assignments(overrides)))
+        if found["problems"]:
+            raise SceneError.of(found["problems"])
+    return Checked(found.text("name"), cast("Scene", found["scene"]), found.listed("notes", str), found.number("longest_timestep", 0.0),
+                   found.number("edge_pinning", 1.0))
+
+
+def plan(scene: SceneLike, overrides: Overrides | None = None) -> Planned:
+    """Estimates what a run of a scene costs on this machine, by a rehearsal.
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+
+    Returns
+    -------
+    Planned
+        Memory (bytes), wall time (s) and effects.
+
+    Raises
+    ------
+    SceneError
+        The scene is refused.
+    """
+    with scene_file(scene, overrides=overrides) as file:
+        found = _values(program.plan(file, assignments(overrides)))
+    return Planned(found.text("name"), found.number("steps", 0.0), found.part("bytes").numbers(), found.part("seconds").numbers(),
+                   dict(found.part("effects")), found.listed("notes", str))
+
+
+def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
+    """Makes the surface of a scene without simulating it.
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+
+    Returns
+    -------
+    Surface
+        Heights (Å) and their statistics.
+
+    Raises
+    ------
+    SceneError
+        The scene is refused.
+    """
+    with scene_file(scene, overrides=overrides) as file:
+        made = surface_made(file, assignments(overrides))
+    return Surface(made.heights, made.rms, made.slope, made.doubts)
+
+
+def defaults() -> dict[str, dict[str, Any]]:
+    """Returns every key of a scene ("surface.rms") with its kind, unit, default, explanation (doc) and choices."""
+    return {key: dict(about) for key, about in program.schema().items()}
+
+
+def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScene:
+    """Computes the theories of a scene without simulating it.
+
+        found = asperity.theory("scene.toml", {"surface.rms": 2.0})
+        found.theory.persson.gamma_eff, found.theory.renormalised.contact_fraction
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+
+    Returns
+    -------
+    TheoryOfScene
+        Numbers of Persson's theory, of the renormalised theory, and of smooth spheres.
+
+    Raises
+    ------
+    SceneError
+        The scene is refused.
+    """
+    with scene_file(scene, overrides=overrides) as file:
+        found = computed(file, assignments(overrides))
+    return TheoryOfScene(found.values.text("name"), cast("Theory", found.values.part("theory")), found.values.number("delta_gamma", 0.0),
+                         found.notes, found.text)
+
+
+def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
+         parameters: Iterable[str] = (), target: str | float | None = None) -> Cost:
+    """Measures what the accuracy of a scene costs in run time: the scene with one setting varied at a time, and combinations.
+    Runs that are there are not run again; cost.csv and figures are written.
+
+        found = asperity.cost("scene.toml", target="1%")
+        found.chosen.setting, found.chosen.seconds      # ["drive.timestep=40"], s; None: nothing keeps the target
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+    out : str or os.PathLike, optional
+        Directory; None: results/<scene>-cost.
+    jobs : int
+        Runs side by side, one thread each.
+    parameters : iterable of str
+        Only these settings: ["timestep", "layers"].
+    target : str or float, optional
+        Relative error to keep, "1%" or 0.01, by numerical settings alone.
+
+    Returns
+    -------
+    Cost
+        Rows with their settings, times (s) and relative errors; the reference comes first, the scene as it is second.
+
+    Raises
+    ------
+    SceneError
+        The scene or an argument is refused, or files are in the way.
+    Stopped
+        The runs stopped early; the same call continues.
+    Error
+        The run of the reference failed.
+    """
+    program.refuse_ranks()
+    refuse_jobs(jobs)
+    with scene_file(scene, overrides=overrides) as file:
+        costing = Costing(file, assignments(overrides), None if out is None else str(out), PoolOptions(jobs, 1, progress="off"), parameters,
+                          None if target is None else target_of(str(target)), lambda _: None, report_cost.FILES)
+        with lock.in_use(costing.place):
+            complete = costing.carry_out()
+            failed = costing.reference.status == FAILED
+            if complete and not failed:
+                report_cost.write(costing.cost, costing.place)
+    if not complete:
+        raise Stopped(f"{costing.place}: the runs stopped early", fix="the same call goes on from here")
+    if failed:
+        raise BY_CODE.get(costing.reference.exit_code, InternalError)(str(costing.place), "the reference failed", costing.reference.reason)
+    return costing.cost
+
+
+def export(directory: str | os.PathLike, to: str) -> list[Path]:
+    """Writes the maps and the trajectory of a run for other programs.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Result directory of a run.
+    to : str
+        "xyz" (OVITO, ASE), "vtk" (ParaView) or "png".
+
+    Returns
+    -------
+    list of Path
+        The written files.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has nothing to export.
+    SceneError
+        There is no such format.
+    """
+    return write_exports(Path(directory), to)
