@@ -125,7 +125,8 @@ def lead(run: Result) -> str:
     if run.radius:
         surface += f" on a sphere of R = {0.1 * run.radius:.4g} nm"
     if run.has_free_edges:
-        return f"An elastic half-space on {surface}: {sites:.0f} × {sites:.0f} sites, {number(0.1 * run.edge, 1)} nm wide, with free edges.{_path(run)}"
+        return (f"An elastic half-space on {surface}: {sites:.0f} × {sites:.0f} sites, {number(0.1 * run.edge, 1)} nm wide, "
+                f"with free edges.{_path(run)}")
     return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {number(0.1 * run.edge, 1)} nm wide, "
             f"{general(run.key('block.thickness'))} layers thick.{_path(run)}")
 
