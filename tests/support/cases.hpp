@@ -45,9 +45,9 @@ void lead(Driven& s, const Look& look, bool observe = true) {
         const std::size_t segment = s.drive().segment();
         const StepRecord& now = s.step(observe);
         strongest = std::max(strongest, -now.force);
-        const bool over = s.drive().observe(
-            {now.time, now.force, now.top, beyond_range(now.top, now.force, strongest),
-             s.interface().reference_height()});
+        const bool over = s.drive().observe({now.time, now.force, now.top,
+                                             beyond_range(now.top, now.force, strongest),
+                                             s.interface().reference_height()});
         look(now, segment, over);
         if (s.steps() > 300000) throw std::runtime_error("a path in time has no end");
     }
