@@ -16,39 +16,43 @@ namespace asperity::io {
 
 namespace {
 
-void treat_missing(HeightMap& map, bool fill) {
+void treat_missing(HeightMap& map, bool fill, const MapQuantity& quantity) {
     const auto first = std::find_if(map.heights.begin(), map.heights.end(),
                                     [](double h) { return std::isnan(h); });
     const auto at = static_cast<std::size_t>(first - map.heights.begin());
     if (!fill)
         refuse(map.first_missing,
-               fmt::format("the height in row {}, column {} is {}", at / map.columns + 1,
+               fmt::format("the {} in row {}, column {} is {}", quantity.one, at / map.columns + 1,
                            at % map.columns + 1, map.first_missing_text),
-               fmt::format("every atom needs a height; {} of {} points have none", map.missing,
-                           map.heights.size()),
-               "fill the holes of the map before, or let them be filled with "
-               "surface.file_missing = \"fill\"");
+               fmt::format("every atom needs a {}; {} of {} points have none", quantity.one,
+                           map.missing, map.heights.size()),
+               fmt::format("fill the holes of the map before, or let them be filled with "
+                           "{}_missing = \"fill\"",
+                           quantity.key));
     const double part = static_cast<double>(map.missing) / static_cast<double>(map.heights.size());
     if (part > 0.5)
-        refuse(map.source, "most of the height map is missing",
-               fmt::format("{} of {} points have no height", map.missing, map.heights.size()),
+        refuse(map.source, fmt::format("most of the {} map is missing", quantity.one),
+               fmt::format("{} of {} points have no {}", map.missing, map.heights.size(),
+                           quantity.one),
                "measure it again, or cut out a piece that is whole");
     fill_missing(map.heights, map.rows, map.columns);
-    map.notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no height: filled by "
+    map.notes.push_back(fmt::format("{} points of the map ({:.2g} %) had no {}: filled by "
                                     "Laplace's equation",
-                                    map.missing, 100.0 * part));
+                                    map.missing, 100.0 * part, quantity.one));
 }
 
 /// Makes the map square, with the middle of it where the scene says so.
-void make_square(HeightMap& map, bool crop) {
+void make_square(HeightMap& map, bool crop, const MapQuantity& quantity) {
     if (!crop && map.rows != map.columns)
-        refuse(map.source, "the height map is not square",
+        refuse(map.source, fmt::format("the {} map is not square", quantity.one),
                fmt::format("it has {} rows and {} columns, and the periodic box is square",
                            map.rows, map.columns),
                std::min(map.rows, map.columns) <= 2
-                   ? "it is a line scan, and a surface needs a map: measure or export an area"
-                   : "cut a square out of it before, or take the middle with "
-                     "surface.file_crop = \"middle\"");
+                   ? std::string(
+                         "it is a line scan, and a surface needs a map: measure or export an area")
+                   : fmt::format("cut a square out of it before, or take the middle with "
+                                 "{}_crop = \"middle\"",
+                                 quantity.key));
     const std::size_t n = std::min(map.rows, map.columns);
     if (map.width && map.height) {
         const double pixel = *map.width / static_cast<double>(map.columns);
@@ -83,13 +87,14 @@ void make_square(HeightMap& map, bool crop) {
 HeightMap read_height_map(const std::string& name, const MapOptions& options) {
     HeightMap map = read_map_file(name, options);
     if (map.unit_assumed)
-        map.notes.push_back("the file does not say the unit of its heights: taken as Å");
+        map.notes.push_back(fmt::format("the file does not say the unit of its {}: taken as {}",
+                                        options.quantity.all, options.quantity.unit));
     if (map.missing > 0 && options.holes)
         map.notes.push_back(
             fmt::format("{} of {} points have no height: holes", map.missing, map.heights.size()));
     else if (map.missing > 0)
-        treat_missing(map, options.fill);
-    make_square(map, options.crop);
+        treat_missing(map, options.fill, options.quantity);
+    make_square(map, options.crop, options.quantity);
     return map;
 }
 

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity::io {
@@ -30,7 +31,8 @@ struct HeightMap {
     std::string source; ///< file (and data set)
     std::string origin; ///< owner of the map, if the file names one
     std::size_t rows = 0, columns = 0;
-    std::vector<double> heights;         ///< heights[y * columns + x], Å; NaN at missing points
+    /// heights[y * columns + x], Å, or what MapOptions::quantity says; NaN at missing points
+    std::vector<double> heights;
     std::optional<double> width, height; ///< widths along x and y, Å, if the file has them
     std::string unit = "Å";              ///< unit of the heights in the file: "nm", "0.03 nm"
     bool unit_assumed = false;           ///< neither the file nor the scene gives a unit: Å
@@ -42,6 +44,15 @@ struct HeightMap {
     std::vector<std::string> notes;  ///< assumptions, fillings and cuts, one sentence each
 };
 
+/// Quantity that the numbers of a map stand for.
+struct MapQuantity {
+    std::string_view one = "height",
+                     all = "heights";      ///< in messages; the latter names the data set
+    std::string_view unit = "Å";           ///< unit to which they are brought
+    std::string_view key = "surface.file"; ///< key of the scene that names the map
+    std::string_view kind = "length";      ///< dimension of the unit, in messages
+};
+
 /// Options of a scene for reading a map. Unit and size hold over those of the file; doubts name
 /// both.
 struct MapOptions {
@@ -50,6 +61,7 @@ struct MapOptions {
     bool crop = false;         ///< a map that is not square is cut to its middle; false: refused
     std::optional<double> size{}; ///< shorter edge, Å; empty: the size in the file
     bool holes = false;           ///< missing points stay, as NaN
+    MapQuantity quantity{};
 };
 
 /// Reads the map of a file. name: a file, or file:/dataset. Throws SceneError.

@@ -34,9 +34,10 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t longest_edge = 1u << 17;
 
-/// Returns the data set that is named, else /heights, else the only one that can be a map.
-std::string map_in(const Hdf5File& file, const std::string& named) {
-    std::string name = named.empty() ? "/heights" : named;
+/// Returns the data set that is named, else that of the quantity (/heights), else the only one that
+/// can be a map.
+std::string map_in(const Hdf5File& file, const std::string& named, const MapQuantity& quantity) {
+    std::string name = named.empty() ? fmt::format("/{}", quantity.all) : named;
     if (named.empty() && !file.exists(name)) {
         const std::vector<std::string> maps = file.datasets(2);
         if (maps.size() > 1)
@@ -68,7 +69,8 @@ std::optional<T> find(const std::map<std::string, T>& attributes, const char* na
     return found == attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-HeightMap read_map_hdf5(const std::string& file, const std::string& named, MapUnits& units) {
+HeightMap read_map_hdf5(const std::string& file, const std::string& named,
+                        const MapQuantity& quantity, MapUnits& units) {
     auto sets = read_numbers(
         file, {"the height map",
                [&](const Hdf5File& opened) {
@@ -77,7 +79,7 @@ HeightMap read_map_hdf5(const std::string& file, const std::string& named, MapUn
                            refuse(file, "is a file of an instrument's program",
                                   fmt::format("its {} says what its numbers stand for", sign + 1),
                                   convert_first(file));
-                   return std::vector{map_in(opened, named)};
+                   return std::vector{map_in(opened, named, quantity)};
                },
                {"unit", "units", "size_unit", "origin"},
                {"scale", "size_x", "size_y"}});
@@ -299,9 +301,10 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     return map;
 }
 
-HeightMap read_raw(const std::string& file, const std::string& dataset, MapUnits& units) {
+HeightMap read_raw(const std::string& file, const std::string& dataset, const MapQuantity& quantity,
+                   MapUnits& units) {
     const fs::path name(file);
-    if (is_hdf5(file)) return read_map_hdf5(file, dataset, units);
+    if (is_hdf5(file)) return read_map_hdf5(file, dataset, quantity, units);
     if (!dataset.empty() || name.extension() == ".h5")
         refuse(file, "the height map cannot be read", "it is not an HDF5 file",
                "name another file; a text matrix must not be called .h5");
@@ -325,9 +328,9 @@ HeightMap read_map_file(const std::string& name, const MapOptions& said) {
     if (!fs::is_regular_file(file, error))
         refuse(file, "the height map cannot be opened",
                fs::exists(file, error) ? "it is no file" : "there is no such file",
-               "check surface.file");
+               fmt::format("check {}", said.quantity.key));
     MapUnits units;
-    HeightMap map = read_raw(file, dataset, units);
+    HeightMap map = read_raw(file, dataset, said.quantity, units);
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
         refuse(map.source, "the height map is empty", "it holds no numbers", "");
@@ -337,7 +340,7 @@ HeightMap read_map_file(const std::string& name, const MapOptions& said) {
                            longest_edge),
                "cut a piece out of it before");
     complete(map, units, said);
-    note_doubts(map);
+    if (said.quantity.unit == MapQuantity().unit) note_doubts(map);
     return map;
 }
 

@@ -29,18 +29,33 @@ std::optional<double> length_of(const std::string& unit) {
     return factor && std::isfinite(*factor) && *factor > 0.0 ? factor : std::nullopt;
 }
 
-/// Returns the length of a unit, Å. Throws SceneError if it is no length. key: the key of the scene
-/// that says it in place of the file.
-double length_unit(const std::string& unit, const std::string& where, const char* what,
-                   const char* key) {
+/// Returns what a unit is in those of a quantity; empty if it is of another dimension.
+std::optional<double> factor_of(const std::string& unit, const MapQuantity& quantity) {
+    const std::optional<double> factor = conversion(unit, quantity.unit);
+    return factor && std::isfinite(*factor) && *factor > 0.0 ? factor : std::nullopt;
+}
+
+/// Refuses a unit. fix: the key of the scene that says it in place of the file.
+[[noreturn]] void refuse_unit(const std::string& unit, const std::string& where,
+                              std::string_view what, std::string_view kind,
+                              const std::string& fix) {
+    refuse(where, fmt::format("{} in '{}' cannot be read", what, unit.substr(0, 40)),
+           fmt::format("that is no unit of {}", kind), fmt::format("say which it is: {}", fix));
+}
+
+/// Returns what a unit of sizes is in Å. Throws SceneError if it is no length.
+double length_unit(const std::string& unit, const std::string& where, const std::string& fix) {
     const std::optional<double> factor = length_of(unit);
-    if (!factor)
-        refuse(where, fmt::format("{} in '{}' cannot be read", what, unit.substr(0, 40)),
-               "that is no unit of length", fmt::format("say which it is: {}", key));
+    if (!factor) refuse_unit(unit, where, "its size", "length", fix);
     return *factor;
 }
-constexpr const char* say_unit = "surface.file_unit = \"nm\"";
-constexpr const char* say_size = "surface.file_size = \"100 nm\", its edge";
+std::string say_unit(const MapQuantity& quantity) {
+    const bool lengths = quantity.unit == MapQuantity().unit;
+    return fmt::format("{}_unit = \"{}\"", quantity.key, lengths ? "nm" : "mJ/m^2");
+}
+std::string say_size(const MapQuantity& quantity) {
+    return fmt::format("{}_size = \"100 nm\", its edge", quantity.key);
+}
 
 /// Converts the sizes to Å: what the scene says, else the file; with a note if they differ. Of a
 /// map that is not square the scene's size is the shorter edge.
@@ -51,15 +66,17 @@ void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said
     else if (units.unit && length_of(*units.unit))
         factor = length_of(*units.unit);
     else if (said.unit != "auto")
-        factor = length_unit(said.unit, map.source, "heights", say_unit);
+        factor = length_of(said.unit);
+    const MapQuantity& quantity = said.quantity;
     if (map.width && !factor && !said.size) {
-        if (units.of_sizes) length_unit(*units.of_sizes, map.source, "its size", say_size);
-        if (units.unit)
-            length_unit(*units.unit, map.source, "heights",
-                        say_unit); // throws: the unit is no length
-        refuse(map.source, "the file does not say the unit of its sizes and heights",
-               "in an unknown unit they may be anything",
-               fmt::format("say which it is: {}", say_unit));
+        if (units.of_sizes) length_unit(*units.of_sizes, map.source, say_size(quantity));
+        const bool lengths = quantity.unit == MapQuantity().unit;
+        refuse(
+            map.source,
+            fmt::format("the file does not say the unit of its sizes{}",
+                        lengths ? " and heights" : ""),
+            "in an unknown unit they may be anything",
+            fmt::format("say which it is: {}", lengths ? say_unit(quantity) : say_size(quantity)));
     }
     for (std::optional<double>* size : {&map.width, &map.height}) {
         if (!*size) continue;
@@ -67,7 +84,7 @@ void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said
         if (!said.size && (!(**size > 0.0) || !std::isfinite(**size)))
             refuse(map.source, "the map has no size",
                    fmt::format("its attributes say {} Å", **size),
-                   fmt::format("say it: {}", say_size));
+                   fmt::format("say it: {}", say_size(quantity)));
     }
     if (!said.size) return;
     const double points = static_cast<double>(std::min(map.rows, map.columns)),
@@ -76,8 +93,8 @@ void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said
     if (std::abs(own - pixel) > 1e-3 * pixel)
         map.doubts.push_back(
             fmt::format("the file says that the map is {:.6g} Å wide, and {:.6g} Å are taken "
-                        "(surface.file_size)",
-                        own * points, *said.size));
+                        "({}_size)",
+                        own * points, *said.size, quantity.key));
     map.width = pixel * static_cast<double>(map.columns);
     map.height = pixel * static_cast<double>(map.rows);
 }
@@ -86,17 +103,19 @@ void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said
 
 void complete(HeightMap& map, const MapUnits& units, const MapOptions& said) {
     const bool given = said.unit != "auto";
-    complete_size(map, units, said);
     map.unit_assumed = !given && !units.unit;
-    const std::string unit = given ? said.unit : units.unit.value_or("Å");
+    const MapQuantity& quantity = said.quantity;
+    const std::string unit = given ? said.unit : units.unit.value_or(std::string(quantity.unit));
     map.unit = units.scale == 1.0 ? unit : fmt::format("{:g} {}", units.scale, unit);
-    const double one = length_unit(unit, map.source, "heights", say_unit),
-                 factor = units.scale * one;
-    if (given && units.unit && length_of(*units.unit) != one)
-        map.doubts.push_back(
-            fmt::format("the file says that its heights are in {}, and {} is taken "
-                        "(surface.file_unit)",
-                        units.unit->substr(0, 40), unit));
+    const std::optional<double> one = factor_of(unit, quantity);
+    if (!one) refuse_unit(unit, map.source, quantity.all, quantity.kind, say_unit(quantity));
+    complete_size(map, units, said);
+    const double factor = units.scale * *one;
+    if (given && units.unit && factor_of(*units.unit, quantity) != one)
+        map.doubts.push_back(fmt::format("the file says that its {} are in {}, and {} is taken "
+                                         "({}_unit)",
+                                         quantity.all, units.unit->substr(0, 40), unit,
+                                         quantity.key));
     double largest = 0.0;
     for (std::size_t i = 0; i < map.heights.size(); ++i) {
         double& height = map.heights[i];
@@ -113,7 +132,7 @@ void complete(HeightMap& map, const MapUnits& units, const MapOptions& said) {
         height *= factor;
         largest = std::max(largest, std::abs(height));
     }
-    if (!(largest <= largest_height))
+    if (quantity.unit == MapQuantity().unit && !(largest <= largest_height))
         refuse(map.source, fmt::format("a height of the map is {:g} Å", largest),
                fmt::format("that is more than {:g} Å (10 cm)", largest_height),
                fmt::format("the heights are read in {}: set surface.file_unit, or mark points "

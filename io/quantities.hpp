@@ -313,6 +313,11 @@ inline constexpr Quantity result_quantities[] = {
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},
+    {"interface.adhesion_digest", "", "",
+     "digest of the field of interface.adhesion on the sites. A sweep takes a result again only if "
+     "the file still holds the same"},
+    {"interface.adhesion_least", "meV/Å^2", "", "least work of adhesion of a site of that field"},
+    {"interface.adhesion_largest", "meV/Å^2", "", "its largest"},
     {"interface.table_error", "1", "delta_gamma",
      "bound of the error of energies of flat surfaces, and so of binding energies, that the spline "
      "between the rows of these tables and the noise of the rows make"},
@@ -353,6 +358,8 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*/contact", "1", "",
      "1 where that is less than the inflection of the potential; with interface.pairs, where an "
      "atom is nearer than that of its type"},
+    {"fields/*/adhesion", "meV/Å^2", "",
+     "work of adhesion of a site, where interface.adhesion is a field"},
     {"fields/*/u_x", "Å", "", "displacement of a site"},
     {"fields/*/u_y", "Å", "", "displacement of a site"},
     {"fields/*/u_z", "Å", "", "displacement of a site"},

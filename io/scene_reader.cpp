@@ -10,6 +10,7 @@
 #include "io/units.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <type_traits>
 
@@ -158,8 +159,20 @@ struct Store {
     }
 
     Problem operator()(double* field) const {
+        if (key.text) {
+            const auto* text = as<std::string>();
+            const bool named = text && !text->empty() && !begins_a_number(*text);
+            *key.text = named ? *text : "";
+            if (named) return {};
+        }
         if (none(field)) return {};
         return or_none(quantity(field));
+    }
+    /// Returns true if a text begins with a digit, or with signs and a point before it.
+    static bool begins_a_number(const std::string& text) {
+        const std::size_t at = text.find_first_not_of(" +-.");
+        return at == std::string::npos ||
+               (std::isdigit(static_cast<unsigned char>(text[at])) && text.find('/') > at);
     }
     /// Stores the number in the base unit.
     Problem quantity(double* field) const {
@@ -299,6 +312,7 @@ struct Load {
     }
     template <class T>
     Json operator()(T* field) const {
+        if (key.text && !key.text->empty()) return *key.text;
         if constexpr (std::is_arithmetic_v<T>)
             if (!key.word.empty() && *field == T{}) return key.word;
         return *field;
@@ -342,6 +356,7 @@ std::string allowed(const Key& key, const std::string& quote) {
            : limited           ? "whole number, " + key.range.text("")
                                : "whole number";
     if (!key.word.empty()) text += " | " + quote + quoted(key.word) + quote;
+    if (key.text) text += " | " + quote + quoted(key.example) + quote;
     if (key.length) text += " | a length";
     if (key.other.value) text += fmt::format(" | {} in {}", key.other.name, key.other.unit);
     return text;

@@ -146,6 +146,10 @@ public:
             std::string unit{}, why{}, fix{};
         };
         Was was{};
+        /// Text that may stand in place of a number: the name of a field; null: numbers only.
+        /// Empty: the key has a number.
+        std::string* text = nullptr;
+        std::string example{}; ///< such a text
         /// Length from which a count follows, Å; null: counts only
         std::optional<double>* length = nullptr;
         /// Quantity of another dimension from which the number follows: its unit, its name, and its
@@ -191,6 +195,18 @@ public:
     /// dimension); unit "": a bare number.
     Key& number(std::string name, double& field, std::string unit, Range range, std::string doc) {
         return add({name, &field, doc, unit, range});
+    }
+    /// Adds a key that is a quantity, or a text that does not begin as a number: adhesion =
+    /// "map.npy".
+    Key& number_or_text(std::string name, double& field, std::string& text, std::string unit,
+                        Range range, std::string example, std::string doc) {
+        return add({.name = name,
+                    .field = &field,
+                    .doc = doc,
+                    .unit = unit,
+                    .range = range,
+                    .text = &text,
+                    .example = example});
     }
     /// Adds a key that is a quantity, a whole number without unit, or a word: radius = "none".
     template <class T>

@@ -7,6 +7,7 @@
 #include "kernels/pack_step.hpp"
 
 #include <limits>
+#include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
 
@@ -15,17 +16,35 @@ namespace {
 /// Number below every height, above which a height that is NaN (a hole) is not.
 constexpr double no_height = -std::numeric_limits<double>::infinity();
 
-template <class Law, bool observe>
+/// Calls use(by_site) with true or false as a type: whether the law has a factor at each site.
+template <class Law, class Use>
+auto with_factor(const double* factor, Use use) {
+    if constexpr (ScaledBySite<Law>)
+        if (factor) return use(std::true_type());
+    return use(std::false_type());
+}
+
+/// Returns the law of a register of sites.
+template <bool by_site, class Terms>
+ASPERITY_INLINE auto law_at(const Terms& law, const double* factor, int count) {
+    if constexpr (by_site)
+        return law.scaled(Real::load_first(factor, count));
+    else
+        return law;
+}
+
+template <bool by_site, bool observe, class Law>
 void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const double> height,
-                int row_begin, int row_end, InterfaceSums& sums) {
+                PlaneView<const double> factor, int row_begin, int row_end, InterfaceSums& sums) {
     const int nx = sites.displacement.x.nx;
-    const typename Law::template Terms<Real> law(wall);
+    const typename Law::template Terms<Real> whole(wall);
     const double contact_gap = wall.contact_gap();
     const Real nothing(no_height);
     const Real reference(sites.reference_height);
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
         const double *u = sites.displacement.z.line(y), *below = height.line(y);
+        const double* const of_sites = by_site ? factor.line(y) : nullptr;
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
             SiteTerms terms;
@@ -33,6 +52,7 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
                 const int here = count - lane;
                 const Real under = Real::load_first(below + x + lane, here);
                 const auto solid = under > nothing;
+                const auto law = law_at<by_site>(whole, of_sites + x + lane, here);
                 const Real gap = reference + Real::load_first(u + x + lane, here) -
                                  select(solid, under, Real(0.0));
                 Real(0.0).store(terms.x + lane);
@@ -58,18 +78,21 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
 
 template <bool observe>
 void wall_sweep(const InterfaceSites& sites, const PlaneView<const double>& height,
-                const WallLaw& wall, int row_begin, int row_end, InterfaceSums& sums) {
+                const PlaneView<const double>& factor, const WallLaw& wall, int row_begin,
+                int row_end, InterfaceSums& sums) {
     std::visit(
-        [&](const auto& law) {
-            sweep_over<std::decay_t<decltype(law)>, observe>(law, sites, height, row_begin, row_end,
-                                                             sums);
+        [&]<class Law>(const Law& law) {
+            with_factor<Law>(factor.origin, [&](auto by_site) {
+                sweep_over<by_site(), observe>(law, sites, height, factor, row_begin, row_end,
+                                               sums);
+            });
         },
         wall);
 }
 
-template <class Law, class T>
+template <bool by_site, class Law, class T>
 WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
-    const typename Law::template Terms<Real> law(wall);
+    const typename Law::template Terms<Real> whole(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
     const Real nothing(no_height);
@@ -83,6 +106,7 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
         }
         for (int lane = 0; lane < count; lane += Real::width) {
             const int here = count - lane;
+            const auto law = law_at<by_site>(whole, row.factor + x + lane, here);
             const Real u = Real::load_first(row.u + x + lane, here);
             const Real under = Real::load_first(row.below + x + lane, here);
             const auto solid = under > nothing;
@@ -104,7 +128,13 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
 
 template <class T>
 WallSums rest_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
-    return std::visit([&](const auto& law) { return rest_over(law, row, rule, sites); }, wall);
+    return std::visit(
+        [&]<class Law>(const Law& law) {
+            return with_factor<Law>(row.factor, [&](auto by_site) {
+                return rest_over<by_site()>(law, row, rule, sites);
+            });
+        },
+        wall);
 }
 
 } // namespace

@@ -15,11 +15,13 @@ namespace asperity {
 /// A row of sites that move to their equilibria.
 template <class T>
 struct WallRow {
-    const double* below; ///< height of the wall, Å; not a number: there is no solid
-    const double* u;     ///< places of the sites, Å
-    const float* step;   ///< last moves of the sites, Å
-    const T* elastic;    ///< S z, eV/Å, times 1 / norm
-    double* next;        ///< out: equilibria of the sites, Å
+    const double* below = nullptr; ///< height of the wall, Å; not a number: there is no solid
+    const double* u;               ///< places of the sites, Å
+    const float* step;             ///< last moves of the sites, Å
+    const T* elastic;              ///< S z, eV/Å, times 1 / norm
+    /// Factor of the law of each site (ScaledBySite); null: one law for all
+    const double* factor = nullptr;
+    double* next; ///< out: equilibria of the sites, Å
 };
 /// Parameters of an equilibrium over a wall; z is the point at which the elastic force is known.
 struct WallRule {
@@ -39,9 +41,10 @@ struct WallSums {
 /// Kernels of a wall, compiled for one processor level.
 struct WallKernels {
     /// Computes the forces of rows [row_begin, row_end); [observe]. nearest_r2: the square of the
-    /// gap, 0 if the gap is negative.
-    void (*sweep[2])(const InterfaceSites&, const PlaneView<const double>& height, const WallLaw&,
-                     int row_begin, int row_end, InterfaceSums&);
+    /// gap, 0 if the gap is negative. factor: as in WallRow.
+    void (*sweep[2])(const InterfaceSites&, const PlaneView<const double>& height,
+                     const PlaneView<const double>& factor, const WallLaw&, int row_begin,
+                     int row_end, InterfaceSums&);
     /// Moves the sites of a row to their equilibria.
     WallSums (*rest_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int sites);
     WallSums (*rest_single)(const WallLaw&, const WallRow<float>&, const WallRule&, int sites);

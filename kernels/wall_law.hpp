@@ -18,6 +18,12 @@
 // deepest at g = -A / (rho K), by A + A^2 / (2 rho^2 K). A is chosen such that this depth is the
 // work of adhesion W, however soft the repulsion: A = 2 W / (1 + sqrt(1 + 2 W / (rho^2 K))).
 //
+// Other shapes of the attraction are in shaped_wall.hpp.
+//
+// If the work of adhesion differs from site to site, a law's attraction is multiplied by a factor
+// of the site: scaled(). The law is then that of the largest work, and factor_of() gives the factor
+// of a smaller one.
+//
 // Each law is one text for all values (number.hpp): Terms<V> holds it for values of type V. A gap
 // that is not a number gives a force that is not a number.
 //
@@ -25,6 +31,7 @@
 #pragma once
 
 #include "kernels/pair_potential.hpp"
+#include "kernels/shaped_wall.hpp"
 
 #include <cmath>
 #include <limits>
@@ -175,7 +182,8 @@ public:
     ExponentialWall() = default;
     /// Sets the law. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
     ExponentialWall(double adhesion, double range, double stiffness)
-        : adhesion_(2.0 * adhesion /
+        : work_(adhesion),
+          adhesion_(2.0 * adhesion /
                     (1.0 + std::sqrt(1.0 + 2.0 * adhesion / (range * range * stiffness)))),
           range_(range), stiffness_(stiffness), tension_(adhesion_ / range) {}
 
@@ -185,6 +193,13 @@ public:
             : adhesion(same<V>(w.adhesion_)), rate(same<V>(1.0 / w.range_)),
               stiffness(same<V>(w.stiffness_)), tension(same<V>(w.tension_)) {}
 
+        /// Returns the law with its attraction times a factor.
+        ASPERITY_INLINE Terms scaled(V factor) const {
+            Terms law = *this;
+            law.adhesion = factor * adhesion;
+            law.tension = factor * tension;
+            return law;
+        }
         ASPERITY_INLINE V force(V gap) const {
             const V into = min(same<V>(0.0), gap);
             return -(stiffness * into) - tension * decay(gap);
@@ -209,6 +224,18 @@ public:
             return select(x > same<V>(ranges), same<V>(0.0), exponential(-x));
         }
     };
+    /// Returns the law with its attraction times a factor.
+    ExponentialWall scaled(double factor) const {
+        ExponentialWall law = *this;
+        law.adhesion_ *= factor;
+        law.tension_ *= factor;
+        return law;
+    }
+    /// Returns the factor with which scaled() has this part of the work of adhesion.
+    double factor_of(double part) const {
+        return work_ > 0.0 ? ExponentialWall(part * work_, range_, stiffness_).adhesion_ / adhesion_
+                           : 1.0;
+    }
     double force(double gap) const { return Terms<double>(*this).force(gap); }
     double energy(double gap) const { return Terms<double>(*this).energy(gap); }
     /// Returns -dF/dg at this gap, eV/Å^2.
@@ -230,6 +257,7 @@ public:
 private:
     static constexpr double ranges = 32.0; ///< e^-32 = 1.3e-14: nothing beyond
 
+    double work_ = 0.0;     ///< W of the whole law, without a factor
     double adhesion_ = 0.0; ///< A
     double range_ = 1.0, stiffness_ = 0.0, tension_ = 0.0;
 };
@@ -241,8 +269,14 @@ template <class... Law>
 std::variant<Law...> variant_of(const std::tuple<Law...>&);
 template <class... P>
 auto walls_of(const std::variant<P...>&)
-    -> decltype(variant_of(std::tuple_cat(std::declval<std::tuple<ExponentialWall>>(),
+    -> decltype(variant_of(std::tuple_cat(std::declval<std::tuple<ExponentialWall, ShapedWall>>(),
                                           std::declval<SmearedWallsOf<P>>()...)));
 using WallLaw = decltype(walls_of(std::declval<PairPotential>()));
+
+/// True for laws that differ from site to site by a factor.
+template <class Law>
+concept ScaledBySite = requires(const Law& law) {
+    law.scaled(1.0);
+};
 
 } // namespace asperity

@@ -44,7 +44,9 @@ struct Case {
     TheoryOptions theory;
     std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
-    std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
+    std::optional<std::uint32_t> table_digest;    ///< digest of the numbers in these files
+    std::optional<std::uint32_t> adhesion_digest; ///< digest of the field of adhesion
+    std::string adhesion_file; ///< file of this field, as found; empty: the scene has none
     /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
     /// over the work of adhesion
     std::optional<double> table_error;

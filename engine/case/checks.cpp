@@ -83,6 +83,10 @@ void check_path(const Case& c, io::Problems& problems) {
                 refuse("over a map with free edges",
                        "the map moves periodically, and its edges would move along",
                        "take surface.boundary = \"periodic\"");
+            if (!c.scene.interface.adhesion_field.empty())
+                refuse("over a field of the work of adhesion",
+                       "the heights move under the block, and the field would stay",
+                       "give interface.adhesion a number");
             if (wall && c.effects.dynamic)
                 refuse("over a wall on a dynamic path",
                        "a wall moves under a block that is in force balance",
@@ -238,6 +242,18 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
+    if (!interface.adhesion_field.empty() && pairs)
+        problems.add("interface.adhesion",
+                     fmt::format("= \"{}\" without a wall that has a law of its own",
+                                 interface.adhesion_field),
+                     "pairs of atoms, and walls of smeared atoms, have the work of adhesion of "
+                     "their potential",
+                     "take interface.kind = \"wall\" with another law than \"smeared\" on a "
+                     "quasi-static path, or leave adhesion out");
+    if (interface.has_adhesion() && interface.shape_repels() && interface.adhesion == 0.0)
+        problems.add("interface.adhesion", "= 0 meV/Å^2 with a law that repels by itself",
+                     "the work of adhesion multiplies its repulsion too, and nothing would repel",
+                     "take an adhesion above zero, or law = \"exponential\"");
     if (interface.frictionless && !wall && c.effects.dynamic)
         problems.add("interface.frictionless", "= true on a dynamic path",
                      "lateral displacements can be left out only where the block's stiffness for "
@@ -410,7 +426,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                        i + 1, asked, layer.cells, made));
     }
     if (const auto note = note_on_contact_edge(c)) list.push_back(*note);
-    for (std::size_t i = 0; i < c.table_files.size(); ++i) // no pair of atoms binds with more
+    for (std::size_t i = 0; i < c.simulation.interface.tables.size();
+         ++i) // no pair of atoms binds with more
         if (const double depth = c.simulation.interface.tables[i]->depth(); depth > 10.0)
             list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "
                                        "eV, and may be meV",

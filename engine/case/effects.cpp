@@ -37,7 +37,8 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
     return {{"dynamic", dynamic}, {"lateral displacements", lateral}, {"damping", damping},
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
-            {"sliding", sliding}, {"long-range tail", tail}, {"curvature", curvature},
+            {"sliding", sliding}, {"long-range tail", tail},
+            {"adhesion of each site", adhesion_map}, {"curvature", curvature},
             {"free edges", free_edges}, {"relaxing block", branches}, {"layers", layers},
             {"surface stress", surface_stress}, {"spring of the machine", spring},
             {"relaxation", relaxation},
@@ -93,6 +94,10 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
+    const std::string& field = s.interface.adhesion_field;
+    e.adhesion_map = {!field.empty(), field.empty()
+                                          ? "interface.adhesion is no field"
+                                          : fmt::format("interface.adhesion = \"{}\"", field)};
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
@@ -133,10 +138,12 @@ Effects effects_of(const Case& c) {
     e.checkpoints = {s.output.checkpoint > 0.0,
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const bool atoms = s.surface.kind == SurfaceKind::atoms;
-    e.theory = {!atoms && !e.free_edges && !e.layers && !e.surface_stress,
+    e.theory = {!atoms && !e.free_edges && !e.adhesion_map && !e.layers && !e.surface_stress,
                 atoms          ? "surface.kind = \"atoms\": the theory is of one layer with heights"
                 : e.free_edges ? "surface.boundary = \"free\": the theory is of an endless surface"
-                : e.layers     ? "block.layers: the theory is of one modulus"
+                : e.adhesion_map
+                    ? "interface.adhesion is a field: the theory is of one work of adhesion"
+                : e.layers         ? "block.layers: the theory is of one modulus"
                 : e.surface_stress ? "block.surface_stress: the theory is of a block without it"
                                    : "always: Persson's theory of this scene"};
     e.device = device_effect(c);

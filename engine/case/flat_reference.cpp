@@ -32,6 +32,17 @@ FlatReference flat_reference(const ExponentialWall& law, double area) {
     return flat;
 }
 
+/// Returns the reference of a shaped law.
+FlatReference flat_reference(const ShapedWall& law, double area) {
+    FlatReference flat;
+    flat.separation = law.deepest();
+    flat.work_of_adhesion = -units::milli_per_unit * law.energy(flat.separation) / area;
+    flat.largest_tension = law.largest_tension() / area / units::gigapascal;
+    flat.tension_separation = law.steepest();
+    flat.stiffness = law.stiffness_at(flat.separation) / area;
+    return flat;
+}
+
 } // namespace
 
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
@@ -41,7 +52,7 @@ PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites
             [&](const auto& law) {
                 return PairSum{{0.0, 0.0, law.force(gap)}, law.energy(gap), gap * gap};
             },
-            *options.wall);
+            mean_wall(options));
     const double level = 0.0; // a single atom, repeated
     const double b = spacing * sites / substrate_sites;
     const SubstrateMap map{&level, 1, b};
@@ -73,9 +84,13 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     const auto force = [&](double gap) {
         return flat_pair_sum(options, spacing, sites, substrate_sites, gap).force[2];
     };
-    if (options.wall)
-        if (const auto* law = std::get_if<ExponentialWall>(&*options.wall))
+    if (options.wall) {
+        const WallLaw wall = mean_wall(options);
+        if (const auto* law = std::get_if<ExponentialWall>(&wall))
             return flat_reference(*law, spacing * spacing);
+        if (const auto* law = std::get_if<ShapedWall>(&wall))
+            return flat_reference(*law, spacing * spacing);
+    }
     const double r0 = zero_of(options.potential); // the length of the potential
     // The minimum: where the force turns from pushing to pulling, by bisection.
     double low = 0.4 * r0, high = 1.2 * r0;

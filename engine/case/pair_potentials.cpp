@@ -7,6 +7,7 @@
 // cutoff.
 #include "engine/case/potential_table.hpp"
 #include "engine/case/resolving.hpp"
+#include "engine/case/wall_shape.hpp"
 
 #include "io/files.hpp"
 #include "io/table_file.hpp"
@@ -44,20 +45,22 @@ struct BadTable {
     std::string what, why, fix;
 };
 
-/// Reads it, once for each file. Throws BadTable.
-const PotentialTable& table_of(Case& c, const std::string& file) {
+/// Returns the path of a table. Throws BadTable.
+std::string table_file(const Case& c, const std::string& file) {
     const std::string found = find_beside_scene(c.scene, file, "interface.table");
     if (found.empty())
         throw BadTable{"there is no such file", table_format,
                        "give the path of such a file, relative to the scene or to the working "
                        "directory"};
-    auto& tables = c.simulation.interface.tables;
-    const auto known = std::find(c.table_files.begin(), c.table_files.end(), found);
-    if (known != c.table_files.end())
-        return *tables[static_cast<std::size_t>(known - c.table_files.begin())];
+    return found;
+}
+
+/// Reads a table and hands its columns to make(). Throws BadTable.
+template <class Make>
+void read_table(Case& c, const std::string& found, Make make) {
     try {
         const io::TableColumns read = io::read_table_columns(found);
-        tables.push_back(std::make_shared<PotentialTable>(read.distance, read.energy));
+        make(read.distance, read.energy);
         c.notes.insert(c.notes.end(), read.notes.begin(), read.notes.end());
         std::uint32_t digest = 0;
         for (const auto* column : {&read.distance, &read.energy})
@@ -70,6 +73,18 @@ const PotentialTable& table_of(Case& c, const std::string& file) {
         throw BadTable{error.what(), table_format, "correct the table"};
     }
     c.table_files.push_back(found);
+}
+
+/// Reads the table of a potential, once for each file. Throws BadTable.
+const PotentialTable& table_of(Case& c, const std::string& file) {
+    const std::string found = table_file(c, file);
+    auto& tables = c.simulation.interface.tables;
+    const auto known = std::find(c.table_files.begin(), c.table_files.end(), found);
+    if (known != c.table_files.end())
+        return *tables[static_cast<std::size_t>(known - c.table_files.begin())];
+    read_table(c, found, [&](const auto& distance, const auto& energy) {
+        tables.push_back(std::make_shared<PotentialTable>(distance, energy));
+    });
     return *tables.back();
 }
 
@@ -245,12 +260,42 @@ void find_pairs(Case& c, io::Problems& problems) {
                      "give one of them a larger cutoff; 4 r0 is usual");
 }
 
+/// Fills in the shape of the law of a wall.
+void find_shape(Case& c, io::Problems& problems) {
+    const Scene::Interface& keys = c.scene.interface;
+    const auto shape = [&](WallShape made) {
+        c.simulation.interface.shape = std::make_shared<const WallShape>(std::move(made));
+    };
+    switch (keys.law) {
+    case WallLawKind::smeared:
+    case WallLawKind::exponential:
+        break;
+    case WallLawKind::dugdale:
+        return shape(WallShape::dugdale());
+    case WallLawKind::power:
+        return shape(WallShape::power(keys.exponent));
+    case WallLawKind::nine_three:
+        return shape(WallShape::nine_three());
+    case WallLawKind::eight_two:
+        return shape(WallShape::eight_two());
+    case WallLawKind::table:
+        try {
+            read_table(c, table_file(c, keys.table),
+                       [&](const auto& gap, const auto& energy) { shape(WallShape(gap, energy)); });
+        } catch (const BadTable& bad) {
+            problems.add("interface.table", fmt::format("= \"{}\": {}", keys.table, bad.what),
+                         bad.why, bad.fix);
+        }
+    }
+}
+
 } // namespace
 
 void find_potentials(Case& c, io::Problems& problems) {
     const Scene::Interface& keys = c.scene.interface;
     if (keys.kind == InterfaceKind::atoms || keys.law == WallLawKind::smeared)
         find_potential(c, problems);
+    if (keys.has_adhesion()) find_shape(c, problems);
     if (c.scene.surface.kind == SurfaceKind::atoms) find_pairs(c, problems);
 }
 

@@ -52,7 +52,7 @@ void refuse_heights(const Case& c, io::Problems& refused) {
                         "width, here {:.3g} Å",
                         unit_fix, 0.1 * edge));
     const auto& interface = c.scene.interface;
-    if (interface.kind == InterfaceKind::wall && interface.law == WallLawKind::exponential &&
+    if (interface.has_adhesion() && interface.law != WallLawKind::table &&
         interface.adhesion > 0.0 && interface.range > edge)
         refused.add("interface.range",
                     fmt::format("= {:.6g} Å is wider than the box", interface.range),

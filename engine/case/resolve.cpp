@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/case/resolving.hpp"
 #include "engine/case/spacing_limits.hpp"
+#include "engine/case/wall_shape.hpp"
 
 #include "engine/scene/parse_path.hpp"
 #include "engine/units.hpp"
@@ -168,7 +169,21 @@ void fill_interface(Case& c) {
     const double curvature = adhesion / (i.range * i.range);
     const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
                                          : std::max(1000.0 * shortest_wave, 50.0 * curvature);
-    options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
+    if (options.shape) {
+        const double range = options.shape->length() > 0.0 ? options.shape->length() : i.range;
+        options.wall = ShapedWall(options.shape->shape(), adhesion * site, range, stiffness * site);
+    } else {
+        options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
+    }
+    if (options.adhesion) { // the mean of equal sites is exactly that of one
+        auto field = std::make_shared<AdhesionMap>(*options.adhesion);
+        double below = 0.0;
+        for (int y = 0; y < field->sites; ++y)
+            for (int x = 0; x < field->sites; ++x)
+                below += 1.0 - field->factor(*options.wall, x, y);
+        field->mean_factor = 1.0 - below / static_cast<double>(field->work.size());
+        options.adhesion = std::move(field);
+    }
 }
 
 /// Fills in flat on flat, and the bounds over flat layers of each type of atoms.
@@ -369,6 +384,8 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 
 /// Derives all consequences of keys that do not contradict each other.
 void derive(Case& c, io::Problems& problems) {
+    find_adhesion_field(c, problems);
+    if (!problems.empty()) return;
     io::Problems refused = c.scene.problems();
     refuse_what_is_not_there_yet(c, refused);
     c.edge_pinning = edge_pinning(c);
@@ -411,6 +428,7 @@ ProcessGrid Case::grid(int rank) const {
 std::vector<std::string> Case::inputs() const {
     std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
     files.insert(files.end(), table_files.begin(), table_files.end());
+    if (!adhesion_file.empty()) files.push_back(adhesion_file.substr(0, adhesion_file.find(":/")));
     return files;
 }
 

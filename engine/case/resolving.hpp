@@ -11,6 +11,10 @@ namespace asperity {
 /// Fills in the types and the potentials of simulation.interface from interface.potential and
 /// interface.pairs.
 void find_potentials(Case& c, io::Problems& problems);
+/// Reads or computes the field of interface.adhesion, if the scene has one: fills in
+/// simulation.interface.adhesion except mean_factor, and its largest value in the scene. Adds the
+/// mistakes to problems.
+void find_adhesion_field(Case& c, io::Problems& problems);
 /// Returns the file that a key names, beside the scene or in the working directory; empty if there
 /// is none.
 std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/case/spacing_limits.hpp"
 
+#include "engine/case/wall_shape.hpp"
 #include "engine/units.hpp"
 #include "kernels/surface_stiffness.hpp"
 
@@ -23,22 +24,27 @@ struct ContactEdge {
 
 std::optional<ContactEdge> edge_of(const Case& c) {
     const auto& wall = c.scene.interface;
-    if (wall.kind != InterfaceKind::wall || wall.law != WallLawKind::exponential ||
-        wall.adhesion == 0.0)
-        return std::nullopt;
+    if (!wall.has_adhesion() || wall.adhesion == 0.0) return std::nullopt;
     // The gap opens as the root of the distance from the edge of a contact.
     const double modulus = c.simulation.block.surface_material().contact_modulus();
     const double adhesion = wall.adhesion / units::milli_per_unit;
     const double spacing = c.simulation.block.spacing;
     ContactEdge edge;
-    edge.strip = modulus * wall.range * wall.range / adhesion;
+    // The largest tension is `steep` works of adhesion over the range; of a table, whose length is
+    // its range, one.
+    double range = wall.range, steep = 1.0;
+    if (const auto& shape = c.simulation.interface.shape) {
+        steep = shape->shape().tension;
+        if (shape->length() > 0.0) range = shape->length();
+    }
+    edge.strip = modulus * range * range / (adhesion * steep * steep);
     // A row lets go at its largest tension, adhesion / range, whatever the work of adhesion: where
     // the strip is short the force goes as spacing / strip. Between that and 1 as measured on
     // smooth spheres (docs/explanation/model.md).
     edge.pinning = std::pow(1.0 + std::pow(0.68 * spacing / edge.strip, 2.5), 0.4);
     edge.remedy =
         fmt::format("interface.range = {:.3g} Å or more, or surface.spacing = {:.3g} Å or less,",
-                    std::sqrt(2.0 * spacing * adhesion / modulus), 0.5 * edge.strip);
+                    steep * std::sqrt(2.0 * spacing * adhesion / modulus), 0.5 * edge.strip);
     return edge;
 }
 

@@ -131,7 +131,7 @@ Interface::Substrate Interface::substrate_of(const AtomPositions& atoms) const {
     switch (method_) {
     case InterfaceMethod::wall:
         if (!options_.wall) refuse("a wall needs its law");
-        return OverWall(map_, tile_, *options_.wall, options_.free_edges, options_.slides);
+        return OverWall(map_, tile_, options_);
     case InterfaceMethod::cells:
         if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
         return OverAtoms(atoms, tile_, spacing_, options_);
@@ -244,6 +244,8 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
                                         : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
                                                        (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
             maps.gap.push_back(reference_height_ + displacement.z(x, y) - below);
+            if (options_.adhesion)
+                maps.adhesion.push_back(options_.adhesion->at(tile_.x0 + x, tile_.y0 + y));
         }
     return maps;
 }

@@ -51,6 +51,8 @@ struct InterfaceMaps {
     /// hole.
     std::vector<double> gap;
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
+    /// Work of adhesion of the site, meV/Å^2; empty: that of all sites is one
+    std::vector<double> adhesion;
 };
 
 /// Cuts a map of across x across sites to its first n x n sites.

@@ -9,16 +9,15 @@
 
 namespace asperity {
 
-OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, bool free_edges,
-                   bool slides)
-    : law_(law) {
+OverWall::OverWall(const HeightMap& map, const Tile& tile, const InterfaceOptions& options)
+    : law_(*options.wall) {
     const int n = map.sites();
-    if (tile.sites != (free_edges ? 2 * n : n))
+    if (tile.sites != (options.free_edges ? 2 * n : n))
         throw std::invalid_argument(fmt::format(
             "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
             "take surface.lattice_ratio = 1",
             tile.sites, tile.sites, map.sites(), map.sites()));
-    if (slides) {
+    if (options.slides) {
         sliding_.emplace(map, tile);
         return;
     }
@@ -26,14 +25,37 @@ OverWall::OverWall(const HeightMap& map, const Tile& tile, const WallLaw& law, b
     const PlaneView<double> below = height_.plane(0);
     for (int y = 0; y < tile.ny; ++y)
         for (int x = 0; x < tile.nx; ++x)
-            below(x, y) = free_edges && (tile.x0 + x >= n || tile.y0 + y >= n)
+            below(x, y) = options.free_edges && (tile.x0 + x >= n || tile.y0 + y >= n)
                               ? std::numeric_limits<double>::quiet_NaN()
                               : map.at(tile.x0 + x, tile.y0 + y);
+    if (!options.adhesion) return;
+    const AdhesionMap& field = *options.adhesion;
+    if (field.sites != n)
+        throw std::invalid_argument(
+            fmt::format("interface: {} x {} sites have a field of {} x {} works of adhesion", n, n,
+                        field.sites, field.sites));
+    factor_ = Field<double>(tile, 1, 0);
+    const PlaneView<double> factor = factor_.plane(0);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x)
+            factor(x, y) = field.factor(law_, tile.x0 + x, tile.y0 + y);
+}
+
+double OverWall::stiffness_at(int x, int y, double gap) const {
+    return std::visit(
+        [&]<class Law>(const Law& law) {
+            if constexpr (ScaledBySite<Law>)
+                if (!factor_.empty()) return law.scaled(factor_.plane(0)(x, y)).stiffness_at(gap);
+            return law.stiffness_at(gap);
+        },
+        law_);
 }
 
 void OverWall::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                          InterfaceSums& sums) const {
-    interface_kernels().wall.sweep[how.observe](sites, height(), law_, y, y + 1, sums);
+    interface_kernels().wall.sweep[how.observe](
+        sites, height(), factor_.empty() ? PlaneView<const double>() : factor_.plane(0), law_, y,
+        y + 1, sums);
 }
 
 } // namespace asperity

@@ -6,20 +6,46 @@
 
 #include "kernels/interface_kernels.hpp"
 
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace asperity {
 
 class PotentialTable;
+class WallShape;
 
 /// Methods of finding pairs. The reference loop is for tests; rows hold for any spacing.
 enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
+/// Work of adhesion of each site over a wall (a field of sites).
+struct AdhesionMap {
+    std::string name;         ///< file or formula, as the scene gives it
+    int sites = 0;            ///< number of sites across the box
+    std::vector<double> work; ///< work[y * sites + x], meV/Å^2
+    double largest = 0.0;     ///< largest of them, that of InterfaceOptions::wall
+    double mean_factor = 1.0; ///< mean of factor() over the sites
+
+    /// Returns the work of adhesion of site (x, y), meV/Å^2; 0 beyond the box.
+    double at(int x, int y) const {
+        if (x >= sites || y >= sites) return 0.0;
+        return work[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
+                    static_cast<std::size_t>(x)];
+    }
+    /// Returns the part of so many sites across.
+    AdhesionMap corner(int across) const;
+    /// Returns the factor of the law of site (x, y) of the box (kernels/wall_law.hpp).
+    double factor(const WallLaw& law, int x, int y) const;
+};
+
 /// Options of the interface.
 struct InterfaceOptions {
-    std::optional<WallLaw> wall = {}; ///< wall in place of atoms
+    std::optional<WallLaw> wall = {};            ///< wall in place of atoms
+    std::shared_ptr<const WallShape> shape = {}; ///< shape that this law reads; null: none
+    /// Work of adhesion of each site over the wall; null: that of the law
+    std::shared_ptr<const AdhesionMap> adhesion = {};
     PairPotential potential;
     /// Potentials of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
     std::vector<PairPotential> by_type = {};
@@ -46,6 +72,9 @@ struct SweepOptions {
     bool rough = false;           ///< forces good to some 1e-6 eV/Å are enough
     std::optional<double> height; ///< reference height for this sweep, Å; none: the interface's own
 };
+
+/// Returns the law of a wall with the mean of the sites' attractions.
+WallLaw mean_wall(const InterfaceOptions& options);
 
 /// Returns the distance beyond which the substrate does not act on a site, Å: the cutoff; with the
 /// tail, which has no end, 4 cutoffs, where 1/256 of its energy is left.

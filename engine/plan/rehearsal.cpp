@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -73,6 +74,8 @@ Case piece_of(const Case& c, int sites, bool timed) {
         surface.rolloff = std::max(1.0, surface.rolloff * fraction);
         surface.cutoff = std::max(surface.rolloff, surface.cutoff * fraction);
     }
+    if (auto& field = piece.simulation.interface.adhesion)
+        field = std::make_shared<AdhesionMap>(field->corner(sites));
     const double ratio = static_cast<double>(block.sites) / surface.sites;
     block.sites = sites;
     surface.sites = substrate_sites(sites, ratio);

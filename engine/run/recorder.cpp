@@ -215,7 +215,7 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
     const auto n = static_cast<std::uint64_t>(inner);
     io::PayloadWriter record;
     ranks.on_root([&] {
-        record.reserve(4096 + state.size() + 49 * n * n);
+        record.reserve(4096 + state.size() + 57 * n * n);
         put_group(record, "/fields/" + state, true);
     });
     std::vector<double> gap;                                                 // on the root
@@ -230,6 +230,7 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
     put("gap", gap);
     put("pressure", of_box(whole(ranks, grid, maps.pressure)));
     put("distance", of_box(whole(ranks, grid, maps.distance)));
+    if (interface.options().adhesion) put("adhesion", of_box(whole(ranks, grid, maps.adhesion)));
     put("u_x", of_box(gather_plane(ranks, grid, 0, layer.x)));
     put("u_y", of_box(gather_plane(ranks, grid, 0, layer.y)));
     put("u_z", of_box(gather_plane(ranks, grid, 0, layer.z)));

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -215,6 +216,12 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (c.table_digest)
         result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
+    if (const auto& field = c.simulation.interface.adhesion) {
+        result.set("interface.adhesion_digest", fmt::format("crc32:{:08x}", *c.adhesion_digest));
+        result.set("interface.adhesion_least",
+                   *std::min_element(field->work.begin(), field->work.end()));
+        result.set("interface.adhesion_largest", field->largest);
+    }
     if (c.table_error) result.set("interface.table_error", *c.table_error);
     return result;
 }
@@ -232,7 +239,8 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
         result.set("instrument.spring", c.simulation.drive.stiffness / units::newton_per_metre);
     if (results.edge_distance) result.set("instrument.edge_distance", 0.1 * *results.edge_distance);
     const auto& wall = c.simulation.interface.wall;
-    if (!wall || !std::holds_alternative<ExponentialWall>(*wall))
+    const auto has_range = []<class Law>(const Law&) { return ScaledBySite<Law>; };
+    if (!wall || !std::visit(has_range, *wall)) // pairs of atoms, or smeared ones
         result.set("interface.cutoff", cutoff_of(c.simulation.interface.potential));
     result.set("run.ranks", c.ranks);
     result.set("run.threads", omp_get_max_threads());
@@ -257,6 +265,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
     part["output"]["velocities"] = c.output.trajectory && c.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
     if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
+    if (c.adhesion_digest) part["interface"]["content_of_adhesion"] = *c.adhesion_digest;
     return io::json_text(part);
 }
 

@@ -224,6 +224,19 @@ std::string progress_phase(const Case& c, const std::string& segment, double for
                        c.fraction(in_contact), io::number(mean_height, 2));
 }
 
+namespace {
+
+/// Returns the description of a wall, with the field of its work of adhesion.
+std::string wall_text(const Case& c) {
+    const auto& field = c.simulation.interface.adhesion;
+    if (!field) return "a wall; ";
+    return fmt::format("a wall; work of adhesion \"{}\", {} to {}; on average ", field->name,
+                       with_units(*std::min_element(field->work.begin(), field->work.end())),
+                       with_units(field->largest));
+}
+
+} // namespace
+
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory) {
     const BlockOptions& block = c.simulation.block;
@@ -244,7 +257,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     fmt::print(to,
                "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
                "{} precision\n",
-               interface.wall ? "a wall; " : "", with_units(c.flat.work_of_adhesion),
+               interface.wall ? wall_text(c) : "", with_units(c.flat.work_of_adhesion),
                io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
                interface.mixed ? "mixed" : "double");
     fmt::print(to, "  machine     {}, {} thread{} each, {:.{}f} MB a rank\n", grid.describe(),

@@ -299,11 +299,12 @@ io::Schema bind(Scene& scene) {
     });
     schema
         .key("table", interface.table,
-             "file of potential = \"table\": text of distances in Å and energies in eV; of more "
+             "file of potential = \"table\": text of distances in Å and energies in eV (of law = "
+             "\"table\": gaps, and energies of any scale, which adhesion sets); of more "
              "columns a "
              "line above names them (\"# r F V\"); looked for beside the scene, then in the "
              "working directory")
-        .needs = {needs.pairs, needs.potential(Tabulated::name)};
+        .needs = {needs.table};
     schema
         .number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
                    "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
@@ -338,28 +339,64 @@ io::Schema bind(Scene& scene) {
     schema
         .choice<WallLawKind>(
             "law", interface.law,
-            {{"exponential", WallLawKind::exponential}, {"smeared", WallLawKind::smeared}},
-            "law of a wall: an attraction exp(-gap/range) over a linear repulsion, or the "
-            "substrate's "
-            "atoms smeared over their layer (potential, cutoff, tail)")
+            {{"exponential", WallLawKind::exponential},
+             {"smeared", WallLawKind::smeared},
+             {"dugdale", WallLawKind::dugdale},
+             {"power", WallLawKind::power},
+             {"9-3", WallLawKind::nine_three},
+             {"8-2", WallLawKind::eight_two},
+             {"table", WallLawKind::table}},
+            "law of a wall: an attraction exp(-gap/range), one of constant tension "
+            "up to the range, or 1/(1 + gap/range)^exponent, over a linear "
+            "repulsion; (range/gap)^9 against its cube, or the eighth power "
+            "against the square, deepest at the range; interface.table; or the "
+            "substrate's atoms smeared over their layer (potential, cutoff, tail)")
         .needs = {needs.wall};
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
                     "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
                     "scene does not say"});
     schema
-        .number("adhesion", interface.adhesion, "meV/Å^2", at_least(0.0),
-                "work of adhesion of flat surfaces, Δγ, of the exponential law; 0: no attraction")
-        .needs = {needs.exponential};
-    schema.number("range", interface.range, "Å", positive(), "of the exponential law").needs = {
-        needs.exponential};
+        .number_or_text(
+            "adhesion", interface.adhesion, interface.adhesion_field, "meV/Å^2", at_least(0.0),
+            "map.npy",
+            "work of adhesion of flat surfaces, Δγ, of a wall that is not smeared; 0: no "
+            "attraction. One "
+            "for each site: a map, in a file as surface.file takes it, or a formula, \"stripes LOW "
+            "HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", \"rings MEAN AMPLITUDE PERIOD\" or "
+            "\"patches LOW HIGH LENGTH SEED\" (random, with this correlation length), as in "
+            "\"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\"")
+        .needs = {needs.adhesion};
+    schema
+        .number_or("adhesion_size", interface.adhesion_size, "auto", "Å", positive(),
+                   "edge of the map of interface.adhesion; \"auto\": what the file says, else the "
+                   "box")
+        .needs = {needs.adhesion_map};
+    schema
+        .key("adhesion_unit", interface.adhesion_unit,
+             "its unit; \"auto\": what the file says, else meV/Å^2")
+        .needs = {needs.adhesion_map};
+    schema
+        .choice<MapMissing>("adhesion_missing", interface.adhesion_missing,
+                            {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
+                            "points of this map without a number: as surface.file_missing")
+        .needs = {needs.adhesion_map};
+    schema
+        .choice<MapCrop>("adhesion_crop", interface.adhesion_crop,
+                         {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
+                         "such a map that is not square: as surface.file_crop")
+        .needs = {needs.adhesion_map};
+    schema.number("range", interface.range, "Å", positive(), "of these laws").needs = {
+        needs.ranged};
+    schema.number("exponent", interface.exponent, "", io::Range{1.0, 100.0}, "of law = \"power\"")
+        .needs = {needs.power};
     schema
         .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-                   "stiffness of the exponential law's repulsion; \"auto\": nearly a hard wall, "
+                   "stiffness of the linear repulsion; \"auto\": nearly a hard wall, "
                    "a thousand times the stiffness of the block for its shortest wave, 500 π E* "
                    "/ spacing, and at least 50 adhesion / "
                    "range²")
-        .needs = {needs.exponential};
+        .needs = {needs.touched};
 
     schema
         .choice<EdgePinning>("edge_pinning", interface.edge_pinning,
@@ -368,7 +405,7 @@ io::Schema bind(Scene& scene) {
                              "1.3 times too large: "
                              "the spacing does not resolve the range, and rows of sites hold the "
                              "edge of the contact")
-        .needs = {needs.exponential};
+        .needs = {needs.adhesion};
 
     auto& drive = scene.drive;
     schema.section("drive", "What is done to the top plane, and how time passes.");

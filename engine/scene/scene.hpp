@@ -38,7 +38,7 @@ enum class Resample { none, band_limited };
 enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
-enum class WallLawKind { smeared, exponential };
+enum class WallLawKind { smeared, exponential, dugdale, power, nine_three, eight_two, table };
 /// Treatment of rows of sites that hold the edge of a contact.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
@@ -109,11 +109,30 @@ struct Scene {
         /// Normal displacements only; after reading: true over a wall.
         bool frictionless = false;
         WallLawKind law = WallLawKind::exponential; ///< law of a wall
-        double adhesion = 100.0;                    ///< meV/Å^2, exponential
-        double range = 1.0;                         ///< Å, exponential
-        std::optional<double> stiffness; ///< GPa/Å, exponential; empty: derived from the block
+        double adhesion = 100.0;                    ///< meV/Å^2, of all laws but the smeared one
+        /// Work of adhesion of each site: a file of a map, or a formula (engine/case/
+        /// adhesion_field.cpp); empty: one for all. A case has its largest value in `adhesion`.
+        std::string adhesion_field;
+        std::optional<double> adhesion_size; ///< edge of that map, Å; empty: as surface.file_size
+        std::string adhesion_unit =
+            "auto"; ///< unit of that map; "auto": that of the file, else meV/Å^2
+        MapMissing adhesion_missing = MapMissing::refuse;
+        MapCrop adhesion_crop = MapCrop::none;
+        double range = 1.0;    ///< Å, of these laws but a table
+        double exponent = 3.0; ///< exponent of the law "power"
+        /// GPa/Å, of a law whose shape begins where the solids touch; empty: derived from the block
+        std::optional<double> stiffness;
         EdgePinning edge_pinning = EdgePinning::refuse;
 
+        /// Returns true for a wall whose law has a work of adhesion of its own.
+        bool has_adhesion() const {
+            return kind == InterfaceKind::wall && law != WallLawKind::smeared;
+        }
+        /// Returns true for a shape with a repulsion of its own.
+        bool shape_repels() const {
+            return law == WallLawKind::nine_three || law == WallLawKind::eight_two ||
+                   law == WallLawKind::table;
+        }
         std::string potential_name() const;
     } interface;
 

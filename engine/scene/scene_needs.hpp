@@ -32,12 +32,32 @@ struct Needs {
     Need periodic{[this] { return !scene.has_free_edges(); }, "surface.boundary is \"free\""};
     Need wall{[this] { return scene.interface.kind == InterfaceKind::wall; },
               "interface.kind is not \"wall\""};
-    Need exponential{[this] {
-                         return scene.interface.kind == InterfaceKind::wall &&
-                                scene.interface.law == WallLawKind::exponential;
-                     },
-                     "there is no wall with the exponential law"};
-    Need pairs{[this] { return !exponential.is_met(); }, "the wall has the exponential law"};
+    Need adhesion{[this] { return scene.interface.has_adhesion(); },
+                  "there is no wall with a law of its own"};
+    Need touched{
+        [this] { return scene.interface.has_adhesion() && !scene.interface.shape_repels(); },
+        "there is no wall with a law that begins where it is touched"};
+    Need ranged{[this] {
+                    return scene.interface.has_adhesion() &&
+                           scene.interface.law != WallLawKind::table;
+                },
+                "there is no wall with a law of a range"};
+    Need power{[this] {
+                   return scene.interface.has_adhesion() &&
+                          scene.interface.law == WallLawKind::power;
+               },
+               "interface.law is not \"power\""};
+    Need table{[this] {
+                   return scene.interface.has_adhesion()
+                              ? scene.interface.law == WallLawKind::table
+                              : scene.interface.potential_name() == Tabulated::name ||
+                                    !scene.interface.pairs.empty();
+               },
+               "neither interface.potential nor interface.law is \"table\""};
+    Need adhesion_map{
+        [this] { return adhesion.is_met() && !scene.interface.adhesion_field.empty(); },
+        "interface.adhesion names no map of a wall"};
+    Need pairs{[this] { return !adhesion.is_met(); }, "the wall has a law of its own"};
     Need dynamic{[this] { return scene.is_dynamic(); }, "no time passes on this path"};
     Need time{[this] {
                   return scene.is_dynamic() ||

@@ -114,6 +114,7 @@ std::string SteppedPath::description() const {
                       {"overrides", source_.overrides}};
     if (surface_.file_digest) scene["content_of_surface.file"] = *surface_.file_digest;
     if (case_.table_digest) scene["content_of_tables"] = *case_.table_digest;
+    if (case_.adhesion_digest) scene["content_of_adhesion"] = *case_.adhesion_digest;
     return io::json_text(io::Json{{"simulation", scene}});
 }
 

@@ -106,10 +106,11 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
         double furthest = 0.0;
 #pragma omp parallel for schedule(static) reduction(max : furthest)
         for (int y = 0; y < u.ny; ++y) {
-            const WallRow<T> row{interface_.wall()->height().line(y), u.line(y),
-                                 std::as_const(step_).plane(0).line(y), elastic[0].plane(0).line(y),
-                                 next_.plane(0).line(y)};
-            const WallSums s = interface_.wall()->rest_row(row, rule, u.nx);
+            const WallRow<T> row{.u = u.line(y),
+                                 .step = std::as_const(step_).plane(0).line(y),
+                                 .elastic = elastic[0].plane(0).line(y),
+                                 .next = next_.plane(0).line(y)};
+            const WallSums s = interface_.wall()->rest_row(y, row, rule, u.nx);
             furthest = std::max(furthest, s.furthest);
             sums.part(y)[0] = s.reversal;
             sums.part(y)[1] = s.height;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <variant>
 
 namespace asperity {
 
@@ -34,19 +33,15 @@ public:
         to_sites(g, block.transform<double>(), at_sites);
 
         const double spring = block.stiffest_wave();
-        const PlaneView<const double> below = interface.wall()->height();
-        std::visit(
-            [&](const auto& law) {
-                for_sites([&](int x, int y) {
-                    const double h = std::isnan(below(x, y))
-                                         ? 0.0
-                                         : law.stiffness_at(interface.reference_height() +
-                                                            u_(x, y) - below(x, y));
-                    h_.plane(0)(x, y) = h;
-                    weight_.plane(0)(x, y) = 1.0 / (spring + std::max(0.0, h));
-                });
-            },
-            *interface.options().wall);
+        const OverWall& wall = *interface.wall();
+        const double reference = interface.reference_height();
+        for_sites([&](int x, int y) {
+            const double below = wall.height()(x, y);
+            const double h =
+                std::isnan(below) ? 0.0 : wall.stiffness_at(x, y, reference + u_(x, y) - below);
+            h_.plane(0)(x, y) = h;
+            weight_.plane(0)(x, y) = 1.0 / (spring + std::max(0.0, h));
+        });
         if (held_) weights_ = sum([&](int x, int y) { return weight_.plane(0)(x, y); });
         const PlaneView<const double> left = std::as_const(at_sites[0]).plane(0);
         for_sites([&](int x, int y) {

@@ -128,6 +128,11 @@ NoTheory no_theory(const Case& c) {
                 "the substrate ends at the edges of the box (surface.boundary = \"free\"), and the "
                 "theories are of endless surfaces",
                 "take boundary = \"periodic\""};
+    if (c.effects.adhesion_map)
+        return {"interface.adhesion",
+                "the work of adhesion differs from site to site (interface.adhesion), and the "
+                "theories are of one",
+                "give interface.adhesion a number, for example the mean"};
     constexpr const char* of_one = "the theories are of a half-space of one modulus";
     if (c.effects.layers)
         return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),

@@ -80,6 +80,7 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
                            {relaxing, "block.layers=[[\"1 nm\", \"10 GPa\", 0.3]]"},
                            {relaxing, "block.surface_stress=0.1"},
                            {relaxing, "drive.stiffness=0.2"},
+                           {wall, "interface.adhesion=stripes 1 9 20"},
                            {wall, "surface.boundary=free"}}) {
         Keys keys = row.with;
         keys.emplace_back(row.key);
@@ -128,6 +129,11 @@ TEST(Effects, OffMakesNoCall) {
         {&Effects::sliding, moving, "drive.path=[\"approach\", \"slide x 1 Å\"]", "",
          "/series/slide_x"},
         {&Effects::branches, still, "block.prony=[[2.0, \"1 ns\"]]", "", "/series/branch_energy"},
+        {&Effects::adhesion_map,
+         {"block.thickness=16", "drive.path=relax", "interface.kind=wall"},
+         "interface.adhesion=stripes 1 9 20",
+         "",
+         "/fields/relaxed/adhesion"},
         {&Effects::spring, still, "drive.stiffness=0.2", "", "/series/spring_energy"},
         {&Effects::free_edges, sphere, "surface.boundary=free", "", "instrument.edge_distance"},
         {&Effects::relaxation,

@@ -393,7 +393,7 @@ TEST(Scene, Notes) {
     for (const auto& [key, value, reason] :
          {std::array{"surface.file_missing", "\"fill\"", "surface.kind is not \"file\""},
           {"surface.file_crop", "\"middle\"", "surface.kind is not \"file\""},
-          {"interface.edge_pinning", "\"allow\"", "there is no wall with the exponential law"},
+          {"interface.edge_pinning", "\"allow\"", "there is no wall with a law of its own"},
           {"drive.seed", "2", "drive.temperature is 0"},
           {"drive.damping_from", "0.5\ndrive.damping = 0", "drive.damping is 0"},
           {"block.layers_per_level", "3\nblock.model = \"lattice\"",

@@ -3,6 +3,7 @@
 //
 // A quasi-static path that is stopped, between points or within a relaxation, and resumed from a
 // checkpoint is the same bits as one that never stopped, and as that of one rank.
+#include "engine/case/wall_shape.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/statics/quasistatic.hpp"
 #include "support/cases.hpp"
@@ -22,12 +23,14 @@ namespace {
 using test::world;
 
 constexpr int sites = 16;
+const WallShape eight_two = WallShape::eight_two();
 
 struct Kind {
     const char* name = "top";
     bool frictionless = false;
     Constraint::Of along = Constraint::Of::top;
     std::optional<WallLaw> wall = {};
+    bool field = false; ///< a work of adhesion for each site
     int thickness = 60;
     bool slides = false;               ///< between approach and pull-off
     std::vector<Branch> branches = {}; ///< of a block that relaxes; it is held there
@@ -36,6 +39,14 @@ struct Kind {
 InterfaceOptions interface_of(const Kind& kind) {
     InterfaceOptions o = test::paper_interface();
     o.wall = kind.wall;
+    if (kind.field) {
+        auto field = std::make_shared<AdhesionMap>();
+        field->sites = sites;
+        field->largest = sites * sites;
+        for (int i = 1; i <= sites * sites; ++i)
+            field->work.push_back(i * 7 % 256 + 1);
+        o.adhesion = field;
+    }
     o.slides = kind.slides;
     return o;
 }
@@ -147,7 +158,15 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           .thickness = 20,
           .slides = true,
           .branches = {{1.5, 1e3}, {0.5, 2e4}}},
-          Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)}}) {
+          Kind{.name = "wall", .frictionless = true, .wall = ExponentialWall(0.7, 0.4, 1000.0)},
+          Kind{.name = "field",
+          .frictionless = true,
+          .wall = ExponentialWall(0.7, 0.4, 1000.0),
+          .field = true},
+          Kind{.name = "shape",
+          .frictionless = true,
+          .wall = ShapedWall(eight_two.shape(), 0.7, 0.6, 0.0),
+          .field = true}}) {
         const std::size_t most = kind.slides || !kind.branches.empty() ? 90 : 45;
         const std::vector<std::uint64_t> whole = cycle(world(), kind, most);
         EXPECT_EQ(whole, cycle(Communicator(), kind, most)) << kind.name << " on one rank";

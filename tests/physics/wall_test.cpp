@@ -3,6 +3,7 @@
 //
 // A wall in place of atoms: its laws, the states over it, and problems with closed forms.
 #include "engine/case/case.hpp"
+#include "engine/case/wall_shape.hpp"
 #include "engine/statics/quasistatic.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "engine/units.hpp"
@@ -26,13 +27,19 @@ constexpr double pi = std::numbers::pi;
 constexpr double a = 2.6;
 const LennardJones pair{0.1, 3.28, 13.12};
 
+const WallShape power = WallShape::power(3.0), nine_three = WallShape::nine_three(),
+                eight_two = WallShape::eight_two();
+
 std::vector<WallLaw> laws() {
     return {SmearedWall(pair, 1.0 / (a * a), false),
             SmearedWall(pair, 1.0 / (a * a), true),
             SmearedWall(Morse(), 1.0 / (a * a), false),
             SmearedWall(Morse(), 1.0 / (a * a), true),
             ExponentialWall(0.7, 1.3, 24.0),
-            ExponentialWall(0.0, 1.0, 24.0)};
+            ExponentialWall(0.0, 1.0, 24.0),
+            ShapedWall(power.shape(), 0.7, 3.9, 24.0),
+            ShapedWall(nine_three.shape(), 0.7, 2.3, 0.0),
+            ShapedWall(eight_two.shape(), 0.7, 2.3, 0.0)};
 }
 
 BlockOptions paper_block_of(int sites, double spacing) {

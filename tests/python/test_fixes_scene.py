@@ -41,6 +41,7 @@ MAP = {**STILL, "surface.kind": "file", "surface.file": "map.txt"}
 TABLE = {**STILL, "surface.rms": "0", "interface.potential": "table", "interface.table": "good.txt"}
 LEAD = '["approach", "load 1 MPa"]'
 FIELDS = "output.fields"
+FIELD = "interface.adhesion"
 FOLDER: list[Path] = []
 
 
@@ -74,7 +75,8 @@ def lammps(units, columns=4, again=False):
 
 
 FILES |= {"real.txt": lammps("real"), "si.txt": lammps("si"), "metal.txt": lammps("metal"), "two.txt": lammps("metal", again=True),
-          "three.txt": lammps("metal", 3), "map.txt": "\n".join(" ".join(str((3 * x + 5 * y) % 7 / 10) for x in range(16)) for y in range(16))}
+          "three.txt": lammps("metal", 3), "minus.txt": "-1 " * 16 + "\n" + ("1 " * 16 + "\n") * 15,
+          "map.txt": "\n".join(" ".join(str((3 * x + 5 * y) % 7 / 10) for x in range(16)) for y in range(16))}
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -203,6 +205,27 @@ CASES = [
     ("or thinner layers", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
     ("take a thicker layer", {"block.layers": '[["0.5 Å", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
     ("or a smaller surface.spacing", {"block.layers": '[["1 Å", "10 GPa", 0.3]]'}, {"surface.spacing": "1.9"}, {**QUASI, "interface.kind": "wall"}),
+    # Fields of the work of adhesion, and shapes
+    ('write "(.*)", as in', {FIELD: "stripes 1 2"}, {FIELD: "stripes 1 2 20"}, WALL),
+    ('as in "(.*)"', {FIELD: "discs 1 2 1 ps 4 nm"}, {FIELD: "discs 1 2 1 nm 4 nm"}, WALL),
+    ('as in "(.*)"', {FIELD: "patches 1 -2 20 1"}, {FIELD: "patches 1 2 20 1"}, WALL),
+    ("take a shorter period", {FIELD: "stripes 1 2 100 nm"}, {FIELD: "stripes 1 2 2 nm"}, WALL),
+    ("or a wider box", {FIELD: "stripes 1 2 5 nm"}, {"surface.sites": "32"}, WALL),
+    ("take an amplitude from 0 to 1", {FIELD: "rings 10 2 20"}, {FIELD: "rings 10 1 20"}, WALL),
+    ("give the path of a map", {FIELD: "none.txt"}, {FIELD: "map.txt"}, WALL),
+    ('write, for example, "(.*)"', {FIELD: "none.txt"}, {FIELD: "stripes 10 mJ/m^2 50 mJ/m^2 2 nm"}, WALL),
+    ("take surface.spacing = ([\\d.]+)", {FIELD: "map.txt", FIELD + "_size": "30"}, {"surface.spacing": "{0}"}, WALL),
+    ("with interface.adhesion_size = ([\\d.]+)", {FIELD: "map.txt", FIELD + "_size": "30"}, {FIELD + "_size": "{0}"}, WALL),
+    ("give a map of that size", {FIELD: "map.txt", "surface.sites": "20"}, {"surface.sites": "16"}, WALL),
+    ("or set surface.sites = (\\d+)", {FIELD: "map.txt", "surface.sites": "20"}, {"surface.sites": "{0}"}, WALL),
+    ("set the negative values", {FIELD: "minus.txt"}, {FIELD: "map.txt"}, WALL),
+    ("give interface.adhesion a number", {"drive.path": '["approach", "slide x 5 Å"]', FIELD: "stripes 1 2 20"}, {FIELD: "1.5"}, {**QUASI, "interface.kind": "wall"}),
+    ("take interface.kind = \"wall\" with another law", {FIELD: "map.txt"}, {"interface.kind": "wall"}, STILL),
+    ("or leave adhesion out", {FIELD: "map.txt", "interface.law": "smeared"}, {FIELD: None}, WALL),
+    ("take an adhesion above zero", {FIELD: "0", "interface.law": "9-3"}, {FIELD: "1"}, WALL),
+    ("above zero, or law = \"exponential\"", {FIELD: "0", "interface.law": "9-3"}, {"interface.law": "exponential"}, WALL),
+    ("take a small work of adhesion in place of 0", {FIELD: "stripes 0 2 20", "interface.law": "9-3"}, {FIELD: "stripes 0.1 2 20"}, WALL),
+    ("of 0, or law = \"exponential\"", {FIELD: "stripes 0 2 20", "interface.law": "9-3"}, {"interface.law": "exponential"}, WALL),
     ("give a fraction below 1", {"drive.damping_from": "1"}, {"drive.damping_from": "0.5"}, WARM),
     ("give a damping, for example (.*)", {"drive.damping": "0"}, {"drive.damping": "{0}"}, WARM),
     ("or take it out of output.fields", {FIELDS: '["after-approach:5"]'}, {FIELDS: None}, STILL),
@@ -410,6 +433,7 @@ def test_a_fix_of_the_file(tmp_path):
     ("take a surface with heights: (self-affine), flat or file", {}, {"surface.kind": "{0}", "interface.pairs": None}, ATOMS),
     ("leave block.layers out", {"block.layers": COATED}, {"block.layers": None}, QUASI),
     ('take boundary = "periodic"', {}, {"surface.boundary": "periodic"}, FREE),
+    ("give interface.adhesion a number", {FIELD: "stripes 1 2 20"}, {FIELD: "1.5"}, WALL),
     ("leave block.surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, QUASI),
     ("give a larger q_max", {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.q_max": "4"}, STILL),
     ('or kind = "flat"', {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.kind": "flat"}, STILL),

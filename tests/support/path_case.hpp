@@ -78,8 +78,10 @@ struct PathCase {
           block(o, Communicator(), friction == Friction::without) {}
     /// Over a wall.
     PathCase(const BlockOptions& o, Surface s, const WallLaw& wall)
-        : options(o), surface(std::move(s)),
-          interface(surface, grid.tile(0), o.spacing, over(wall)), block(o, Communicator(), true) {}
+        : PathCase(o, std::move(s), over(wall)) {}
+    PathCase(const BlockOptions& o, Surface s, const InterfaceOptions& wall)
+        : options(o), surface(std::move(s)), interface(surface, grid.tile(0), o.spacing, wall),
+          block(o, Communicator(), true) {}
 
     KeptPath path(double tolerance, double step = 0.25, double load = 0.0,
                   Constraint::Of along = Constraint::Of::top) {

@@ -70,7 +70,7 @@ def _words(run: Result) -> dict[str, str]:
     """Returns the words that fill in captions; contact: the definition of sites in contact."""
     contact = "Sites nearer to an atom of the substrate than the inflection of the potential"
     if run.key("interface.kind") == "wall":
-        contact = "Sites that touch the wall" if run.key("interface.law") == "exponential" else \
+        contact = "Sites that touch the wall" if run.key("interface.law") in ("exponential", "dugdale", "power") else \
             "Sites nearer to the wall than the inflection of its potential"
     static, held = run.key("drive.mode") == "quasistatic", run.key("drive.control") == "mean-height"
     path = PATH_CAPTIONS[run.curved]

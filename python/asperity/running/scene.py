@@ -98,7 +98,7 @@ def file_beside(name: str, scene: str) -> str:
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Returns the files that a command reads for a scene: its file, its map or atoms, and its table.
+    """Returns the files that a command reads for a scene: its file, map or atoms, table, and map of the work of adhesion.
 
     Parameters
     ----------
@@ -113,6 +113,9 @@ def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
         The paths.
     """
     named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("interface", "table"))]
+    field = scene.get("interface", {}).get("adhesion")
+    if isinstance(field, str) and Path(file_beside(field, str(file)).partition(":/")[0]).exists():
+        named.append(field)
     return [str(file), *(file_beside(name, str(file)) for name in named if name)]
 
 

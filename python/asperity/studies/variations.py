@@ -86,7 +86,7 @@ class Variations:
         self.wall = scene.text("interface.kind") == "wall"
         self.sites, self.thickness = int(self.own("surface.sites")), int(self.own("block.thickness"))
         self.edge = self.sites * self.own("surface.spacing")
-        self.continuous = self.wall and scene.text("interface.law") == "exponential"  # without atoms, and without a cutoff
+        self.continuous = self.wall and scene.text("interface.law") != "smeared"  # without atoms, and without a cutoff
         self.length = (not self.continuous) * self.own(LENGTHS.get(scene.text("interface.potential"), ""))
         self.mixed = (not self.wall and scene.text("surface.kind") != "atoms"
                       and self.own("surface.lattice_ratio") == 1 and scene.text("interface.potential") != "table")

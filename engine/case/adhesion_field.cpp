@@ -1,0 +1,331 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// The work of adhesion of each site: a map from a file, or a formula. Lengths are those of the box;
+// a pattern repeats with it, so its period is rounded to a whole part of the edge.
+//
+//     stripes LOW HIGH PERIOD         half a period of each along x
+//     discs LOW HIGH RADIUS DISTANCE  discs of HIGH on a square lattice, LOW between them
+//     rings MEAN AMPLITUDE PERIOD     MEAN (1 + AMPLITUDE cos(2 pi r / PERIOD)) around the middle
+//     of
+//                                     the box, where the cap of surface.radius has its apex
+//     patches LOW HIGH LENGTH SEED    half of the sites HIGH: those where a Gaussian random field
+//     of
+//                                     the autocorrelation exp(-r^2 / LENGTH^2) is above its median
+#include "engine/case/resolving.hpp"
+#include "engine/case/site_field.hpp"
+#include "engine/scene/heights.hpp"
+#include "io/error.hpp"
+#include "io/files.hpp"
+#include "io/units.hpp"
+
+#include <Random123/philox.h>
+
+#include <fftw3.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <memory>
+#include <numbers>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+namespace asperity {
+
+namespace {
+
+constexpr const char* key = "interface.adhesion";
+constexpr const char* unit = "meV/Å^2";
+constexpr double pi = std::numbers::pi;
+
+/// A formula: its name and its numbers, with their units in the engine.
+struct Formula {
+    std::string name;
+    std::vector<std::string> units; ///< unit of each number
+    std::string form, example;
+};
+
+const std::vector<Formula>& formulas() {
+    static const std::vector<Formula> all = {
+        {"stripes",
+         {unit, unit, "Å"},
+         "stripes LOW HIGH PERIOD",
+         "stripes 10 mJ/m^2 50 mJ/m^2 20 nm"},
+        {"discs",
+         {unit, unit, "Å", "Å"},
+         "discs LOW HIGH RADIUS DISTANCE",
+         "discs 10 mJ/m^2 50 mJ/m^2 5 nm 20 nm"},
+        {"rings", {unit, "", "Å"}, "rings MEAN AMPLITUDE PERIOD", "rings 50 mJ/m^2 0.2 10 nm"},
+        {"patches",
+         {unit, unit, "Å", ""},
+         "patches LOW HIGH LENGTH SEED",
+         "patches 10 mJ/m^2 50 mJ/m^2 5 nm 1"}};
+    return all;
+}
+
+/// Error of a formula, in words that follow the key and its value.
+struct BadFormula {
+    std::string what, why, fix;
+};
+
+/// Returns the numbers of a formula. Throws BadFormula.
+std::vector<double> numbers_of(const Formula& formula, const std::string& text) {
+    std::istringstream words(text.substr(formula.name.size()));
+    std::vector<std::string> quantities;
+    for (std::string word; words >> word;)
+        if (quantities.empty() ||
+            std::string_view("+-.0123456789").find(word.front()) != std::string_view::npos)
+            quantities.push_back(word);
+        else
+            quantities.back() += " " + word;
+    const std::string fix =
+        fmt::format("write \"{}\", as in \"{}\"", formula.form, formula.example);
+    if (quantities.size() != formula.units.size())
+        throw BadFormula{fmt::format("has {} numbers", quantities.size()),
+                         fmt::format("the formula has {}", formula.units.size()), fix};
+    std::vector<double> numbers;
+    for (std::size_t i = 0; i < quantities.size(); ++i) {
+        const io::ParsedQuantity read = io::parse_quantity(quantities[i], formula.units[i]);
+        const bool length = formula.units[i] == "Å";
+        if (!read.why.empty())
+            throw BadFormula{fmt::format("has '{}'", quantities[i]), read.why, fix};
+        if (!std::isfinite(read.value) || read.value < 0.0 || (length && read.value == 0.0))
+            throw BadFormula{fmt::format("has '{}'", quantities[i]),
+                             length
+                                 ? "a length is above zero"
+                                 : "a work of adhesion, an amplitude and a seed are zero or more",
+                             fix};
+        numbers.push_back(read.value);
+    }
+    return numbers;
+}
+
+/// A square of values, [y * sites + x].
+struct Square {
+    int sites;
+    double spacing;
+    double edge() const { return sites * spacing; }
+
+    template <class At>
+    std::vector<double> of(const At& at) const {
+        std::vector<double> values;
+        values.reserve(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites));
+        for (int y = 0; y < sites; ++y)
+            for (int x = 0; x < sites; ++x)
+                values.push_back(at(x * spacing, y * spacing));
+        return values;
+    }
+};
+
+/// Returns the period nearest to one that fits into the box a whole number of times.
+double fitting(double period, const Square& box) {
+    return box.edge() / std::max(1.0, std::round(box.edge() / period));
+}
+
+/// Returns a field of random numbers whose autocorrelation is exp(-r^2 / length^2), times a factor.
+std::vector<double> random_field(const Square& box, double length, std::uint64_t seed) {
+    const int n = box.sites;
+    std::vector<std::complex<double>> wave;
+    wave.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const auto bits = r123::Philox4x32()(
+                {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0u, 1u}},
+                {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}});
+            wave.emplace_back(bits[0] * 0x1p-32 - 0.5, 0.0);
+        }
+    heights::transform(wave, n, n, FFTW_FORWARD);
+    const double unit_q = 2.0 * pi / box.edge();
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x) {
+            const double kx = std::min(x, n - x), ky = std::min(y, n - y);
+            const double q = unit_q * std::sqrt(kx * kx + ky * ky);
+            wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
+                 static_cast<std::size_t>(x)] *= std::exp(-q * q * length * length / 8.0);
+        }
+    heights::transform(wave, n, n, FFTW_BACKWARD);
+    std::vector<double> field;
+    field.reserve(wave.size());
+    for (const std::complex<double>& value : wave)
+        field.push_back(value.real());
+    return field;
+}
+
+/// Returns the field of a formula, meV/Å^2. Throws BadFormula.
+std::vector<double> values_of(const Formula& formula, const std::string& text, const Square& box,
+                              std::vector<std::string>& notes) {
+    const std::vector<double> p = numbers_of(formula, text);
+    const auto period_of = [&](double asked) {
+        const double used = fitting(asked, box);
+        if (asked > box.edge())
+            throw BadFormula{fmt::format("has a period of {:.6g} Å", asked),
+                             fmt::format("the box is {:.6g} Å wide, and repeats", box.edge()),
+                             "take a shorter period or a wider box"};
+        if (std::abs(used - asked) > 1e-9 * asked)
+            notes.push_back(fmt::format("{}: the period of {:.6g} Å is {:.6g} Å, of which {:.0f} "
+                                        "fit into the box",
+                                        key, asked, used, box.edge() / used));
+        return used;
+    };
+    // A site on the border of two stripes is on its far side, however x / period is rounded.
+    const auto phase = [](double x, double period) {
+        const double periods = x / period + 1e-9;
+        return periods - std::floor(periods);
+    };
+    if (formula.name == "stripes") {
+        const double period = period_of(p[2]);
+        return box.of([&](double x, double) { return phase(x, period) < 0.5 ? p[0] : p[1]; });
+    }
+    if (formula.name == "discs") {
+        const double distance = period_of(p[3]);
+        return box.of([&](double x, double y) {
+            const double dx = distance * (phase(x, distance) - 0.5),
+                         dy = distance * (phase(y, distance) - 0.5);
+            return dx * dx + dy * dy < p[2] * p[2] ? p[1] : p[0];
+        });
+    }
+    if (formula.name == "rings") {
+        if (p[1] > 1.0)
+            throw BadFormula{fmt::format("has an amplitude of {:.6g}", p[1]),
+                             "above 1 the work of adhesion would be negative between the rings",
+                             "take an amplitude from 0 to 1"};
+        const double middle = 0.5 * box.edge();
+        return box.of([&](double x, double y) {
+            const double r = std::hypot(x - middle, y - middle);
+            return p[0] * (1.0 + p[1] * std::cos(2.0 * pi * r / p[2]));
+        });
+    }
+    const std::vector<double> field = random_field(box, p[2], static_cast<std::uint64_t>(p[3]));
+    std::vector<double> sorted = field;
+    const auto median = sorted.begin() + std::ssize(sorted) / 2;
+    std::nth_element(sorted.begin(), median, sorted.end());
+    std::vector<double> values;
+    values.reserve(field.size());
+    for (const double value : field)
+        values.push_back(value >= *median ? p[1] : p[0]);
+    return values;
+}
+
+/// Returns the field of a file, meV/Å^2, on the sites of the box. Throws io::SceneError.
+std::vector<double> values_of_file(Case& c, const Square& box) {
+    const Scene::Interface& keys = c.scene.interface;
+    io::HeightMap map =
+        read_field({keys.adhesion_field,
+                    c.adhesion_file,
+                    {keys.adhesion_unit,
+                     keys.adhesion_missing == MapMissing::fill,
+                     keys.adhesion_crop == MapCrop::middle,
+                     keys.adhesion_size,
+                     false,
+                     {"work of adhesion", "adhesion", unit, key, "energy per area"}}},
+                   Communicator());
+    SurfaceOptions covered;
+    covered.sites = box.sites;
+    covered.length = box.edge();
+    covered.map_edge = map.width.value_or(0.0);
+    const int points = static_cast<int>(map.rows), whole = sites_of_map(covered);
+    const auto refuse = [&](const std::string& what, const std::string& why,
+                            const std::string& fix) {
+        throw io::SceneError(
+            io::Problem{c.scene.positions.where(key),
+                        fmt::format("{} = \"{}\" {}", key, keys.adhesion_field, what), why, fix});
+    };
+    if (whole < box.sites)
+        refuse(fmt::format("is {:.6g} Å wide", *map.width),
+               fmt::format("the box is {:.6g} Å wide", box.edge()),
+               fmt::format("take surface.spacing = {:.10g}, or stretch the map on purpose with "
+                           "interface.adhesion_size = {:.6g}",
+                           *map.width / box.sites, box.edge()));
+    const bool resampled = c.scene.surface.kind == SurfaceKind::file &&
+                           c.scene.surface.resample == Resample::band_limited;
+    if (points != whole && !resampled)
+        refuse(fmt::format("has {} x {} values", points, points),
+               fmt::format("it covers {} x {} sites", whole, whole),
+               fmt::format("give a map of that size, or set surface.sites = {}", points));
+    std::vector<double> values = std::move(map.heights);
+    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
+    const double low = *least, high = *largest;
+    if (low < 0.0)
+        refuse(fmt::format("has a value of {:.4g} {}", low, unit),
+               "a work of adhesion is zero or more: a site repels at contact alone",
+               "set the negative values of the map to 0 before, or correct its zero");
+    if (points != whole) {
+        values = heights::resample(values, points, points, whole);
+        for (double& value : values) // waves overshoot beside jumps
+            value = std::clamp(value, low, high);
+        map.notes.push_back(fmt::format("the field of {} x {} values resampled (Fourier, periodic) "
+                                        "to {} x {}, and kept within its range",
+                                        points, points, whole, whole));
+    }
+    if (whole > box.sites) {
+        values = heights::middle(values, whole, box.sites);
+        map.notes.push_back(fmt::format("the middle {:.6g} Å of the field are taken", box.edge()));
+    }
+    for (const auto* list : {&map.doubts, &map.notes})
+        for (const std::string& note : *list)
+            c.notes.push_back(fmt::format("{}: {}", key, note));
+    return values;
+}
+
+} // namespace
+
+void find_adhesion_field(Case& c, io::Problems& problems) {
+    const std::string& text = c.scene.interface.adhesion_field;
+    if (text.empty()) return;
+    const Square box{c.scene.surface.sites, c.scene.surface.spacing};
+    auto field = std::make_shared<AdhesionMap>();
+    field->name = text;
+    field->sites = box.sites;
+    const auto formula = std::find_if(formulas().begin(), formulas().end(), [&](const Formula& f) {
+        return text == f.name || text.starts_with(f.name + " ");
+    });
+    try {
+        if (formula != formulas().end()) {
+            field->work = values_of(*formula, text, box, c.notes);
+        } else {
+            const std::size_t colon = text.find(":/");
+            c.adhesion_file = find_beside_scene(c.scene, text.substr(0, colon), key);
+            if (c.adhesion_file.empty())
+                throw BadFormula{"is neither a file nor a formula",
+                                 "a map of the work of adhesion is looked for beside the scene and "
+                                 "in the working directory; formulas are stripes, discs, rings and "
+                                 "patches",
+                                 fmt::format("give the path of a map, or write, for example, "
+                                             "\"{}\"",
+                                             formulas().front().example)};
+            if (colon != std::string::npos) c.adhesion_file += text.substr(colon);
+            field->work = values_of_file(c, box);
+        }
+    } catch (const BadFormula& bad) {
+        problems.add(key, fmt::format("= \"{}\" {}", text, bad.what), bad.why, bad.fix);
+        return;
+    } catch (const io::SceneError& error) {
+        for (const io::Problem& problem : error.problems())
+            problems.add(problem);
+        return;
+    } catch (const std::invalid_argument& error) { // thrown for its size
+        problems.add(key, std::string(": ") + error.what());
+        return;
+    }
+    if (c.scene.interface.shape_repels() &&
+        *std::min_element(field->work.begin(), field->work.end()) == 0.0) {
+        problems.add(
+            key, fmt::format("= \"{}\" is 0 at some sites", text),
+            "the law (interface.law) repels by itself, and the work of adhesion multiplies "
+            "its repulsion too: nothing would repel there",
+            "take a small work of adhesion in place of 0, or law = \"exponential\"");
+        return;
+    }
+    field->largest = *std::max_element(field->work.begin(), field->work.end());
+    c.adhesion_digest = io::digest_of(std::as_bytes(std::span(std::as_const(field->work))));
+    c.scene.interface.adhesion = field->largest;
+    c.simulation.interface.adhesion = std::move(field);
+}
+
+} // namespace asperity

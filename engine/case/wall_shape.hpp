@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Shapes of the law of a wall: what a ShapedWall (kernels/shaped_wall.hpp) reads. The force of a
+// shape is taken on its rows, with straight lines between; its energy is the exact integral,
+// brought to a depth of one.
+//
+//     dugdale       f = -(1 - x), x from 0 to 1: a constant tension, but that it falls to none
+//     along
+//                   a line from 0.9 to 1.1 (a site that lets go at once holds the edge of a contact
+//                   back by a row)
+//     power         f = -1 / (1 + x)^n, x >= 0
+//     9-3           f = (x^-9 - 3 x^-3) / 2: the atoms of two half-spaces, Lennard-Jones
+//     8-2           f = (x^-8 - 4 x^-2) / 3
+//     a table       energies at gaps
+#pragma once
+
+#include "kernels/shaped_wall.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace asperity {
+
+class WallShape {
+public:
+    static WallShape dugdale();
+    static WallShape power(double exponent);
+    static WallShape nine_three();
+    static WallShape eight_two();
+    /// Makes a shape of energies at gaps, Å, ascending, which end in the energy of solids apart;
+    /// its length() is the depth over the largest tension. Throws std::invalid_argument if they
+    /// have no well, or do not repel above the energy of solids apart.
+    WallShape(std::span<const double> gap, std::span<const double> energy);
+
+    ShapedWall::Shape shape() const;
+    /// Returns the range of a law of this shape, Å; 0: any.
+    double length() const { return length_; }
+
+private:
+    /// Makes a shape from x = first to last. force: its force, times any factor.
+    WallShape(double first, double last, bool repels, const std::function<double(double)>& force);
+
+    std::vector<double> force_, convex_;
+    ShapedWall::Shape shape_;
+    double length_ = 0.0;
+};
+
+} // namespace asperity

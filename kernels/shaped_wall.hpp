@@ -1,0 +1,197 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// A wall whose law is an amplitude times a shape of any form (engine/case/wall_shape.hpp makes
+// them):
+//
+//     U(g) = A f(g / rho),
+//
+// the force a chain of straight lines over x = g / rho, and the energy its exact integral. The
+// force falls along some of the lines and rises along others; it is the sum of a part that only
+// falls, of which the energy is convex, and one that only rises, of which it is concave. With the
+// second taken as it is at a gap, the equilibrium of a site on a spring is that of a convex energy:
+// one line holds it, found by halving.
+//
+// A shape that begins where the solids touch, at x = 0, has the linear repulsion of the exponential
+// wall there (wall_law.hpp): U(g) = A (f(0) + g/rho f'(0)) + K g^2 / 2 for g <= 0, deepest by the
+// work of adhesion W, A (1 + A f'(0)^2 / (2 rho^2 K)) = W. A shape with a repulsion of its own is
+// continued along its first line, and A = W.
+//
+// Row k of a shape begins at x_k; the rows lie evenly in y / (1 + y), y = x - x_0.
+#pragma once
+
+#include "kernels/number.hpp"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+namespace asperity {
+
+class ShapedWall {
+public:
+    static constexpr int rows = 1024; ///< number of rows of a shape; the last is its end
+
+    /// Numbers of a shape, over its depth and range; they belong to a WallShape.
+    struct Shape {
+        const double* force = nullptr; ///< [4 k + i]: x_k, force, its slope and the energy there
+        const double* convex =
+            nullptr; ///< [4 k + i]: x_k, the falling part of the force, its slope
+        double first = 0.0, last = 0.0; ///< x of the first and the last row
+        bool repels = false;            ///< the shape has a repulsion of its own
+        double minimum = 0.0;           ///< x of the least energy
+        double steepest = 0.0;          ///< x of the largest tension
+        double tension = 0.0;           ///< largest tension
+        double fastest = 0.0;           ///< largest slope of the force
+    };
+
+    ShapedWall() = default;
+    /// Sets the law. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2, of a shape that does not
+    /// repel.
+    ShapedWall(const Shape& shape, double adhesion, double range, double stiffness)
+        : shape_(shape), work_(adhesion), range_(range), stiffness_(shape.repels ? 0.0 : stiffness),
+          adhesion_(amplitude(adhesion)) {}
+
+    template <class V>
+    struct Terms {
+        explicit Terms(const ShapedWall& w)
+            : table(w.shape_.force), falling(w.shape_.convex), adhesion(same<V>(w.adhesion_)),
+              tension(same<V>(w.adhesion_ / w.range_)), pull(same<V>(w.pull())),
+              range(same<V>(w.range_)), rate(same<V>(1.0 / w.range_)),
+              stiffness(same<V>(w.stiffness_)), first(same<V>(w.shape_.first)),
+              least(
+                  same<V>(w.shape_.repels ? -std::numeric_limits<double>::max() : w.shape_.first)),
+              last(same<V>(w.shape_.last)), per_length(same<V>(w.per_length())),
+              repels(w.shape_.repels) {}
+
+        /// Returns the law times a factor; a repulsion that is not of the shape stays.
+        ASPERITY_INLINE Terms scaled(V factor) const {
+            Terms law = *this;
+            law.adhesion = factor * adhesion;
+            law.tension = factor * tension;
+            law.pull = factor * pull;
+            return law;
+        }
+        ASPERITY_INLINE V force(V gap) const {
+            return attraction(gap) - stiffness * min(same<V>(0.0), gap);
+        }
+        ASPERITY_INLINE V energy(V gap) const {
+            const V into = min(same<V>(0.0), gap), x = max(least, rate * gap);
+            V row[4];
+            gather_four(table, row_of(x), row);
+            const V t = x - row[0], f = row[3] - t * (row[1] + same<V>(0.5) * t * row[2]);
+            return select(x > last, same<V>(0.0), adhesion * f) +
+                   into * (pull + same<V>(0.5) * stiffness * into);
+        }
+        /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
+        /// the rising part of the force is taken as it is at `gap`.
+        ASPERITY_INLINE V rest(V gap, V target, V spring) const {
+            if (!repels) { // nothing falls but the repulsion
+                const V held = spring * target + attraction(gap);
+                return select(held > same<V>(0.0), held / spring, held / (spring + stiffness));
+            }
+            const V x = rate * gap;
+            V row[4];
+            gather_four(falling, row_of(x), row);
+            const V here = select(x > last, same<V>(0.0), row[1] + (x - row[0]) * row[2]);
+            const V held = spring * target + (attraction(gap) - tension * here);
+            const V stretch = spring * range;
+            V k = same<V>(0.0);
+            ASPERITY_UNROLL(1)
+            for (int step = rows / 2; step > 0; step /= 2) {
+                const V further = k + same<V>(step);
+                gather_four(falling, further, row);
+                k = select(held < stretch * row[0] - tension * row[1], k, further);
+            }
+            gather_four(falling, k, row);
+            const V beyond = held - (stretch * row[0] - tension * row[1]);
+            return range * (row[0] + beyond / (stretch - tension * row[2]));
+        }
+
+        const double *table, *falling;
+        V adhesion, tension, pull, range, rate, stiffness, first, least, last, per_length;
+        bool repels;
+
+    private:
+        /// Returns the number of the row that holds x; of what is no number, the last.
+        ASPERITY_INLINE V row_of(V x) const {
+            const V y = max(same<V>(0.0), x - first), at = y / (same<V>(1.0) + y) * per_length;
+            return max(min(nearest_whole(at - same<V>(0.5)), same<V>(rows - 2.0)), same<V>(0.0));
+        }
+        /// Returns the force of the shape.
+        ASPERITY_INLINE V attraction(V gap) const {
+            const V x = max(least, rate * gap);
+            V row[4];
+            gather_four(table, row_of(x), row);
+            return select(x > last, same<V>(0.0), tension * (row[1] + (x - row[0]) * row[2]));
+        }
+    };
+    /// Returns the law times a factor; a repulsion that is not of the shape stays.
+    ShapedWall scaled(double factor) const {
+        ShapedWall law = *this;
+        law.adhesion_ *= factor;
+        return law;
+    }
+    /// Returns the factor with which scaled() has this part of the work of adhesion.
+    double factor_of(double part) const {
+        return work_ > 0.0 ? amplitude(part * work_) / amplitude(work_) : 1.0;
+    }
+    double force(double gap) const { return Terms<double>(*this).force(gap); }
+    double energy(double gap) const { return Terms<double>(*this).energy(gap); }
+    /// Returns -dF/dg at this gap, eV/Å^2.
+    double stiffness_at(double gap) const {
+        const double x = gap / range_;
+        if (x < shape_.first && !shape_.repels) return stiffness_;
+        if (x > shape_.last) return 0.0;
+        const double* row = shape_.force + 4 * row_of(x);
+        return -row[2] * adhesion_ / (range_ * range_);
+    }
+    /// Returns how far a site may be below the wall under a force that presses, Å.
+    double depth_under(double force) const {
+        if (!shape_.repels) return (std::fmax(0.0, force) + pull()) / stiffness_;
+        const double* row = shape_.force; // the first row, whose line goes on below it
+        const double beyond = std::fmax(0.0, force * range_ / adhesion_ - row[1]);
+        return std::fmax(0.0, -range_ * (row[0] + beyond / row[2]));
+    }
+    double softest() const { return -shape_.fastest * adhesion_ / (range_ * range_); }
+    double range() const { return range_; }
+    /// Returns the gap below which a site is in contact, Å: that of the largest tension, 0 if the
+    /// shape begins there.
+    double contact_gap() const { return shape_.repels ? range_ * shape_.steepest : 0.0; }
+    double reach() const { return adhesion_ > 0.0 ? range_ * shape_.last : 0.0; }
+    /// Returns the gap of the least energy, Å.
+    double deepest() const {
+        return shape_.repels ? range_ * shape_.minimum : -pull() / stiffness_;
+    }
+    double largest_tension() const { return shape_.tension * adhesion_ / range_; }
+    /// Returns the gap of the largest tension, Å.
+    double steepest() const { return range_ * shape_.steepest; }
+    /// Returns true if the law has a kink where it is touched.
+    bool has_kink() const { return !shape_.repels; }
+
+private:
+    std::ptrdiff_t row_of(double x) const {
+        const double y = std::fmax(0.0, x - shape_.first);
+        return static_cast<std::ptrdiff_t>(std::fmin(y / (1.0 + y) * per_length(), rows - 2.0));
+    }
+    /// Returns the number of rows over the length in y / (1 + y).
+    double per_length() const {
+        const double y = shape_.last - shape_.first;
+        return (rows - 1) * (1.0 + y) / y;
+    }
+    /// Returns the tension at the beginning of a shape that does not repel, eV/Å.
+    double pull() const { return shape_.repels ? 0.0 : -shape_.force[1] * adhesion_ / range_; }
+    double amplitude(double work) const {
+        if (shape_.repels) return work;
+        const double slope = shape_.force[1];
+        return 2.0 * work /
+               (1.0 + std::sqrt(1.0 + 2.0 * work * slope * slope / (range_ * range_ * stiffness_)));
+    }
+
+    Shape shape_;
+    double work_ = 0.0; ///< W of the whole law, without a factor
+    double range_ = 1.0, stiffness_ = 0.0;
+    double adhesion_ = 0.0; ///< A
+};
+
+} // namespace asperity
