@@ -68,9 +68,10 @@ struct InterfaceOptions {
 
 /// Options of one sweep.
 struct SweepOptions {
-    bool observe = false;         ///< energies, contacts and nearest distances too
-    bool rough = false;           ///< forces good to some 1e-6 eV/Å are enough
-    std::optional<double> height; ///< reference height for this sweep, Å; none: the interface's own
+    bool observe = false; ///< energies, contacts and nearest distances too
+    bool rough = false;   ///< forces good to some 1e-6 eV/Å are enough
+    std::optional<double> height =
+        {}; ///< reference height for this sweep, Å; none: the interface's own
 };
 
 /// Returns the law of a wall with the mean of the sites' attractions.
