@@ -86,8 +86,8 @@ double FlatInterface::energy(double u) const {
 }
 
 double FlatInterface::tilt_cost(double u, bool sliding) const {
-    // D/q², κ/q and φ_tt (python/asperity/theories/renormalised.py) at q -> 0, of V_uu, V_Ru and the
-    // lateral Laplacian of each ring.
+    // D/q², κ/q and φ_tt (python/asperity/theories/renormalised.py) at q -> 0, of V_uu, V_Ru and
+    // the lateral Laplacian of each ring.
     double tilt = 0, kappa = 0, sideways = 0;
     for (const auto& [R, density] : rings) {
         const PairTerms d = pair(R * R + u * u);

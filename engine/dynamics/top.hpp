@@ -31,7 +31,7 @@ struct Top {
     double drive = 0.0;            ///< displacement of the machine along z, Å; rigid: z
     std::array<double, 2> place{}; ///< place of the block over the substrate, Å
     double velocity = 0.0;         ///< along z, Å/fs
-    TopMotion machine;             ///< velocity of the machine
+    TopMotion machine{};           ///< velocity of the machine
 
     /// Moves with the machine over a step of dt, fs, to the place at the next step.
     void move(double dt) {
