@@ -22,7 +22,7 @@ EXCUSED = {
     "free memory, or raise ulimit -u": "a machine's memory",
     "the system gives no file in memory": "a machine's system",
     "the height map cannot be opened...check its permissions": "whoever tests may read all files",
-    "check surface.file": "a file that is lost between two looks at it",
+    "the height map cannot be opened ... check": "a file that is lost between two looks at it",
     "the height map is too long": "a file of gigabytes",
     "is in no format that is read without SurfaceTopography": "a package to be installed",
     "needs ASE": "a package to be installed",

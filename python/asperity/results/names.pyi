@@ -143,6 +143,32 @@ class Segment(Values):
     """eV/Å: force against a slide"""
     largest_friction: float
     """eV/Å: the largest force against the slide"""
+    steady: str
+    """of a slide over a wall"""
+    running_in: float
+    """Å: distance left out at the beginning, with which the variance of the mean friction is least"""
+    steady_friction: float
+    """eV/Å: force against the slide"""
+    steady_friction_error: float
+    """eV/Å: its standard error, by blocking, as of the following ones"""
+    friction_stress: float
+    """MPa: steady_friction over the area of the box"""
+    friction_coefficient: float
+    """steady_friction over the normal force"""
+    friction_coefficient_error: float
+    """its standard error"""
+    steady_pressure: float
+    """MPa: of the substrate on the lowest layer"""
+    steady_contact_fraction: float
+    """contact fraction"""
+    steady_contact_fraction_error: float
+    """its standard error"""
+    steady_mean_height: float
+    """Å: mean height of the lowest layer"""
+    steady_dissipated_in_block: float
+    """eV/Å: energy that a viscoelastic block dissipates over the distance"""
+    steady_lost: float
+    """eV/Å: energy dissipated at instabilities over the distance"""
     pressure: float
     """MPa: at its end"""
     force: float
@@ -317,6 +343,12 @@ class Interface(Values):
     """Å: cutoff of the pairs, of a scene with interface.cutoff = '4 r0' too"""
     table_digest: str
     """digest of the numbers in the tables of potentials that the scene names. A sweep takes a result again only ..."""
+    adhesion_digest: str
+    """digest of the field of interface.adhesion on the sites. A sweep takes a result again only if the file ..."""
+    adhesion_least: float
+    """meV/Å^2: least work of adhesion of a site of that field"""
+    adhesion_largest: float
+    """meV/Å^2: its largest"""
     table_error: float
     """bound of the error of energies of flat surfaces, and so of binding energies, that the spline between the ..."""
 
@@ -497,11 +529,21 @@ class SceneInterface(Values):
     law: Any
     """law of a wall"""
     adhesion: Any
-    """meV/Å^2: work of adhesion of flat surfaces, Δγ, of the exponential law"""
+    """meV/Å^2: work of adhesion of flat surfaces, Δγ, of a wall that is not smeared"""
+    adhesion_size: Any
+    """Å: edge of the map of interface.adhesion"""
+    adhesion_unit: Any
+    """its unit"""
+    adhesion_missing: Any
+    """points of this map without a number"""
+    adhesion_crop: Any
+    """such a map that is not square"""
     range: Any
-    """Å: of the exponential law"""
+    """Å: of these laws"""
+    exponent: Any
+    """of law = 'power"""
     stiffness: Any
-    """GPa/Å: stiffness of the exponential law's repulsion"""
+    """GPa/Å: stiffness of the linear repulsion"""
     edge_pinning: Any
     """whether a pull-off of a sphere runs although its force is more than 1.3 times too large"""
 
@@ -643,6 +685,8 @@ class StateMaps:
     """Å: distance of a site and the nearest atom"""
     contact: np.ndarray
     """1 where that is less than the inflection of the potential"""
+    adhesion: np.ndarray
+    """meV/Å^2: work of adhesion of a site, where interface.adhesion is a field"""
     u_x: np.ndarray
     """Å: displacement of a site"""
     u_y: np.ndarray
