@@ -26,8 +26,6 @@ os.environ.setdefault("MPLBACKEND", "agg")
 
 import asperity  # noqa: E402
 import asperity.running.runs  # noqa: E402
-from asperity.plots import style  # noqa: E402
-from asperity.theories import combined  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 # Starts the rest of the command line on the processors that the environment names for this rank.
@@ -199,6 +197,9 @@ def place(tmp_path, monkeypatch):
 def light():
     """Leaves the renormalised theory and the drawing of pictures out of the commands of this process, which would take most of
     the time of a test that looks at neither. undo() puts them back."""
+    from asperity.plots import style  # here: they load OpenMP, and ranks.py imports this file before it chooses threads
+    from asperity.theories import combined
+
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(combined, "_known", {})
         patch.setattr(combined, "_renormalised", lambda rough, quick: {"note": "left out by a test"})
