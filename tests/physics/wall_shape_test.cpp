@@ -126,6 +126,21 @@ TEST(WallShape, DerivativesAreItsOwn) {
     }
 }
 
+/// A law with a factor is the derivative of its own energy too, also below a shape that begins at
+/// the wall, where the pull of the shape goes with the factor and the repulsion does not.
+TEST(WallShape, WithAFactorItsForceIsItsSlope) {
+    for (const Known& k : known()) {
+        const ShapedWall law = law_of(k);
+        const auto part = ShapedWall::Terms<double>(law).scaled(0.4);
+        const double h = 1e-7 * range;
+        for (const double g : {-0.01 * range, -0.0003 * range, 0.613 * range, 1.501 * range}) {
+            if (k.shape.shape().repels && g < 0.0) continue;
+            const double slope = (part.energy(g - h) - part.energy(g + h)) / (2.0 * h);
+            EXPECT_NEAR(part.force(g), slope, 1e-5 * std::abs(slope) + 1e-8) << k.name << " " << g;
+        }
+    }
+}
+
 /// The force is one that falls and one that rises, and both end in none.
 TEST(WallShape, IsConvexAndConcave) {
     for (const Known& k : known()) {
