@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: MIT
 //
 // The simulation: a block under its top plane, an interface, and the time step. The caller says how
-// the top plane moves over each step.
+// the machine moves over each step: the top plane itself, or the far end of its spring.
 //
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
 // With a device the fields are in its memory; block() and block_to_write() are the only access.
-// Both copy the fields to the host if those of the device are newer; after block_to_write() they
-// are copied to the device before the next step. A reference that is kept over a step is out of
-// date.
+// They copy the fields to the host if those of the device are newer; after block_to_write() the
+// fields are copied to the device before the next step. A reference that is kept over a step is out
+// of date.
 #pragma once
 
 #include "engine/block/block.hpp"

@@ -23,7 +23,7 @@ struct ForceAt {
 
 /// The integral of a force along a path that is made point by point.
 ///
-/// From the last point to a new one the force is the polynomial through the new point and up to
+/// The force from the last point to a new one is the polynomial through the new point and up to
 /// three before it (Newton's divided differences), so that the error of a step h is of order h^5
 /// where the force is smooth. Where it is not, the polynomial through the old points alone misses
 /// the new force, and wherever in the step that came about, the integral is wrong by no more than
