@@ -115,7 +115,7 @@ def test_pages_are_short():
     read = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *(page for page in PAGES if page.is_relative_to(ROOT / "docs"))]
     words = {str(page.relative_to(ROOT)): len(page.read_text().split()) for page in read}
     assert written_whole < set(words)
-    assert sum(count for page, count in words.items() if page not in written_whole) <= 20360, words
+    assert sum(count for page, count in words.items() if page not in written_whole) <= 22400, words
 
 
 def test_references_are_current():
