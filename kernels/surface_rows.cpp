@@ -120,6 +120,28 @@ void multiply(const T* m, int sites, int components, const T* u, double norm_, c
     }
 }
 
+void multiply_sites(const SiteMatrices& m, float* const* v, int components, int n) {
+    using namespace matrix_entry;
+    const float* mzz = m.entry[zz];
+    if (components == 1) {
+        float* z = v[0];
+#pragma omp simd
+        for (int i = 0; i < n; ++i)
+            z[i] *= mzz[i];
+        return;
+    }
+    const float *mxx = m.entry[xx], *myy = m.entry[yy];
+    const float *mxy = m.entry[xy], *mxz = m.entry[xz], *myz = m.entry[yz];
+    float *x = v[0], *y = v[1], *z = v[2];
+#pragma omp simd
+    for (int i = 0; i < n; ++i) {
+        const float a = x[i], b = y[i], c = z[i];
+        x[i] = mxx[i] * a + mxy[i] * b + mxz[i] * c;
+        y[i] = mxy[i] * a + myy[i] * b + myz[i] * c;
+        z[i] = mxz[i] * a + myz[i] * b + mzz[i] * c;
+    }
+}
+
 float longest(const float* const* v, int components, int n) {
     float most = 0.0f;
     if (components == 1) {
@@ -210,6 +232,7 @@ const RowKernels row_kernels = {dot<double, double>,
                                 combine<float, float>,
                                 multiply<double>,
                                 multiply<float>,
+                                multiply_sites,
                                 longest,
                                 tie,
                                 ball};

@@ -37,6 +37,12 @@ struct BallRule {
     float bound; ///< largest move, Å
 };
 
+/// A row of symmetric 3 x 3 matrices, one for each site, by entries (matrix_entry); only zz is read
+/// for one component.
+struct SiteMatrices {
+    const float* entry[matrix_entry::count];
+};
+
 /// Arithmetic of the rows for one processor level.
 struct RowKernels {
     template <class A, class B>
@@ -55,6 +61,7 @@ struct RowKernels {
     Combine<float, float> combine_float;
     Multiply<double> multiply_double;
     Multiply<float> multiply_float;
+    void (*multiply_sites)(const SiteMatrices&, float* const*, int, int);
     float (*longest)(const float* const*, int, int);
     void (*tie)(double, double, const double*, const double*, float*, int);
     float (*ball)(const BallRow&, const BallRule&, int, int);
@@ -98,6 +105,11 @@ inline void multiply_block(const double* m, int sites, int components, const dou
 inline void multiply_block(const float* m, int sites, int components, const float* u, double norm,
                            const float* g, float* f) {
     row_kernels().multiply_float(m, sites, components, u, norm, g, f);
+}
+
+/// Multiplies a row of vectors, given by components, by the matrices of its sites: v <- m v.
+inline void multiply_sites(const SiteMatrices& m, float* const* v, int components, int n) {
+    row_kernels().multiply_sites(m, v, components, n);
 }
 
 /// Returns the largest squared length of a row of vectors, given by components.

@@ -9,10 +9,12 @@
 
 namespace asperity {
 
+using namespace matrix_entry;
+
 InterfaceStiffness::InterfaceStiffness(const Tile& tile, int components, double difference,
                                        Workspace* home)
     : sites_(tile.sites), difference_(difference), force_(tile, 1, 0, home) {
-    for (int e = 0; e < (components == 1 ? 1 : 6); ++e)
+    for (int e = 0; e < (components == 1 ? 1 : matrix_entry::count); ++e)
         map_.emplace_back(tile, 1, 0, home);
     if (components > 1) displaced_ = VectorField<double>(tile, 1, 0, home);
 }
@@ -47,10 +49,10 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.x.ny; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
-            map_[zz].plane(0)(x, y) = stiffness(moved.z, force.z, x, y);
+            entry(zz)(x, y) = stiffness(moved.z, force.z, x, y);
             if (displaced_.empty()) continue;
-            map_[xz].plane(0)(x, y) = stiffness(moved.x, force.x, x, y);
-            map_[yz].plane(0)(x, y) = stiffness(moved.y, force.y, x, y);
+            entry(xz)(x, y) = stiffness(moved.x, force.x, x, y);
+            entry(yz)(x, y) = stiffness(moved.y, force.y, x, y);
         }
     if (displaced_.empty()) return;
 
@@ -73,37 +75,24 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
                 const float ky = stiffness(moved.y, force.y, x, y);
                 const float kz = stiffness(moved.z, force.z, x, y);
                 if (along_x) {
-                    map_[xx].plane(0)(x, y) = kx;
-                    map_[xy].plane(0)(x, y) = ky;
-                    second(map_[xz].plane(0)(x, y), kz);
+                    entry(xx)(x, y) = kx;
+                    entry(xy)(x, y) = ky;
+                    second(entry(xz)(x, y), kz);
                 } else {
-                    map_[yy].plane(0)(x, y) = ky;
-                    second(map_[xy].plane(0)(x, y), kx);
-                    second(map_[yz].plane(0)(x, y), kz);
+                    entry(yy)(x, y) = ky;
+                    second(entry(xy)(x, y), kx);
+                    second(entry(yz)(x, y), kz);
                 }
             }
     }
 }
 
 void InterfaceStiffness::apply_row(int y, float* const* v) const {
-    const PlaneView<const float> of_z = entry(zz);
-    const float* kzz = of_z.line(y);
-    const int nx = of_z.nx;
-    if (map_.size() == 1) {
-        for (int x = 0; x < nx; ++x)
-            v[0][x] *= kzz[x];
-        return;
-    }
-    float *vx = v[0], *vy = v[1], *vz = v[2];
-    const float *kxx = entry(xx).line(y), *kyy = entry(yy).line(y), *kxy = entry(xy).line(y);
-    const float *kxz = entry(xz).line(y), *kyz = entry(yz).line(y);
-#pragma omp simd
-    for (int x = 0; x < nx; ++x) {
-        const float a = vx[x], b = vy[x], c = vz[x];
-        vx[x] = kxx[x] * a + kxy[x] * b + kxz[x] * c;
-        vy[x] = kxy[x] * a + kyy[x] * b + kyz[x] * c;
-        vz[x] = kxz[x] * a + kyz[x] * b + kzz[x] * c;
-    }
+    const auto line = [&](int e) { return entry(e).line(y); };
+    if (displaced_.empty())
+        return multiply_sites({.entry = {{}, {}, line(zz), {}, {}, {}}}, v, 1, entry(zz).nx);
+    multiply_sites({.entry = {line(xx), line(yy), line(zz), line(xy), line(xz), line(yz)}}, v, 3,
+                   entry(zz).nx);
 }
 
 } // namespace asperity

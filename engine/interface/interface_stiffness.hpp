@@ -15,6 +15,7 @@
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
 #include "engine/interface/interface.hpp"
+#include "kernels/surface_rows.hpp"
 
 namespace asperity {
 
@@ -37,12 +38,13 @@ public:
     void apply_row(int y, float* const* v) const;
 
 private:
-    enum Entry { zz, xx, yy, xy, xz, yz };
-    PlaneView<const float> entry(Entry e) const { return map_[e].plane(0); }
+    /// Returns the map of an entry (matrix_entry); that of zz is the only one of one component.
+    PlaneView<float> entry(int e) { return map_[displaced_.empty() ? 0 : e].plane(0); }
+    PlaneView<const float> entry(int e) const { return map_[displaced_.empty() ? 0 : e].plane(0); }
 
     double sites_;         ///< number of sites across the box
     double difference_;    ///< displacement, Å, of either sign
-    SiteField<float> map_; ///< eV/Å^2, by Entry
+    SiteField<float> map_; ///< eV/Å^2, by entry
     /// displaced_: displacements with the difference, of three components
     VectorField<double> displaced_, force_;
 };

@@ -77,6 +77,34 @@ void expect_product(int sites, int components, double norm, bool in_place, doubl
 
 } // namespace
 
+TEST(SurfaceRows, MatricesActOnSites) {
+    using namespace matrix_entry;
+    std::mt19937_64 random(3);
+    for (const int components : {1, 3})
+        for (const int n : {1, 15, 64}) {
+            std::array<std::vector<float>, count> m;
+            SiteMatrices matrices{};
+            for (int e = 0; e < count; ++e) {
+                m[e] = numbers<float>(n, random);
+                matrices.entry[e] = components == 3 || e == zz ? m[e].data() : nullptr;
+            }
+            std::array<std::vector<float>, 3> v, before;
+            for (std::vector<float>& row : before)
+                row = numbers<float>(n, random);
+            v = before;
+            float* rows[3] = {v[0].data(), v[1].data(), v[2].data()};
+            multiply_sites(matrices, rows, components, n);
+            const int of[3][3] = {{xx, xy, xz}, {xy, yy, yz}, {xz, yz, zz}};
+            for (int c = 0; c < components; ++c)
+                for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+                    double expected = components == 1 ? m[zz][i] * before[0][i] : 0.0;
+                    for (int k = 0; components == 3 && k < 3; ++k)
+                        expected += static_cast<double>(m[of[c][k]][i]) * before[k][i];
+                    EXPECT_NEAR(v[c][i], expected, 1e-6) << components << ' ' << n;
+                }
+        }
+}
+
 TEST(SurfaceRows, MatricesActOnWaves) {
     for (int sites : {1, 2, 7, 16, 33})
         for (int components : {1, 3})
