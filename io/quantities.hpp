@@ -87,7 +87,7 @@ inline constexpr Quantity result_quantities[] = {
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "energy that a block that relaxes (block.prony) has dissipated by relaxing on the approach, "
+     "energy that a viscoelastic block (block.prony) has dissipated on the approach, "
      "beside lost.approach"},
     {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
      "the same of the pull-off: at its end a block that is still stretched comes to rest, without "
@@ -148,7 +148,7 @@ inline constexpr Quantity result_quantities[] = {
      "net heat, damped less what the thermostat's noise gives: at rest it fluctuates as the energy "
      "does and does not grow, and the first segment includes what warms the block from 0 K"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "energy that a block that relaxes has dissipated by that, beside lost"},
+     "energy that a viscoelastic block has dissipated by that, beside lost"},
     {"segments[].stored", "meV/Å^2", per::area,
      "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
      "dissipated_in_block"},
@@ -270,6 +270,19 @@ inline constexpr Quantity result_quantities[] = {
      "theory"},
     {"theory.sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
     {"theory.sphere.note", "", "", "why one of these is missing"},
+    {"theory.sliding.friction_coefficient", "1", "",
+     "Persson's theory of rubber friction at drive.velocity, under drive.load: hysteresis without "
+     "adhesion"},
+    {"theory.sliding.friction_stress", "MPa", "", "friction_coefficient times the load"},
+    {"theory.sliding.contact_fraction", "1", per::area, "area of real contact at drive.velocity"},
+    {"theory.sliding.slope", "s/m", "", "friction coefficient over velocity of slow sliding"},
+    {"theory.sliding.largest_friction_coefficient", "1", "", "the maximum over velocity"},
+    {"theory.sliding.velocity_of_largest", "m/s", "", "its velocity"},
+    {"theory.sliding.curve[]", "", "", "of `asperity theory`: the theory over velocity"},
+    {"theory.sliding.curve[].velocity", "m/s", "", "velocity"},
+    {"theory.sliding.curve[].friction_coefficient", "1", "", "friction coefficient there"},
+    {"theory.sliding.curve[].contact_fraction", "1", per::area, "area of real contact there"},
+    {"theory.sliding.note", "", "", "why the theory has no number"},
     {"relaxed.elastic_energy", "meV/Å^2", per::area, "elastic energy of the relaxed state"},
     {"relaxed.mean_height", "Å", "",
      "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
@@ -296,7 +309,7 @@ inline constexpr Quantity result_quantities[] = {
     {"energy.spring", "eV", per::block,
      "of energy.elastic, that of the spring that holds the top plane (drive.stiffness)"},
     {"energy.branches", "eV", per::block,
-     "of energy.elastic, what the branches of a block that relaxes store"},
+     "of energy.elastic, what the branches of a viscoelastic block store"},
     {"energy.dissipated_in_block", "eV", per::block,
      "what they have dissipated since the start, beside energy.damped"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},

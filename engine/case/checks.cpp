@@ -107,9 +107,10 @@ void check_path(const Case& c, io::Problems& problems) {
             break;
         case Segment::hold:
             if (!c.effects.dynamic && c.scene.block.prony.empty())
-                refuse("on a quasi-static path", "equilibria do not change while they are held",
-                       "take it out, or give the block branches that relax (block.prony), or take "
-                       "drive.mode = \"dynamic\"");
+                refuse(
+                    "on a quasi-static path", "equilibria do not change while they are held",
+                    "take it out, or give the block viscoelastic branches (block.prony), or take "
+                    "drive.mode = \"dynamic\"");
             else if (after_all)
                 refuse("beyond the interaction range", "nothing happens there",
                        "put an \"approach\" before it");

@@ -39,7 +39,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail},
             {"adhesion of each site", adhesion_map}, {"curvature", curvature},
-            {"free edges", free_edges}, {"relaxing block", branches}, {"layers", layers},
+            {"free edges", free_edges}, {"viscoelastic block", branches}, {"layers", layers},
             {"surface stress", surface_stress}, {"spring of the machine", spring},
             {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},

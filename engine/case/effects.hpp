@@ -37,7 +37,7 @@ struct Effects {
         tail,           ///< continuum correction beyond the cutoff
         adhesion_map,   ///< a work of adhesion for each site
         curvature,      ///< a spherical cap under the roughness
-        branches,       ///< memory of a block that relaxes
+        branches,       ///< memory of a viscoelastic block
         free_edges,     ///< a box without periodic images
         layers,         ///< coatings of the block
         surface_stress, ///< tension of the block's surface

@@ -100,7 +100,7 @@ Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
     values.set("delta_gamma", what.flat);
     record_theory(what, numbers, values);
     Json notes = what.notes;
-    if (profile && !what.contact.spectrum.smooth()) try {
+    if (profile && what.contact.work_of_adhesion > 0.0 && !what.contact.spectrum.smooth()) try {
             const theory::CriticalRoughness end = theory::critical_roughness(what.contact);
             values.set("theory.persson.critical_rms", end.h_rms);
             values.set("theory.persson.critical_rms_full_contact", end.full_contact_h_rms);

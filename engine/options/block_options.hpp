@@ -49,7 +49,7 @@ struct BlockOptions : Material {
     int layers_per_level = 4;
     bool multiscale = true;
     bool finite_strain = false;
-    std::vector<Branch> branches{}; ///< branches of a block that relaxes, without inertia
+    std::vector<Branch> branches{}; ///< branches of a viscoelastic block, without inertia
     /// Layers of a block at rest, from its surface upwards; the block's own material is above them.
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2

@@ -29,7 +29,7 @@ namespace asperity {
 struct Works {
     double on_solids = 0.0;       ///< work of the drive or holder on the block
     double lateral = 0.0;         ///< part of on_solids that moves the block sideways
-    double relaxed = 0.0;         ///< energy dissipated in time by a block that relaxes
+    double relaxed = 0.0;         ///< energy dissipated in time by a viscoelastic block
     double lost = 0.0;            ///< energy damped less the heat of a thermostat, or dissipated
     std::optional<double> stored; ///< change of the energy; quasi-static paths only
     /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where the mean

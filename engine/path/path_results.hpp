@@ -30,7 +30,7 @@ struct SegmentResults {
     /// Work of the interface's force on the mean height of the lowest layer, int F dz. Empty on a
     /// quasi-static path that controls the top, where the mean height jumps at instabilities.
     std::optional<double> interface_work;
-    std::optional<double> relaxed; ///< energy dissipated in time by a block that relaxes
+    std::optional<double> relaxed; ///< energy dissipated in time by a viscoelastic block
     double lost = 0.0;             ///< energy damped (less the heat of a thermostat) or dissipated
     /// Change of the energy of interface and block; quasi-static only.
     std::optional<double> stored;

@@ -17,8 +17,8 @@ namespace asperity {
 
 /// A column of the series.
 struct SeriesColumn {
-    /// Runs that have the column. time: dynamic runs and blocks that relax in time; sliding: paths
-    /// that slide; relaxing: blocks that relax; thermal: scenes with a temperature; sprung: paths
+    /// Runs that have the column. time: dynamic runs and viscoelastic blocks; sliding: paths
+    /// that slide; relaxing: viscoelastic blocks; thermal: scenes with a temperature; sprung: paths
     /// with a spring that holds the top plane.
     enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal, sprung };
     In in;

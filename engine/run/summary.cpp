@@ -110,7 +110,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
         fmt::print(
             to,
             "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
-            "  {} are dissipated in the block, which relaxes,\n"
+            "  {} are dissipated in the viscoelastic block,\n"
             "  and {} are lost at instabilities.\n",
             with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost));
         const Number unclear = of("dissipated.not_followed");

@@ -244,11 +244,11 @@ io::Schema bind(Scene& scene) {
         .rows<2>("prony", block.prony,
                  {{{"modulus over young", "", positive(), "0.5"},
                    {"relaxation time", "ps", positive(), "\"1 ns\""}}},
-                 "branches of a block that relaxes, on a quasi-static path, as in [[9.0, \"1 "
+                 "branches of a viscoelastic block, on a quasi-static path, as in [[9.0, \"1 "
                  "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
                  "modulus, and drive.velocity says how fast time passes")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
-                                 "only the block of a quasi-static path can relax",
+                                 "only the block of a quasi-static path can be viscoelastic",
                                  "take drive.mode = \"quasistatic\", or leave prony out"),
                   {[&scene] { return !scene.only_relaxes(); },
                    "drive.path is one relaxation, and its state is the relaxed one"}};

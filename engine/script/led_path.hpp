@@ -33,7 +33,7 @@ public:
     /// Sets the load, MPa; positive presses. It is reached when the force comes to it, from below
     /// on the way in, from above on the way out.
     void set_load(double pressure);
-    /// Holds the present position for a time, ps, of a block that relaxes.
+    /// Holds the present position for a time, ps, of a viscoelastic block.
     void set_hold(double time);
 
     /// A point in force balance. Work, damped (dissipated at instabilities), instabilities and step
@@ -62,7 +62,7 @@ public:
         int sites = 0;         ///< number of sites across
         std::vector<double> u; ///< displacements of the lowest layer, [component][y][x], Å
         double top = 0.0;      ///< displacement of the top plane, Å
-        /// Extensions of the branches' springs of a block that relaxes, [branch][moving
+        /// Extensions of the branches' springs of a viscoelastic block, [branch][moving
         /// component][y][x], Å; empty: the block has relaxed there.
         std::vector<double> branches{};
     };

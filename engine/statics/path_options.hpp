@@ -20,7 +20,7 @@ struct PathOptions {
     double tolerance = 0.0;                     ///< tolerance at small forces, eV/Å
     Scales scales;
     double load = 0.0;     ///< force at which the approach ends, eV/Å
-    double velocity = 0.0; ///< velocity of the drive if the block relaxes in time, Å/fs
+    double velocity = 0.0; ///< velocity of the drive if the block is viscoelastic, Å/fs
     /// Energy that flat surfaces of this area bind with, eV; infinite if they do not.
     double depth = HUGE_VAL;
     bool over_wall = false;

@@ -30,8 +30,8 @@ void QuasistaticPath::turn() {
     length_ = std::min(length_, short_time * shortest * options_.velocity);
 }
 
-/// Returns the length of the smallest step, Å. If the block relaxes, the length is also at most a
-/// tenth of a step that is short in time, unless the rounding of positions forbids it.
+/// Returns the length of the smallest step, Å. If the block is viscoelastic, the length is also at
+/// most a tenth of a step that is short in time, unless the rounding of positions forbids it.
 double QuasistaticPath::smallest_step() const {
     const double smallest = options_.step * 0x1p-16;
     if (!(options_.velocity > 0.0)) return smallest;
@@ -155,7 +155,7 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:
-        // A block that relaxes may still be stretched: the next point is the one at rest.
+        // A viscoelastic block may still be stretched: the next point is the one at rest.
         course_.comes_to_rest = options_.velocity > 0.0;
         return course_.comes_to_rest ? Outcome::point : Outcome::apart;
     case SegmentRule::End::no:

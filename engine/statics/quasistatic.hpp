@@ -102,7 +102,7 @@ public:
     /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
     /// (work_errors.hpp; docs/explanation/relaxation.md has how often it holds).
     double uncertainty() const { return course_.errors.total(); }
-    /// Returns the energy that a block that relaxes has dissipated in the segment under way,
+    /// Returns the energy that a viscoelastic block has dissipated in the segment under way,
     /// without the dissipation at instabilities, eV.
     double relaxed() const { return course_.relaxed; }
     /// Returns the change of the energy of interface and block, branches included, in the segment
@@ -228,7 +228,7 @@ private:
     double tolerance_to(double at) const;
     double energy_error() const;
     double allowed_missing(double way, double tolerance) const;
-    /// Returns the same of a step in which a block that relaxes may go on without the drive, eV.
+    /// Returns the same of a step in which a viscoelastic block may go on without the drive, eV.
     /// Collective.
     double allowed_missing_in_time(double way, double tolerance) const;
     /// Sets the displacements to change their course in time: the next step continues none, and is

@@ -136,17 +136,20 @@ Json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum, bool r
     const auto& wall = c.simulation.interface.wall;
     Json flat = wall ? std::visit([&](const auto& law) { return table_of_wall(c, law); }, *wall)
                      : table_of_pairs(c);
-    if (flat.contains("note")) return flat;
     Json pieces = Json::array();
     for (const theory::PowerLaw& piece : spectrum.pieces())
         pieces.push_back({piece.qa, piece.qb, piece.c, piece.exponent});
-    return {{"q_L", spectrum.q_L()},
-            {"spectrum", pieces},
-            {"realised", realised},
-            {"pressure", c.simulation.drive.load_force / c.area()},
-            {"friction", c.effects.lateral.on},
-            {"stiffness", lattice_stiffness(c)},
-            {"flat", flat}};
+    Json inputs = {{"q_L", spectrum.q_L()},
+                   {"spectrum", pieces},
+                   {"realised", realised},
+                   {"pressure", c.simulation.drive.load_force / c.area()}};
+    if (flat.contains("note")) {
+        inputs.update(flat);
+        return inputs;
+    }
+    inputs.update(
+        {{"friction", c.effects.lateral.on}, {"stiffness", lattice_stiffness(c)}, {"flat", flat}});
+    return inputs;
 }
 
 } // namespace asperity

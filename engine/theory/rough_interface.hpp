@@ -16,10 +16,11 @@ namespace asperity {
 /// Returns the flat interface of a scene with atoms.
 theory::FlatInterface flat_interface(const Case& c);
 
-/// Returns the input of the renormalised theory, in Å and eV:
+/// Returns the input of the renormalised theory and of that of sliding, in Å and eV:
 ///     q_L, spectrum    smallest wavevector; [[qa, qb, c, n], ...], C = c (q/qa)^n from qa to qb
 ///     realised         the spectrum is that of the surface itself
-///     pressure, friction
+///     pressure         of drive.load
+///     friction         sites feel lateral forces
 ///     stiffness        of the lattice for waves, averaged over directions, up to Nyquist:
 ///                      [[q, S_zz, S_xx, |S_xz|, 1/(S^-1)_zz], ...], per area
 ///     flat             rings [[R, density], ...], none over a wall; spacing of the substrate,
@@ -27,7 +28,7 @@ theory::FlatInterface flat_interface(const Case& c);
 ///                      (separations that matter); the pair energy V as a table: at (r), energy,
 ///                      first (V'/r), second ((V'/r)'/r), zero beyond; of a wall at (separation)
 ///                      and energy per area
-/// If the theory does not apply: only note, the reason.
+/// If the renormalised theory does not apply: note, the reason, in place of the last three.
 nlohmann::ordered_json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum,
                                            bool realised);
 

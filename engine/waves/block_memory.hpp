@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Memory of a block that relaxes (docs/explanation/rate.md).
+// Memory of a viscoelastic block (docs/explanation/rate.md).
 //
 // Beside the springs of the block, S, stand branches of Maxwell type: a spring r_k S in series with
 // a dashpot of relaxation time tau_k. With w the displacement from the rigid top, and h_k that of

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The energy that a crack takes up in a solid that relaxes: the factor of Persson and Brener (PRE 71, 036123 (2005)).
+"""The energy that a crack takes up in a viscoelastic solid: the factor of Persson and Brener (PRE 71, 036123 (2005)).
 
 Of a modulus E(t)/E = 1 + Σ r exp(-t/τ), a crack that opens at the velocity v takes up
     G0/G = 1 - (2/π) ∫ dω/ω √(1 - ω²/ω_c²) Im(-E/E(ω)),    0 < ω < ω_c = 2πv/a,    a = a0 G/G0:
@@ -18,10 +18,10 @@ from typing import Any
 import numpy as np
 
 from .running.engine import quantity
+from .theories import viscoelastic
+from .units import ANGSTROM_PER_PS
 
 Prony = Sequence[tuple[float, "float | str"]]
-ANGSTROM_PER_PS = 0.01
-"""1 m/s in Å/ps."""
 
 
 def _branches(prony: Prony) -> list[tuple[float, float]]:
@@ -52,8 +52,7 @@ def modulus(prony: Prony, frequency: Any) -> Any:
     complex or array
         Storage (real) and loss modulus (imaginary part), dimensionless.
     """
-    iw = 1j * _numbers("frequency", frequency, "1/ps")
-    return 1 + sum((r * iw * tau / (1 + iw * tau) for r, tau in _branches(prony)), np.zeros(iw.shape, complex))
+    return viscoelastic.modulus(_branches(prony), _numbers("frequency", frequency, "1/ps"))
 
 
 def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, tip_radius: float | str) -> Any:
@@ -84,7 +83,7 @@ def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, 
     way = _numbers("velocity", velocity, "m/s") * ANGSTROM_PER_PS
     times = [tau for _, tau in prony]
     if not times or min(times) <= 0 or min(r for r, _ in prony) <= 0 or not tip_radius > 0:
-        raise ValueError("a crack in a solid that relaxes has branches (ratio, time) and a tip_radius, all above 0")
+        raise ValueError("a crack in a viscoelastic solid has branches (ratio, time) and a tip_radius, all above 0")
     stiffest = 1 + sum(r for r, _ in prony)
     cut = np.geomspace(1e-6 / max(times) / stiffest, 1e8 / min(times), 1500)  # ω_c
     s = np.linspace(-35, 0, 3501)  # ln ω/ω_c

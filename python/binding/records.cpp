@@ -94,10 +94,10 @@ void bind_records(py::module_& m) {
         .def_readonly("dissipated_in_block", &Point::relaxed,
                       "energy dissipated by relaxing in the block, beside dissipated, eV")
         .def_readonly("branch_energy", &Point::branch_energy,
-                      "part of elastic_energy in the branches of a block that relaxes, eV")
+                      "part of elastic_energy in the branches of a viscoelastic block, eV")
         .def_property_readonly(
             "time", [](const Point& p) { return p.time / units::picosecond; },
-            "time of the path, for a block that relaxes, ps")
+            "time of the path, for a viscoelastic block, ps")
         .def_readonly("instabilities", &Point::instabilities,
                       "number of points of the path with an instability")
         .def_readonly("contact", &Point::contact_fraction,

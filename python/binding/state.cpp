@@ -12,7 +12,7 @@ void bind_state(py::module_& m) {
     py::class_<State>(
         m, "State",
         "State of the sites, returned by Statics.copy(): all numbers that determine it, with "
-        "the memory of a block\nthat relaxes.")
+        "the memory of a\nviscoelastic block.")
         .def(py::init([](const Array& u, double top, const std::optional<Array>& branches) {
                  if (u.ndim() != 3 || u.shape(0) != 3 || u.shape(1) != u.shape(2))
                      throw io::SceneError({"State", "is given another shape",

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A block that relaxes, against other programs and a crack whose energy release rate is known.
+"""A viscoelastic block, against other programs and a crack whose energy release rate is known.
 
     scenes/validation/rate.py crack [--sites 512] [--release 0.4 0.7 1.2 1.5 2 3]
     scenes/validation/rate.py strips [--release 1.5 2 3]
     scenes/validation/rate.py tamaas ENV
 
-crack: a strip of a relaxing solid between a rigid plane and a flat wall, stretched by δ where it adheres and free elsewhere. The crack
+crack: a strip of a viscoelastic solid between a rigid plane and a flat wall, stretched by δ where it adheres and free elsewhere. The crack
 between them moves at a steady velocity v, and its tip takes up G = M δ²/2H (M the uniaxial modulus, H the thickness, relaxed), whatever
 the law of adhesion. It opens where G exceeds the work of adhesion w and closes where G is less. Beside it the same strip by the
 program below: one dimension, the stiffness of the continuum, steps of even length.
@@ -135,7 +135,7 @@ def strip(sites: int, thickness: float, release: float, stride: float) -> float:
 
 def steady(v: float, nodes: int = 700) -> float:
     """G/w of a crack that opens at v m/s (Greenwood, J. Phys. D 40, 1769 (2007), with this law of the wall). Behind its tip, where the
-    gap g begins, an elastic solid would open by θ(x) under the tractions σ(g) and the K that cancels their singularity; one that relaxes
+    gap g begins, an elastic solid would open by θ(x) under the tractions σ(g) and the K that cancels their singularity; a viscoelastic one
     opens by g = ∫ J((x - x')/v) dθ, J the creep compliance over the relaxed one."""
     zone = np.pi / 4 * PLANE * RANGE**2 / WORK
     edge = np.linspace(0.0, np.sqrt(60 * zone * (1 + RATIO)), nodes + 1)  # p = √x

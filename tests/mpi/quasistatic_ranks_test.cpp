@@ -33,7 +33,7 @@ struct Kind {
     bool field = false; ///< a work of adhesion for each site
     int thickness = 60;
     bool slides = false;               ///< between approach and pull-off
-    std::vector<Branch> branches = {}; ///< of a block that relaxes; it is held there
+    std::vector<Branch> branches = {}; ///< of a viscoelastic block; it is held there
 };
 
 InterfaceOptions interface_of(const Kind& kind) {

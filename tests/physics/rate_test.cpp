@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A block that relaxes: the modulus in time, energies of a step, limits of slow and fast paths, a
+// A viscoelastic block: the modulus in time, energies of a step, limits of slow and fast paths, a
 // layer on a spring that yields (integrated here on its own) and the loss of an oscillation, each
 // against its closed form.
 #include "support/path_case.hpp"

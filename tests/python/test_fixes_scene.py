@@ -143,7 +143,7 @@ CASES = [
     ('put a "load" before it', {"drive.path": '["height 3 Å", "slide x 5 Å under load"]'}, {"drive.path": '["height 3 Å", "load 1 MPa", "slide x 5 Å under load"]'}, PULLED),
     ('take drive.control = "mean-height"', {"drive.path": '["approach", "slide x 5 Å under load"]', "block.prony": '[[1.0, "1 ns"]]'}, {"drive.control": "mean-height"}, PULLED),
     ("take it out, or give the block", {"drive.path": '["approach", "hold 5 ps"]'}, {"drive.path": '["approach"]'}, QUASI),
-    ("branches that relax \\(block.prony\\)", {"drive.path": '["approach", "hold 5 ps"]'}, {"block.prony": '[[1.0, "1 ns"]]'}, QUASI),
+    ("viscoelastic branches \\(block.prony\\)", {"drive.path": '["approach", "hold 5 ps"]'}, {"block.prony": '[[1.0, "1 ns"]]'}, QUASI),
     ('or take drive.mode = "dynamic"', {"drive.path": '["approach", "hold 5 ps"]'}, {"drive.mode": "dynamic"}, QUASI),
     (r"use path = (\[.*\]), or", {"drive.path": '["relax", "pull-off"]'}, {"drive.path": "{0}"}, MOVING),
     ('or drive.mode = "(quasistatic)"', {"drive.path": '["relax", "pull-off"]'}, {"drive.mode": "{0}"}, MOVING),

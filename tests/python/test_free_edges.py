@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Boxes with free edges as a user meets them: the same bits on any ranks and threads and after a resume, with a spring, a block
-that relaxes and holes; maps of the box alone; forces in nN; a contact at an edge."""
+"""Boxes with free edges as a user meets them: the same bits on any ranks and threads and after a resume, with a spring, a
+viscoelastic block and holes; maps of the box alone; forces in nN; a contact at an edge."""
 
 import math
 import sys

@@ -16,7 +16,7 @@ SUBPACKAGES = {
     "results": ("result",),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
-    "theories": ("renormalised", "sphere", "combined"),
+    "theories": ("renormalised", "sphere", "viscoelastic", "combined"),
     "studies": ("grid", "tables", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
                 "estimates", "map_scene", "states"),
     "plots": ("style", "run", "sweep"),

@@ -31,7 +31,7 @@ BOUNDED = {
     "theory.delta_gamma large": "the theory alone", "theory.delta_gamma small": "the theory alone", "theory.beta small": "the theory alone",
     "output.checkpoint large": "never", "output.checkpoint small": "always", "block.young small": "a soft block",
     "interface.epsilon large": "a strong attraction", "drive.velocity large": "branches that do not relax",
-    "drive.velocity small": "branches that relax", "drive.displacement_step large": "half the range at most",
+    "drive.velocity small": "viscoelastic branches", "drive.displacement_step large": "half the range at most",
     "drive.tolerance large": "relaxations of a dynamic path"}
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A block that relaxes, led from Python: what a state remembers."""
+"""A viscoelastic block, led from Python: what a state remembers."""
 import numpy as np
 import pytest
 

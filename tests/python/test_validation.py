@@ -77,7 +77,7 @@ def test_the_error_of_an_estimate_holds_other_surfaces(results):
         assert row["error"] > 0 and abs(row["off"]) < 2.5, row
 
 
-def test_a_steady_crack_has_the_limits_of_a_solid_that_relaxes():
+def test_a_steady_crack_has_the_limits_of_a_viscoelastic_solid():
     slow, *between, fast = (rate.steady(v, 300) for v in (1e-4, 0.1, 1, 10, 1e8))
     assert slow == pytest.approx(1, abs=1e-3) and fast == pytest.approx(1 + rate.RATIO, rel=1e-3)
     assert slow < between[0] < between[1] < between[2] < fast

@@ -48,6 +48,7 @@ def _write_profile(out: store.Outputs, columns: list[dict[str, Any]]) -> None:
 
 def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
     return {name: _units(value, f"{path}.{name}") if isinstance(value, dict) else
+            _units(value[0], f"{path}.{name}[]") if isinstance(value, list) else
             program.quantities().get(f"{path}.{name}", {}).get("unit", "") for name, value in values.items()}
 
 
@@ -108,7 +109,25 @@ def _text(point: Values) -> str:
                      f"{spheres['maugis_images'] / flat:.4f} of JKR's"
                      + (f", {spheres['renormalised'] / flat:.4f} with the renormalised law" if "renormalised" in spheres
                         else ""))
-    return "\n".join(lines)
+    return "\n".join([*lines, *_sliding(point)])
+
+
+def _sliding(point: Values) -> list[str]:
+    """Returns the printed lines of rubber friction: numbers at drive.velocity, and a table over velocity."""
+    sliding = point.part("theory.sliding")
+    if (coefficient := sliding.number("friction_coefficient")) is None:
+        return []
+    beta = point.number("scene.theory.beta", 1.0)
+    rows = [[f"{at['velocity']:.4g}", f"{at['friction_coefficient']:.5f}", f"{at['contact_fraction']:.5f}"]
+            for at in sliding.listed("curve", dict)[::2]]
+    return ["", f"Rubber friction by Persson's theory: hysteresis alone, without adhesion; correction factor S = β + (1-β) P² with "
+                f"β = {beta:g} (theory.beta; 1: S = 1)",
+            f"  at {point.number('scene.drive.velocity', 0.0):g} m/s       friction coefficient {coefficient:.5f}, contact area "
+            f"{sliding.number('contact_fraction', 0.0):.5f}",
+            f"  slow sliding   friction coefficient over velocity {sliding.number('slope', 0.0):.5g} s/m",
+            *([f"  maximum        {sliding.number('largest_friction_coefficient', 0.0):.5f} at "
+               f"{sliding.number('velocity_of_largest', 0.0):.4g} m/s"] if rows else []),
+            *(["", terminal.table(["v, m/s", "μ", "A/A0"], rows)] if rows else [])]
 
 
 class Computed(NamedTuple):
@@ -140,11 +159,11 @@ def computed(file: str, overrides: list[str]) -> Computed:
     program.complaints([point])
     profile, notes = point.pop("profile"), point.pop("notes")
     text = _text(Values(point))
-    notes += [Values(point).part("theory." + part).text("note") for part in ("renormalised", "sphere")]
+    notes += [Values(point).part("theory." + part).text("note") for part in ("renormalised", "sphere", "sliding")]
     point.pop("flat")
     for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):
         point["theory"]["persson"].pop(key)
-    for part in ("renormalised", "sphere"):
+    for part in ("renormalised", "sphere", "sliding"):
         if part in point["theory"]:
             point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)
     point.setdefault("run", {})["wall_seconds"] = time.monotonic() - start

@@ -365,6 +365,30 @@ def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list
     return curves
 
 
+def sliding(run: Result, ax: Axes) -> bool:
+    """Draws Persson's theory of rubber friction over velocity: friction coefficient and contact area.
+
+    Parameters
+    ----------
+    run : Result
+        Result of `asperity theory`.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        False if there is nothing to draw.
+    """
+    if not (points := run.listed("theory.sliding.curve", dict)):
+        return False
+    velocity = [point["velocity"] for point in points]
+    curve(ax, velocity, [point["friction_coefficient"] for point in points], "friction coefficient $μ$")
+    curve(ax, velocity, [point["contact_fraction"] for point in points], "contact area $A$ / $A_0$", colour=GREEN, line=DASHES[1])
+    ax.set_ylim(bottom=0)
+    return finish(ax, "velocity $v$ (m/s)", "$μ$, $A$ / $A_0$", log="x")
+
+
 def _histogram(ax: Axes, edges: np.ndarray, density: np.ndarray, x: str, y: str) -> bool:
     curve(ax, np.repeat(edges, 2)[1:-1], np.repeat(np.where(density > 0, density, np.nan), 2))
     return finish(ax, x, y, log="y")
@@ -467,14 +491,14 @@ def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
 
 
 OF_RUN = {f.__name__: f for f in (separation, loading, contact, friction, energy, balance, spectrum, roughness,
-                                    height)}
+                                    sliding, height)}
 OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 class RunPlots:
     """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
 
-    Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, height.
+    Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, sliding, height.
     Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed"); without one the relaxed state, or
     the first that there is.
     """
@@ -498,6 +522,7 @@ class RunPlots:
         def balance(self, ax: Axes | None = None) -> Axes: ...
         def spectrum(self, ax: Axes | None = None) -> Axes: ...
         def roughness(self, ax: Axes | None = None) -> Axes: ...
+        def sliding(self, ax: Axes | None = None) -> Axes: ...
         def height(self, ax: Axes | None = None) -> Axes: ...
         def gaps(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
         def pressures(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...

@@ -22,7 +22,7 @@ from ..errors import UnknownName
 from ..files import store
 from ..results.result import Values, load_words
 from ..running import program
-from ..studies.grid import shown
+from ..studies.grid import in_decades, shown
 from ..studies.sweeps import Sweep
 from ..studies.tables import Table
 from ..units import MILLIJOULE, NANONEWTON, shown as shown_unit
@@ -97,6 +97,10 @@ RENORMALISED = Trace("renormalised theory{under}", "theory.renormalised.gamma_ef
 SPHERE = Trace("sphere, renormalised law", "theory.sphere.renormalised_ratio", GREY, DASHES[4])
 AREA = [Trace("Persson’s theory{under}", "theory.persson.contact_fraction", GREY, "-"),
         Trace("renormalised theory{under}", "theory.renormalised.contact_fraction", PINK, DASHES[3])]
+SLIDING = "Persson’s theory of rubber friction"
+FRICTION = [Trace(SLIDING, "theory.sliding.friction_coefficient", GREY, "-")]
+SLIDING_AREA = [Trace(SLIDING, "theory.sliding.contact_fraction", GREY, "-")]
+COEFFICIENT = "friction coefficient $μ$"
 GAMMA, CONTACT, LOST = "$γ_{\\mathrm{eff}}$ / Δγ", "$A$ / $A_0$", "energy lost per nominal area (meV/Å²)"
 Spec = tuple[str, list[Trace], list[Trace]]
 
@@ -129,6 +133,11 @@ SIMULATED: dict[str, Spec] = {
         Trace("at the pull-off force", "contact_radius.pull_off", RED, "", "s", False)]),
     "pull-off": ("largest attraction of the pull-off (nN)", [],
                  [Trace("pull-off", "pull_off_force", RED, "", "s", False, unit=NANONEWTON)]),
+    "friction": (COEFFICIENT, FRICTION, [
+        Trace("mean of the slide", "slide.friction_coefficient", BLUE, "", "o", uncertainty="slide.friction_coefficient_error")]),
+    "sliding-area": (CONTACT, SLIDING_AREA, [
+        Trace("mean of the slide", "slide.steady_contact_fraction", GREEN, "", "^",
+              uncertainty="slide.steady_contact_fraction_error")]),
     "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
@@ -140,12 +149,13 @@ SIMULATED: dict[str, Spec] = {
         Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
-    "full-contact": (GAMMA, [THEORY, FULL], [])}
+    "full-contact": (GAMMA, [THEORY, FULL], []),
+    "friction": (COEFFICIENT, FRICTION, []), "sliding-area": (CONTACT, SLIDING_AREA, [])}
 
 
 def _label_of(key: str) -> str:
     unit = shown_unit(program.schema().get(key, {}).get("unit", ""))
-    name = {"surface.rms": "rms roughness $h_{\\mathrm{rms}}$", "drive.load": "load"}.get(key, key)
+    name = {"surface.rms": "rms roughness $h_{\\mathrm{rms}}$", "drive.load": "load", "drive.velocity": "velocity $v$"}.get(key, key)
     return f"{name} ({unit})" if unit else name
 
 
@@ -336,8 +346,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if x == "surface.rms":
         ax.set_xlim(left=0)
     xs = [v for c in drawn(ax).curves for v in c.x]
-    decades = all(isinstance(v, (int, float)) and v > 0 for v in xs) and max(xs) > 100 * min(xs)
-    return finish(ax, _label_of(x), y, log="x" * decades,
+    return finish(ax, _label_of(x), y, log="x" * in_decades(xs),
                   legend="above" if len(ax.get_legend_handles_labels()[1]) > 5 else True, most=most)
 
 

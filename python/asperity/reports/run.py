@@ -35,7 +35,9 @@ FIGURES = {
          "Radially averaged power spectrum of this surface (realised), and the one that the scene asks for (target)."),
         ("roughness", "Binding energy and roughness", "Curves: the theories for this scene at other roughnesses. Markers: "
          "this run’s numbers, all as energies that separate the solids: works of the interface’s force, works of the "
-         "drive, and the binding energy of the state."))),
+         "drive, and the binding energy of the state."),
+        ("sliding", "Rubber friction over velocity", "Persson’s theory of the friction coefficient (hysteresis alone) and of the contact "
+         "area over the nominal area while the block slides."))),
     "energies": ("Energies", (
         ("energy", "Energies",
          "{energy}"),

@@ -219,7 +219,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     relaxes = run.number("dissipated_in_block.cycle") is not None
     for key, name, note in (
             ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
-            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block relaxes (block.prony)")):
+            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block is viscoelastic (block.prony)")):
         if (value := run.number(key)) is not None:
             add(f"{value * run.edge**2 / 1e3 if run.curved else value:.4g}", "eV" if run.curved else "meV/Å²", name,
                 note if run.curved else f"{millijoules(value)} mJ/m²; {note}")
@@ -270,9 +270,9 @@ def _loss(run: Result) -> str:
 
 
 def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
-    """Tells the energy that a block that relaxes dissipates in a cycle, beside the loss; "" if the block does not relax."""
+    """Tells the energy that a viscoelastic block dissipates in a cycle, beside the loss; "" if the block is elastic."""
     relaxed = run.number("dissipated_in_block.cycle")
-    return "" if relaxed is None else f" The block, which relaxes, dissipates {energy(relaxed)}."
+    return "" if relaxed is None else f" The viscoelastic block dissipates {energy(relaxed)}."
 
 
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:

@@ -44,8 +44,12 @@ FIGURES = {
     "separation": ("Mean separation", "Mean height of the lowest layer above the substrate’s mean plane."),
     "radius": ("Contact radius", "Radius of a circle as large as the area in contact."),
     "pull-off": ("Pull-off force", "Largest attraction of the substrate on the block during the pull-off."),
+    "friction": ("Friction coefficient", "Mean friction of the last slide over the mean pressure, after the running-in; Persson’s "
+                 "theory of rubber friction has hysteresis alone. Bars: standard error of the mean, and standard deviation over "
+                 "seeds, added in squares."),
+    "sliding-area": ("Contact area of the slide", "Mean projected contact area over the nominal area, while the block slides."),
     "hysteresis": ("Energy lost in the cycle", "Energy lost on the approach, on the pull-off, and in the whole cycle; of a "
-                   "block that relaxes also what it dissipates."),
+                   "viscoelastic block also what it dissipates."),
     "works": ("Definitions of the work", "Work of the interface’s force on the mean height, approach and pull-off; the "
                  "work summed atom by atom, which is the energy of the pairs and the same both ways; and the state’s "
                  "energy."),

@@ -73,7 +73,7 @@ class DissipatedInBlockUncertainty(Values):
 
 class DissipatedInBlock(Values):
     approach: float
-    """meV/Å^2: energy that a block that relaxes"""
+    """meV/Å^2: energy that a viscoelastic block"""
     pull_off: float
     """meV/Å^2: the same of the pull-off"""
     cycle: float
@@ -130,7 +130,7 @@ class Segment(Values):
     lost: float
     """meV/Å^2: energy damped on the way, or dissipated at instabilities"""
     dissipated_in_block: float
-    """meV/Å^2: energy that a block that relaxes has dissipated by that, beside lost"""
+    """meV/Å^2: energy that a viscoelastic block has dissipated by that, beside lost"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     kinetic: float
@@ -287,10 +287,36 @@ class TheorySphere(Values):
     note: str
     """why one of these is missing"""
 
+class TheorySlidingCurve(Values):
+    velocity: float
+    """m/s: velocity"""
+    friction_coefficient: float
+    """friction coefficient there"""
+    contact_fraction: float
+    """area of real contact there"""
+
+class TheorySliding(Values):
+    friction_coefficient: float
+    """Persson's theory of rubber friction at drive.velocity, under drive.load"""
+    friction_stress: float
+    """MPa: friction_coefficient times the load"""
+    contact_fraction: float
+    """area of real contact at drive.velocity"""
+    slope: float
+    """s/m: friction coefficient over velocity of slow sliding"""
+    largest_friction_coefficient: float
+    """the maximum over velocity"""
+    velocity_of_largest: float
+    """m/s: its velocity"""
+    curve: list[TheorySlidingCurve]
+    note: str
+    """why the theory has no number"""
+
 class Theory(Values):
     persson: TheoryPersson
     renormalised: TheoryRenormalised
     sphere: TheorySphere
+    sliding: TheorySliding
 
 class Relaxed(Values):
     elastic_energy: float
@@ -318,7 +344,7 @@ class Energy(Values):
     spring: float
     """eV: of energy.elastic, that of the spring that holds the top plane"""
     branches: float
-    """eV: of energy.elastic, what the branches of a block that relaxes store"""
+    """eV: of energy.elastic, what the branches of a viscoelastic block store"""
     dissipated_in_block: float
     """eV: what they have dissipated since the start, beside energy.damped"""
 
@@ -495,7 +521,7 @@ class SceneBlock(Values):
     strain: Any
     """small strain, or geometrically exact springs"""
     prony: Any
-    """branches of a block that relaxes, on a quasi-static path, as in [[9.0, '1 ns'], [1.5, '20 ns']], the times ..."""
+    """branches of a viscoelastic block, on a quasi-static path, as in [[9.0, '1 ns'], [1.5, '20 ns']], the times ..."""
     layers: Any
     """coatings between the block's own material and its surface, on a quasi-static path, from the surface upwards"""
     surface_stress: Any
@@ -624,7 +650,7 @@ class SeriesArrays:
     step: np.ndarray
     """time step"""
     time: np.ndarray
-    """ps: time, simulated or in which a block relaxes"""
+    """ps: time, simulated or of the relaxation of a viscoelastic block"""
     segment: np.ndarray
     """number of the segment of drive.path, from 0"""
     top_displacement: np.ndarray
@@ -648,7 +674,7 @@ class SeriesArrays:
     interface_energy: np.ndarray
     """eV: energy of the interface"""
     branch_energy: np.ndarray
-    """eV: of elastic_energy, what the branches of a block that relaxes store"""
+    """eV: of elastic_energy, what the branches of a viscoelastic block store"""
     spring_energy: np.ndarray
     """eV: of elastic_energy, what the spring that holds the top plane stores"""
     elastic_energy: np.ndarray
@@ -666,7 +692,7 @@ class SeriesArrays:
     dissipated: np.ndarray
     """eV: energy dissipated at instabilities since the start"""
     dissipated_in_block: np.ndarray
-    """eV: energy that the branches of a block that relaxes have dissipated since the start"""
+    """eV: energy that the branches of a viscoelastic block have dissipated since the start"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray

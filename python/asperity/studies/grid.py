@@ -13,6 +13,7 @@ import contextlib
 import itertools
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -160,6 +161,12 @@ def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[lis
         raise SceneError("sweep", f"the grid has more than {MOST_POINTS} points", f"{MOST_POINTS} are the most",
                          "sweep fewer values or fewer keys")
     return axes, fixed
+
+
+def in_decades(values: Iterable[Any]) -> bool:
+    """Returns True if values are spread over more than two decades, which are then the scale of a plot."""
+    numbers = list(values)
+    return bool(numbers) and all(isinstance(v, (int, float)) and v > 0 for v in numbers) and bool(max(numbers) > 100 * min(numbers))
 
 
 def points_of(axes: list[Axis]) -> list[list[str]]:

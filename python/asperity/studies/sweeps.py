@@ -31,7 +31,7 @@ from ..running import lock, program
 from ..running.pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from ..running.scene import SceneLike, inputs_of, scene_file
 from ..theories import combined
-from .grid import Axis, axes_of, is_seed, points_of, shown
+from .grid import Axis, axes_of, in_decades, is_seed, points_of, shown
 from .tables import Columns, Table, columns_of, text_of
 
 if TYPE_CHECKING:
@@ -295,7 +295,8 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
         values = axis.values[:1] if one else axis.values
         if axis.key == x and program.schema()[x]["kind"] == "number":
             low, high = (pick(p["set"][x] for p in points) for pick in (min, max))
-            values = [f"{low + (high - low) * i / 30:.12g}" for i in range(31)]
+            between = np.geomspace if in_decades((low, high)) else np.linspace
+            values = [f"{value:.12g}" for value in between(low, high, 31)]
         finer.append(Axis(axis.key, values))
     found = combined.points(file, [fixed + point for point in points_of(finer)], quick=True)
     return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number

@@ -21,6 +21,8 @@ from .grid import is_seed, shown
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
 """Columns of a result whose path in result.json is that of a key of the scene."""
+SLIDE, SEGMENT = "slide.", "segments[]."
+"""Beginnings of the columns of a path's last slide that has a mean friction, and of their paths in result.json."""
 RENAMED_BACK = {column: path for path, column in RENAMED.items()}
 AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites of the lowest layer"
 """What numbers of a result are over, as program.quantity() says it."""
@@ -48,7 +50,7 @@ def unit_of(column: str) -> str:
     if column in schema:
         return schema[column]["unit"]
     path = RENAMED_BACK.get(column, column)
-    return program.quantity(path)["unit"]
+    return program.quantity(SEGMENT + path.removeprefix(SLIDE) if path.startswith(SLIDE) else path)["unit"]
 
 
 def columns_of(result: Values) -> dict[str, float]:
@@ -61,6 +63,8 @@ def columns_of(result: Values) -> dict[str, float]:
         found[RENAMED.get(path, path)] = value
         if flat and over_flat(path):
             found[path + "_ratio"] = value / flat
+    if slides := [segment for segment in result.listed("segments", dict) if "steady_friction" in segment]:
+        found |= {SLIDE + name: number for name, number in Values(slides[-1]).numbers().items()}
     return found
 
 
@@ -196,14 +200,18 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("interface, out", "-work_of_interface.pull_off_ratio", 4),
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
-                 ("radius, Å", "contact_radius.relaxed", 1), ("lost" + BOTH, "lost.cycle", 4),
+                 ("radius, Å", "contact_radius.relaxed", 1), ("friction coefficient", "slide.friction_coefficient", 4),
+                 ("±", "slide.friction_coefficient_error", 4), ("sliding contact", "slide.steady_contact_fraction", 4),
+                 ("theory, friction", "theory.sliding.friction_coefficient", 4),
+                 ("theory, sliding contact", "theory.sliding.contact_fraction", 4), ("lost" + BOTH, "lost.cycle", 4),
                  ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
     ("γ_eff" + BOTH, "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
     ("A/A0", "persson.contact_fraction", 5), ("full contact", "persson.gamma_full_contact_ratio", 5),
-    ("renormalised", "renormalised.gamma_eff_ratio", 5)))
+    ("renormalised", "renormalised.gamma_eff_ratio", 5), ("friction coefficient", "sliding.friction_coefficient", 5),
+    ("sliding A/A0", "sliding.contact_fraction", 5)))
 
 
 def _status(words: list[str]) -> str:

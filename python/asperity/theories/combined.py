@@ -1,8 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The theories of scenes and runs: Persson's by the program; here the renormalised one and that of a smooth sphere.
+"""The theories of scenes and runs: Persson's of adhesion by the program; here the renormalised one, that of a smooth sphere
+and that of rubber friction.
 
-Numbers have the names and units of `theory` in result.json: `renormalised`, and of a curved scene `sphere`.
+Numbers have the names and units of `theory` in result.json: `renormalised`, of a curved scene `sphere`, and of a viscoelastic
+block that slides `sliding`.
 """
 
 from __future__ import annotations
@@ -18,7 +20,7 @@ import numpy as np
 from ..errors import Error
 from ..results.result import Result, Values
 from ..running import program, scene
-from ..units import GIGAPASCAL
+from ..units import ANGSTROM_PER_PS, GIGAPASCAL, MEGAPASCAL
 
 COMPARED_SLOPE = 0.6
 """The steepest roughness at which the renormalised theory was held against simulations."""
@@ -104,6 +106,37 @@ def _sphere(point: Values) -> dict[str, Any]:
     return {"note": "the images flatten the sphere: the contact is as wide as the box; use a larger box"}
 
 
+def _slides(point: Values) -> bool:
+    """Returns True if a viscoelastic block slides in a scene."""
+    path = point.part("scene").listed("drive.path", str)
+    return bool(point.find("scene.block.prony")) and any(segment.startswith("slide") for segment in path)
+
+
+def _sliding(point: Values, rough: dict[str, Any], curve: bool) -> dict[str, Any]:
+    """Returns `theory.sliding`. curve: with the theory over velocity."""
+    from . import viscoelastic
+
+    if not rough["pressure"] > 0:
+        return {"note": "the theory of rubber friction is of surfaces under a pressure: give drive.load a value above 0"}
+    keys = point.part("scene")
+    modulus = keys.number("block.young", 0.0) * GIGAPASCAL / (1 - keys.number("block.poisson", 0.0) ** 2)
+    rubber = viscoelastic.Rubber(rough["spectrum"], [(r, tau) for r, tau in keys.listed("block.prony", list)], modulus,
+                                 rough["pressure"], keys.number("theory.beta", 1.0))
+    here = viscoelastic.friction(rubber, keys.number("drive.velocity", 0.0) * ANGSTROM_PER_PS)
+    coefficient = float(here.coefficient[0])
+    found: dict[str, Any] = {"friction_coefficient": coefficient,
+                             "friction_stress": coefficient * rough["pressure"] / MEGAPASCAL,
+                             "contact_fraction": float(here.area[0]), "slope": viscoelastic.slope(rubber) * ANGSTROM_PER_PS}
+    speeds = viscoelastic.velocities(rubber)
+    if curve and len(speeds):
+        over = viscoelastic.friction(rubber, speeds)
+        most, at = viscoelastic.largest(rubber, speeds[int(np.argmax(over.coefficient))])
+        found |= {"largest_friction_coefficient": most, "velocity_of_largest": at / ANGSTROM_PER_PS,
+                  "curve": [dict(zip(("velocity", "friction_coefficient", "contact_fraction"), map(float, numbers)))
+                            for numbers in zip(speeds / ANGSTROM_PER_PS, *over)]}
+    return found
+
+
 def points(file: str, variations: list[list[str]], runnable: bool = False, profile: bool = False,
            quick: bool = False) -> list[dict]:
     """Computes the theories of many variations of a scene.
@@ -135,6 +168,8 @@ def points(file: str, variations: list[list[str]], runnable: bool = False, profi
                 found_of_it["contact_fraction_expected_error"] = max(found_of_it["contact_fraction_expected_error"], 1.0 / sites**2)
             if Values(point).number("scene.surface.radius"):
                 point["theory"]["sphere"] = _sphere(Values(point))
+            elif _slides(Values(point)):
+                point["theory"]["sliding"] = _sliding(Values(point), rough, profile)
     return found
 
 
@@ -185,7 +220,7 @@ def of_run(run: Result) -> Values:
 def complete(run: Result) -> None:
     """Puts the numbers that a result.json of a run has not into its `theory`."""
     found = of_run(run)
-    for name in ("renormalised", "sphere"):
+    for name in ("renormalised", "sphere", "sliding"):
         if found.part("theory." + name):
             run["theory"].setdefault(name, found.part("theory." + name))
 
