@@ -83,11 +83,20 @@ struct SurfaceTransform<T>::Parts {
     bool under_way = false; ///< a stage lives
     typename F::Plan rows_forward = nullptr, rows_backward = nullptr;
     typename F::Plan columns_forward = nullptr, columns_backward = nullptr;
+    /// Number of sites across above which FFTW writes the waves of a column one after another, to
+    /// be put side by side afterwards: the columns of a block side by side are then too far from
+    /// row to row for the passes of FFTW, which take two to three times as long.
+    static constexpr int side_by_side = 256;
+    bool one_after_another() const { return slab.sites > side_by_side; }
+    /// Distance between two columns one after another, in numbers: a line more than a column, so
+    /// that they do not all lie at one place of a page.
+    std::size_t column_length() const { return 2 * static_cast<std::size_t>(slab.sites) + line; }
     /// Memory of each thread: two blocks of waves; or a row of sites of each component, and one of
-    /// waves.
+    /// waves. Behind both, the columns of one component one after another.
     struct Own {
         AlignedArray<T> room;
         std::array<T*, 3> rows{};
+        T* columns = nullptr;
     };
     std::vector<Own> own;
     /// Waves that are transformed along x: of this rank's rows of all blocks, and, of several
@@ -101,8 +110,10 @@ struct SurfaceTransform<T>::Parts {
             std::max(2 * slab.block_length(components),
                      static_cast<std::size_t>(components) * row_length() + waves_of_row());
         for (int t = 0; t < omp_get_max_threads(); ++t) {
-            Own& mine = own.emplace_back(Own{aligned_array<T>(room)});
-            std::fill_n(mine.room.get(), room, T(0));
+            const std::size_t columns = one_after_another() ? block_columns * column_length() : 0;
+            Own& mine = own.emplace_back(Own{aligned_array<T>(room + columns)});
+            std::fill_n(mine.room.get(), room + columns, T(0));
+            mine.columns = mine.room.get() + room;
             for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c)
                 mine.rows[c] = mine.room.get() + c * row_length();
         }
@@ -115,6 +126,10 @@ struct SurfaceTransform<T>::Parts {
         rows_backward = F::waves_to_real(slab.sites, waves, sites, FFTW_ESTIMATE);
         const auto columns = [&](int sign) {
             auto* const from = reinterpret_cast<Complex*>(sites);
+            if (one_after_another())
+                return F::along(1, &slab.sites, block_columns, from, nullptr, block_columns, 1,
+                                reinterpret_cast<Complex*>(of_thread().columns), nullptr, 1,
+                                static_cast<int>(column_length() / 2), sign, FFTW_ESTIMATE);
             return F::along(1, &slab.sites, block_columns, from, nullptr, block_columns, 1,
                             from + slab.block_length(components) / 2, nullptr, block_columns, 1,
                             sign, FFTW_ESTIMATE);
@@ -218,9 +233,28 @@ struct SurfaceTransform<T>::Parts {
     void transform_block(typename F::Plan plan, const T* from, T* to) const {
         // Out of place, FFTW only reads columns.
         for (int c = 0; c < components;
-             ++c, from += of_component(slab.sites), to += of_component(slab.sites))
-            F::run_along(plan, reinterpret_cast<Complex*>(const_cast<T*>(from)),
-                         reinterpret_cast<Complex*>(to));
+             ++c, from += of_component(slab.sites), to += of_component(slab.sites)) {
+            auto* const waves = reinterpret_cast<Complex*>(const_cast<T*>(from));
+            if (!one_after_another()) {
+                F::run_along(plan, waves, reinterpret_cast<Complex*>(to));
+                continue;
+            }
+            T* const columns = of_thread().columns;
+            F::run_along(plan, waves, reinterpret_cast<Complex*>(columns));
+            put_side_by_side(columns, to);
+        }
+    }
+    /// Copies the columns of a block from one after another to side by side.
+    void put_side_by_side(const T* columns, T* to) const {
+        constexpr int rows = 8; // whose waves are a line of each column
+        for (int y0 = 0; y0 < slab.sites; y0 += rows) {
+            const int y1 = std::min(slab.sites, y0 + rows);
+            for (std::size_t k = 0; k < block_columns; ++k)
+                for (int y = y0; y < y1; ++y)
+                    std::memcpy(to + of_component(y) + 2 * k,
+                                columns + k * column_length() + 2 * static_cast<std::size_t>(y),
+                                2 * sizeof(T));
+        }
     }
     T* get_block(int b) {
         T* const whole = second_block();

@@ -132,7 +132,7 @@ TEST(Slabs, AreOfTheRanksTheyAreGiven) {
 
 template <class T>
 void transform_like_one_rank(double tolerance, int components) {
-    for (int sites : {8, 15, 16, 49, 100}) {
+    for (int sites : {8, 15, 16, 49, 100, 301}) {
         const Slab slab(sites, test::world()), whole(sites, Communicator());
         auto mine = field_on<T>(slab, components), all = field_on<T>(whole, components);
         const SurfaceTransform<T> shared(slab, components), alone(whole, components);
