@@ -50,7 +50,9 @@ std::vector<Command> all_commands() {
            &Arguments::restart},
           {"--wall-limit", "23h50m", "stop with a checkpoint before this time has passed (exit 75)",
            &Arguments::wall_limit},
-          takes::progress},
+          takes::progress,
+          takes::quiet,
+          takes::json},
          [](const Arguments& given, const Communicator& world) {
              const RunOptions options = run_options(given);
              const Case c = case_of(given, world.size());
@@ -60,32 +62,36 @@ std::vector<Command> all_commands() {
          true},
         {"init",
          "write a commented scene to start from; never over a file",
-         {{"FILE", "", "the scene file to be made (default: scene.toml)", &Arguments::out}},
+         {{"FILE", "", "the scene file to be made (default: scene.toml)", &Arguments::words},
+          {"--out", "FILE", "the same as an option", &Arguments::out, "-o"},
+          takes::quiet,
+          takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return init_command(given.out, world);
+             return init_command(given, world);
          }},
         {"check",
          "look for mistakes in a scene without running it",
-         {takes::scene, takes::set, takes::json},
+         {takes::scene, takes::set, takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return check_command(case_of(given, world.size()), given.json, world);
+             return check_command(case_of(given, world.size()), given, world);
          }},
         {"plan",
          "what a scene will simulate and what not, and what it will cost; runs nothing",
          {takes::scene,
           takes::set,
           {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks},
+          takes::quiet,
           takes::json},
          [](const Arguments& given, const Communicator& world) {
              return plan_command(case_of(given, given.ranks > 0 ? given.ranks : world.size()),
-                                 given.json, world);
+                                 given, world);
          }},
         {"surface",
          "make or read the surface, print and write its statistics and heights",
-         {takes::scene, takes::set, takes::out("results/<scene>-surface"), takes::json},
+         {takes::scene, takes::set, takes::out("results/<scene>-surface; with --json no files"),
+          takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return surface_command(surface_case_of(given, world.size()), given.out, given.json,
-                                    world);
+             return surface_command(surface_case_of(given, world.size()), given, world);
          }},
         {"theory", "the theories of a scene, without simulating it", {}},
         {"theory-points",
@@ -107,7 +113,11 @@ std::vector<Command> all_commands() {
         {"hold",
          "for programs: the lock of a result directory, sent through the socket that is the "
          "standard input",
-         {{"DIR", "", "the directory", &Arguments::out}},
+         {{.name = "DIR",
+           .value = "",
+           .explanation = "the directory",
+           .into = &Arguments::out,
+           .needed = true}},
          [](const Arguments& given, const Communicator& world) {
              return on_root(world, [&] { return hold_command(given.out); });
          }},
@@ -127,6 +137,7 @@ std::vector<Command> all_commands() {
          "every key of a scene with its default, as TOML",
          {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},
           {"--plain", "", "without explanations", &Arguments::plain},
+          takes::quiet,
           takes::json,
           {"--results", "",
            "every name of result.json and run.h5: the reference page docs/reference/result.md; "
@@ -139,7 +150,7 @@ std::vector<Command> all_commands() {
          }},
         {"info",
          "what this program was built from and runs on",
-         {takes::json},
+         {takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
              return info_command(given.json, world);
          }},

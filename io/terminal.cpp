@@ -170,18 +170,15 @@ void Progress::update(const State& state) {
     if (first_steps_ < 0 || state.steps < last_steps_) {
         first_steps_ = state.steps;
         first_time_ = state.time_fs;
-        first_fraction_ = state.fraction;
         start_ = now;
     }
     last_steps_ = state.steps;
     if (!due()) return;
     last_ = now;
-    const double fraction_done =
-        state.fraction >= 0.0 && first_fraction_ >= 0.0 ? state.fraction - first_fraction_ : -1.0;
     const std::string line = progress_line(state, seconds(now - start_), state.steps - first_steps_,
-                                           state.time_fs - first_time_, fraction_done);
+                                           state.time_fs - first_time_);
     if (mode_ == ProgressMode::bar) {
-        put(fmt::format("\r\033[K{:.{}}", line, columns_of(to_)));
+        put(fmt::format("\r\033[K{:.{}}", line, std::min(progress_columns, columns_of(to_))));
         bar_drawn_ = true;
     } else if (mode_ == ProgressMode::json) {
         const Json fraction = state.fraction < 0.0 ? Json() : Json(state.fraction);
@@ -211,17 +208,27 @@ void Progress::finish() {
 }
 
 std::string progress_line(const Progress::State& state, double seconds, long long steps_done,
-                          double time_done_fs, double fraction_done) {
+                          double time_done_fs) {
     std::string line;
-    if (state.fraction >= 0.0) line = fmt::format("{:3.0f} %  ", 100.0 * state.fraction);
-    line += state.phase;
+    if (state.left >= 0.0) line = fmt::format("{} left, ", duration_text(state.left));
+    if (state.fraction >= 0.0) line += fmt::format("{:.0f} %, ", 100.0 * state.fraction);
+    // The phase in parts that a comma ends, then the rates.
+    std::vector<std::string> parts;
+    for (std::string_view rest = state.phase; !rest.empty();) {
+        const std::size_t end = std::min(rest.find(", "), rest.size());
+        parts.push_back((parts.empty() ? "" : ", ") + std::string(rest.substr(0, end)));
+        rest.remove_prefix(std::min(rest.size(), end + 2));
+    }
     if (seconds > 0.0 && steps_done > 0) {
-        line += fmt::format(" | step {}, {} steps/s", state.steps,
-                            amount(static_cast<double>(steps_done) / seconds));
-        if (time_done_fs > 0.0) line += ", " + simulated_per_day(time_done_fs / seconds * 86400.0);
-        if (fraction_done > 1e-3)
-            line += fmt::format(" | {} left",
-                                duration_text(seconds * (1.0 - state.fraction) / fraction_done));
+        parts.push_back(fmt::format(" | step {}", state.steps));
+        parts.push_back(
+            fmt::format(", {} steps/s", amount(static_cast<double>(steps_done) / seconds)));
+        if (time_done_fs > 0.0)
+            parts.push_back(", " + simulated_per_day(time_done_fs / seconds * 86400.0));
+    }
+    for (const std::string& part : parts) {
+        if (visible_width(line) + visible_width(part) > progress_columns) break;
+        line += part;
     }
     return line;
 }

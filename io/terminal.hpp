@@ -55,7 +55,8 @@ public:
         std::string phase;      ///< "approach, F = -12.3 eV/Å"
         long long steps = 0;    ///< steps done so far, in all
         double time_fs = 0.0;   ///< simulated time so far, fs; 0: the run has no clock
-        double fraction = -1.0; ///< part of the whole path that is done, 0..1; negative: unknown
+        double fraction = -1.0; ///< part of the run's time that is over, 0..1; negative: unknown
+        double left = -1.0;     ///< time left, s; negative: unknown
     };
     /// Starts the clock. quiet: print nothing (ranks other than 0).
     Progress(ProgressMode mode, bool quiet = false, std::FILE* to = stderr);
@@ -86,13 +87,15 @@ private:
     long long first_steps_ = -1;
     long long last_steps_ = 0;
     double first_time_ = 0.0;
-    double first_fraction_ = -1.0;
     bool bar_drawn_ = false;
 };
 
-/// Returns one progress line: phase, steps/s, simulated time a day, time left.
+/// Columns that a line of progress fills at most.
+inline constexpr int progress_columns = 79;
+/// Returns one progress line of at most progress_columns: time left, part that is done, phase,
+/// steps/s and simulated time a day; what does not fit is left out, the last first.
 std::string progress_line(const Progress::State& state, double seconds, long long steps_done,
-                          double time_done_fs, double fraction_done);
+                          double time_done_fs);
 
 /// Returns a duration in words: "1 h 02 min", "3 min 20 s", "12 s".
 std::string duration_text(double seconds);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A unit is a chain of terms, "meV/Å^2" or "kg m^-1 s^-2"; a term is a prefix, a symbol and a
-// power. A symbol is looked up whole before it is split into prefix and symbol, so that "min" is a
-// minute and "Pa" no peta-annum.
+// A unit is a chain of terms, "meV/Å^2" or "kg m-1 s-2"; a term is a prefix, a symbol and a
+// power. python/asperity/units.py has the same table (a test compares them). A symbol is looked up
+// whole before it is split into prefix and symbol, so that "min" is a minute and "Pa" no
+// peta-annum.
 #include "io/units.hpp"
 
 #include <algorithm>
@@ -109,9 +110,19 @@ std::string plain(std::string_view unit) {
     return text;
 }
 
-/// Returns the power behind a symbol: ^2, ^-1; 1 if there is none.
-std::optional<int> take_power(std::string_view& text) {
-    if (!skip(text, "^")) return 1;
+/// Returns the power behind a symbol: ^2, ^-1; 1 if there is none. The power that stands in the
+/// symbol itself, as in "m2" or "s-1", is moved from there.
+std::optional<int> take_power(std::string_view& text, std::string_view& symbol) {
+    if (!text.starts_with("^")) {
+        const std::size_t end = symbol.find_last_not_of("123456789-") + 1;
+        if (end == 0 || end == symbol.size()) return 1;
+        std::string_view power = symbol.substr(end);
+        symbol = symbol.substr(0, end);
+        const int sign = skip(power, "-") ? -1 : 1;
+        if (power.size() != 1 || power[0] == '-') return std::nullopt;
+        return sign * (power[0] - '0');
+    }
+    skip(text, "^");
     const int sign = skip(text, "-") ? -1 : 1;
     if (text.empty() || text[0] < '1' || text[0] > '9') return std::nullopt;
     const int digit = text[0] - '0';
@@ -169,8 +180,9 @@ std::optional<Unit> parse_unit(std::string_view written) {
     skip_blanks(text);
     if (text.empty()) return unit;
     while (true) {
-        const std::optional<Unit> symbol = find_symbol(take_symbol(text));
-        const std::optional<int> power = take_power(text);
+        std::string_view name = take_symbol(text);
+        const std::optional<int> power = take_power(text, name);
+        const std::optional<Unit> symbol = find_symbol(name);
         if (!symbol || !power) return std::nullopt;
         const int times = divide ? -*power : *power;
         for (std::size_t i = 0; i < 4; ++i)

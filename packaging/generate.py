@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""generate.py PROGRAM FOLDER: writes the man page asperity.1 and the bash completion asperity.bash.
+"""generate.py PROGRAM FOLDER: writes the man page asperity.1 and the completions asperity.bash and _asperity (zsh).
 
 Both are made of what the program says of itself: its commands (--help), their options (COMMAND --help)
 and the keys of a scene (defaults --json).
@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 
 # Values that an option takes, where they are files or fixed words.
-VALUES = {"--progress": "auto bar lines off", "--to": "xyz vtk png", "--resume": "auto"}
+VALUES = {"--progress": "auto bar lines off", "--line-noise": "keep align-rows isotropic", "--to": "xyz vtk png", "--resume": "auto"}
 
 
 def say(program, *words):
@@ -25,9 +25,20 @@ def say(program, *words):
 
 
 def commands_of(text):
-    """[(name, purpose)] of the list of commands at the end of --help."""
-    listed = text[text.index("Subcommands:"):].split("\n\n")[0].splitlines()[1:]
-    return [tuple(line.split(None, 1)) for line in listed if line.strip()]
+    """[(name, purpose)] of the list of commands in --help; lines that go on are joined."""
+    listed = text[text.index("\ncommands:\n") + len("\ncommands:\n"):].split("\n\n")[0]
+    return [(name, " ".join(purpose.split())) for name, purpose in re.findall(r"(?m)^  (\S+)((?:.*\n? {26})*.*)$", listed)]
+
+
+def options_of(text):
+    """[(names, value, explanation)] of the options in the help of a command; value "" is a flag."""
+    listed = text[text.index("\noptions:\n") + len("\noptions:\n"):].split("\n\n")[0]
+    found = []
+    for head, more in re.findall(r"(?m)^ {2,6}(-\S.*)$((?:\n {26}.*)*)", listed):
+        spelt, _, explanation = head.partition("  ")
+        names = re.findall(r"(?:^|, )(-[^\s,]+)", spelt)
+        found.append((names, spelt[spelt.rindex(names[-1]) + len(names[-1]):].strip(), " ".join((explanation + more).split())))
+    return found
 
 
 def roff(text):
@@ -47,9 +58,7 @@ def man_page(version, commands, helps, schema):
            "(the path and the maps) into a directory, and never over an earlier result.", ".SH COMMANDS"]
     for name, purpose in commands:
         out += [".SS " + name, roff(purpose[:1].upper() + purpose[1:] + "."), ".PP", ".nf"]
-        footers = ("Exit codes:", "Start here:")  # told once, below
-        out += [roff(line) for line in helps[name].splitlines()
-                if line.strip() and line != purpose and not line.startswith(footers)]
+        out += [roff(line) for line in helps[name].partition("\nexit codes:")[0].splitlines() if line.strip()]
         out += [".fi"]
     out += [".SH SCENE KEYS", "Every key has a default; units may be given, as in", '.BR """0.3 nm""" .']
     for key, about in schema.items():
@@ -69,7 +78,8 @@ def man_page(version, commands, helps, schema):
 
 
 def completion(commands, helps, schema):
-    options = {name: sorted(set(re.findall(r"(?m)^\s+(?:-\w,\s*)?(--[a-z][a-z-]*)", helps[name])))
+    """The completion of bash."""
+    options = {name: sorted({one for names, _, _ in options_of(helps[name]) for one in names if one.startswith("--")})
                for name, _ in commands}
     choices = {key: [str(c) for c in about["choices"]] for key, about in schema.items() if about.get("choices")}
     cases = "\n".join(f"    {name}) options='{' '.join(words)}' ;;" for name, words in options.items())
@@ -118,6 +128,61 @@ complete -F _asperity asperity
 """
 
 
+def quoted(text):
+    """A text in single quotes of a shell."""
+    return "'" + text.replace("'", "'\\''") + "'"
+
+
+def zsh_completion(commands, helps, schema):
+    """The completion of zsh, with explanations."""
+    def spec(names, value, explanation):
+        said = re.sub(r"([\[\]:])", r"\\\1", explanation)
+        action = ("->keys" if "--set" in names else f"({' '.join(VALUES[n] for n in names if n in VALUES)})"
+                  if set(names) & VALUES.keys() else "_files")
+        argument = f":{re.sub('[:]', ' ', value)}:{action}" if value else ""
+        repeated = "*" if "--set" in names else ""
+        return " ".join(quoted(f"{repeated}{name}[{said}]{argument}") for name in names)
+
+    listed = "\n".join("        " + quoted(f"{name}:{purpose}") for name, purpose in commands)
+    cases = "\n".join(f"    {name}) _arguments -C " + " ".join(spec(*one) for one in options_of(helps[name]))
+                      + " '*:file:_files' ;;" for name, _ in commands)
+    keys = "\n".join("        " + quoted(f"{key}=") for key in schema)
+    choices = "\n".join(f"        {key}) compadd -P '{key}=' -- {' '.join(quoted(str(c)) for c in about['choices'])} ;;"
+                        for key, about in schema.items() if about.get("choices"))
+    return f"""#compdef asperity
+# zsh completion of asperity; made by packaging/generate.py
+local context state state_descr line
+typeset -A opt_args
+local -a commands keys
+commands=(
+{listed}
+)
+if (( CURRENT == 2 )); then
+    _describe -t commands 'command' commands
+    return
+fi
+local command=$words[2]
+shift words
+(( CURRENT-- ))
+case $command in
+{cases}
+esac
+if [[ $state == keys ]]; then
+    case $PREFIX in
+    *=*)
+        case ${{PREFIX%%=*}} in
+{choices}
+        esac ;;
+    *)
+        keys=(
+{keys}
+        )
+        compadd -S '' -- $keys ;;
+    esac
+fi
+"""
+
+
 def main():
     program, folder = sys.argv[1], Path(sys.argv[2])
     overview = say(program, "--help")
@@ -128,6 +193,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "asperity.1").write_text(man_page(version, commands, helps, schema))
     (folder / "asperity.bash").write_text(completion(commands, helps, schema))
+    (folder / "_asperity").write_text(zsh_completion(commands, helps, schema))
 
 
 if __name__ == "__main__":

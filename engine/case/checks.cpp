@@ -235,9 +235,8 @@ void check_keys(const Case& c, io::Problems& problems) {
 
     if (wall && c.effects.dynamic)
         problems.add("interface.kind", "= \"wall\" on a dynamic path",
-                     "a wall takes no lateral tractions, and dynamic paths cannot leave lateral "
-                     "displacements "
-                     "be left out",
+                     "a wall takes no lateral tractions, and dynamic paths cannot leave out "
+                     "lateral displacements",
                      "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or kind = "
                      "\"atoms\"");
     else if (wall && !interface.frictionless)

@@ -3,6 +3,7 @@
 #include "engine/commands/command_line.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/commands/help.hpp"
 #include "engine/run/stop_signals.hpp"
 #include "io/error.hpp"
 #include "io/machine.hpp"
@@ -10,6 +11,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <string_view>
 #include <type_traits>
 
 #include <CLI/CLI.hpp>
@@ -79,7 +81,12 @@ RunOptions run_options(const Arguments& given) {
             problems.add(io::Problem{"--wall-limit " + given.wall_limit, "is no length of time", "",
                                      "for example 23h50m, 45m or 90s"});
     }
-    if (const auto mode = io::progress_mode(given.progress))
+    options.quiet = given.quiet;
+    options.json = given.json;
+    const std::string progress = !given.progress.empty() ? given.progress
+                                 : only_results(given)   ? "off"
+                                                         : "auto";
+    if (const auto mode = io::progress_mode(progress))
         options.progress = *mode;
     else
         problems.add(io::Problem{"--progress " + given.progress, "is none of its choices",
@@ -95,19 +102,24 @@ RunOptions run_options(const Arguments& given) {
 
 namespace takes {
 
-const Option scene = {"SCENE", "", "the scene file (TOML); - is the standard input",
-                      &Arguments::words};
+const Option scene = {.name = "SCENE",
+                      .value = "",
+                      .explanation = "the scene file (TOML); - is the standard input",
+                      .into = &Arguments::words,
+                      .needed = true};
 const Option set = {"--set", "key=value",
                     "override a key of the scene: section.key=value; repeatable",
                     &Arguments::overrides};
-const Option json = {"--json", "", "one line of JSON for programs; writes no files",
+const Option json = {"--json", "", "print the result as one line of JSON, for programs",
                      &Arguments::json};
-const Option progress = {"--progress", "MODE", "auto, bar, lines, off; json: for programs",
+const Option progress = {"--progress", "MODE",
+                         "auto, bar, lines, off, or json for programs (default: auto)",
                          &Arguments::progress};
+const Option quiet = {"--quiet", "", "print results and errors only", &Arguments::quiet, "-q"};
 
 Option out(const std::string& otherwise) {
     return {"--out", "DIR", fmt::format("result directory (default: {})", otherwise),
-            &Arguments::out};
+            &Arguments::out, "-o"};
 }
 
 } // namespace takes
@@ -117,15 +129,16 @@ namespace {
 void add(CLI::App& command, const Option& option, Arguments& given) {
     const auto add_to = [&](auto& field) -> CLI::Option* {
         using Field = std::remove_reference_t<decltype(field)>;
+        const std::string names =
+            option.short_name.empty() ? option.name : option.short_name + "," + option.name;
         if constexpr (std::is_same_v<Field, bool>)
-            return command.add_flag(option.name, field, option.explanation);
+            return command.add_flag(names, field);
         else
-            return command.add_option(option.name, field, option.explanation)
-                ->type_name(option.value);
+            return command.add_option(names, field);
     };
     CLI::Option& added =
         *std::visit([&](auto member) { return add_to(given.*member); }, option.into);
-    if (option.name == takes::scene.name) added.required();
+    if (option.needed) added.required();
     if (option.name == takes::set.name) added.allow_extra_args(false);
     if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::Range(1, 1 << 20));
     // The empty value of a variable that is not set
@@ -165,20 +178,66 @@ bool is_for_programs(int argc, char** argv) {
     return command == "theory-points" || command == "hold";
 }
 
+namespace {
+
+/// Returns true for a call of --help or -h, of the program or of a command.
+bool asks_for_help(int argc, char** argv) {
+    return std::any_of(argv + std::min(1, argc), argv + argc, [](const char* word) {
+        return std::string_view(word) == "--help" || std::string_view(word) == "-h";
+    });
+}
+
+/// Returns the error of a command line that the library does not understand, with the option that
+/// was meant.
+io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Command>& commands,
+                              int argc, char** argv) {
+    const std::string command = argc > 1 ? argv[1] : "";
+    const auto of = std::find_if(commands.begin(), commands.end(),
+                                 [&](const Command& one) { return one.name == command; });
+    if (of == commands.end())
+        return io::SceneError(
+            io::Problem{"command line", "no command is given", "", "asperity --help"});
+    std::vector<std::string> names{"--help"};
+    for (const Option& option : of->options)
+        if (option.name.starts_with("-")) names.push_back(option.name);
+    std::string fix = fmt::format("asperity {} --help", command);
+    for (int i = 2; i < argc; ++i) {
+        const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+        if (!word.starts_with("--") || std::ranges::find(names, word) != names.end()) continue;
+        std::vector<std::string> words; // without dashes, which all have
+        for (const std::string& name : names)
+            words.push_back(name.substr(2));
+        const std::string near = io::nearest(word.substr(2), words);
+        if (!near.empty()) fix = fmt::format("did you mean --{}?", near);
+        return io::SceneError(
+            io::Problem{"command line", fmt::format("{} is no option of {}", word, command),
+                        fmt::format("its options are {}", fmt::join(names, ", ")), fix});
+    }
+    return io::SceneError(io::Problem{"command line", error.what(), "", fix});
+}
+
+} // namespace
+
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world) {
-    CLI::App app("Adhesion between randomly rough elastic solids, from the atoms up", "asperity");
+    CLI::App app("", "asperity");
     app.require_subcommand(1);
+    app.set_help_flag();
     app.set_version_flag("--version", "asperity " + io::build_info().version);
     app.failure_message(CLI::FailureMessage::simple);
-    app.footer("Exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard, 4 files, "
-               "75 stopped "
-               "early.\nStart here: asperity init, then asperity run scene.toml");
+    if (asks_for_help(argc, argv)) {
+        const auto of = std::find_if(commands.begin(), commands.end(),
+                                     [&](const Command& one) { return one.name == argv[1]; });
+        if (world.root())
+            fmt::print("{}", of == commands.end() ? overview_of(commands) : help_of(*of));
+        return io::exit_code::done;
+    }
 
     Arguments given;
     std::vector<std::string> names;
     for (const Command& command : commands) {
         CLI::App& entry = *app.add_subcommand(command.name, command.purpose);
+        entry.set_help_flag();
         for (const Option& option : command.options)
             add(entry, option, given);
         names.push_back(command.name);
@@ -203,11 +262,10 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
         std::vector<std::string> words = spelt_out(argc, argv);
         std::reverse(words.begin(), words.end()); // in the order that the library wants
         app.parse(words);
-    } catch (const CLI::Success& asked) { // --help, --version
+    } catch (const CLI::Success& asked) { // --version
         return world.root() ? app.exit(asked) : 0;
     } catch (const CLI::ParseError& error) {
-        throw io::SceneError(io::Problem{"command line", error.what(), "",
-                                         "asperity --help, or asperity COMMAND --help"});
+        throw not_understood(error, commands, argc, argv);
     }
     for (const Command& command : commands)
         if (app.got_subcommand(command.name)) {

@@ -31,15 +31,16 @@ struct Arguments {
     std::string resume;
     bool restart = false;
     std::string wall_limit;
-    std::string progress = "auto";
-    int ranks = 0;      ///< number of ranks to plan for; 0: as many as there are
-    std::string points; ///< file with overrides, one line each
+    std::string progress; ///< mode; empty: "auto", or "off" with --quiet or --json
+    int ranks = 0;        ///< number of ranks to plan for; 0: as many as there are
+    std::string points;   ///< file with overrides, one line each
     bool markdown = false;
     bool plain = false;
     bool json = false;
     bool runnable = false;
     bool profile = false;
     bool results = false;
+    bool quiet = false;
 };
 
 /// Returns the case of the scene named by the words, with its overrides, for so many ranks. Throws
@@ -62,6 +63,8 @@ struct Option {
     std::variant<bool Arguments::*, int Arguments::*, std::string Arguments::*,
                  std::vector<std::string> Arguments::*>
         into;
+    std::string short_name = {}; ///< "-o"; empty: none
+    bool needed = false;         ///< the command cannot be carried out without it
 };
 
 /// A command of the program, or of the Python package.
@@ -77,7 +80,7 @@ struct Command {
 
 /// Options of several commands, or with a value that is checked.
 namespace takes {
-extern const Option scene, set, json, progress;
+extern const Option scene, set, json, progress, quiet;
 Option out(const std::string& otherwise);
 } // namespace takes
 
@@ -90,6 +93,8 @@ std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int
 /// Returns true if a program asks for this call: with --json, --progress json, `theory-points` or
 /// `hold`. Errors are then printed as JSON.
 bool is_for_programs(int argc, char** argv);
+/// Returns true if the call prints results for a program (--json) or results alone (--quiet).
+inline bool only_results(const Arguments& given) { return given.quiet || given.json; }
 /// Reads the command line and carries out the command; answers --help and --version. Returns the
 /// exit code. Throws io::SceneError if the call cannot be understood.
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,

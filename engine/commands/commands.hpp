@@ -13,20 +13,21 @@
 namespace asperity {
 
 class Communicator;
+struct Arguments;
 
 /// Writes a commented scene to start from (`asperity init`). Throws io::SceneError if the file
 /// exists.
-int init_command(const std::string& file, const Communicator& world);
-/// Checks a scene (`asperity check`). json: prints the scene as it would be used, its [sweep],
-/// notes and limits, as one line.
-int check_command(const Case& c, bool json, const Communicator& world);
-/// Plans a run on the ranks of the case (`asperity plan`). json: prints plan_json() and the notes
+int init_command(const Arguments& given, const Communicator& world);
+/// Checks a scene (`asperity check`). --quiet: prints nothing if nothing is wrong; --json: prints
+/// the scene as it would be used, its [sweep], notes and limits, as one line.
+int check_command(const Case& c, const Arguments& given, const Communicator& world);
+/// Plans a run on the ranks of the case (`asperity plan`). --json: prints plan_json() and the notes
 /// as one line.
-int plan_command(const Case& c, bool json, const Communicator& world);
-/// Writes heights.h5 and result.json (`asperity surface`) to `out` (empty:
-/// results/<scene>-surface). json: prints rms height (Å), rms slope of neighbours, notes, and those
-/// on the file of a map (doubts), as one line instead.
-int surface_command(const Case& c, const std::string& out, bool json, const Communicator& world);
+int plan_command(const Case& c, const Arguments& given, const Communicator& world);
+/// Writes heights.h5 and result.json (`asperity surface`) to --out (empty:
+/// results/<scene>-surface). --json: prints rms height (Å), rms slope of neighbours, notes, and
+/// those on the file of a map (doubts), as one line instead.
+int surface_command(const Case& c, const Arguments& given, const Communicator& world);
 /// Prints the keys (`asperity defaults`) as TOML, with or without explanations, or as the page
 /// docs/reference/scene.md.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);

@@ -4,6 +4,7 @@
 
 #include "decomposition/communicator.hpp"
 #include "engine/case/site_field.hpp"
+#include "engine/commands/command_line.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/run_result.hpp"
 #include "engine/run/series.hpp"
@@ -102,8 +103,14 @@ std::string starting_scene(const std::string& file) {
 
 } // namespace
 
-int init_command(const std::string& asked, const Communicator& world) {
-    const std::string file = asked.empty() ? "scene.toml" : asked;
+int init_command(const Arguments& given, const Communicator& world) {
+    std::vector<std::string> asked = given.words;
+    if (!given.out.empty()) asked.push_back(given.out);
+    if (asked.size() > 1)
+        throw io::SceneError(io::Problem{"command line", "more than one file is given",
+                                         fmt::format("{} and {}", asked[0], asked[1]),
+                                         "name one: asperity init NAME.toml"});
+    const std::string file = asked.empty() ? "scene.toml" : asked.front();
     world.on_root([&] {
         std::FILE* made = std::fopen(file.c_str(), "wx"); // never over a file
         if (!made && errno == EEXIST)
@@ -116,19 +123,22 @@ int init_command(const std::string& asked, const Communicator& world) {
         if (!made || std::fclose(made) != 0 || !written)
             throw io::FileError(file, "cannot be written", std::strerror(made ? errno : error),
                                 "name another place");
-        fmt::print("{0}: made. Next: asperity check {0}\n", file);
+        if (given.json)
+            fmt::print("{}\n", io::json_text({{"file", file}}));
+        else if (!given.quiet)
+            fmt::print("{0}: made. Next: asperity check {0}\n", file);
     });
     return io::exit_code::done;
 }
 
-int check_command(const Case& c, bool json, const Communicator& world) {
-    if (json) {
+int check_command(const Case& c, const Arguments& given, const Communicator& world) {
+    if (given.json) {
         const io::Json all = check_json(c, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
         return io::exit_code::done;
     }
     const std::vector<std::string> notes = examine(c, world);
-    if (!world.root()) return io::exit_code::done;
+    if (!world.root() || given.quiet) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", c.scene.file);
     fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
                c.simulation.block.sites, c.edge(), c.simulation.block.thickness, c.levels.size(),
@@ -141,12 +151,12 @@ int check_command(const Case& c, bool json, const Communicator& world) {
     return io::exit_code::done;
 }
 
-int plan_command(const Case& c, bool json, const Communicator& world) {
+int plan_command(const Case& c, const Arguments& given, const Communicator& world) {
     const std::vector<std::string> notes = examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root([&] {
         const int threads = std::max(1, cores / c.ranks);
-        if (json) {
+        if (given.json) {
             io::Json all = plan_json(c, threads, make_plan(c, threads));
             all["notes"] = notes;
             fmt::print("{}\n", io::json_text(all));
@@ -154,7 +164,7 @@ int plan_command(const Case& c, bool json, const Communicator& world) {
         }
         print_plan(stdout, c, threads, make_plan(c, threads));
         for (const std::string& note : notes)
-            fmt::print("note: {}\n", note);
+            if (!given.quiet) fmt::print("note: {}\n", note);
     });
     return io::exit_code::done;
 }
@@ -255,14 +265,13 @@ void print_surface(const Surface& surface) {
     table.row({"lowest", io::cell(statistics.lowest), "Å"});
     table.row({"highest", io::cell(statistics.highest), "Å"});
     table.print(stdout);
-    for (const std::string& note : surface.notes)
-        fmt::print("note: {}\n", note);
 }
 
 } // namespace
 
-int surface_command(const Case& c, const std::string& out, bool json, const Communicator& world) {
-    if (json) {
+int surface_command(const Case& c, const Arguments& given, const Communicator& world) {
+    const std::string& out = given.out;
+    if (given.json) {
         const Surface surface = surface_of(c, world);
         const auto n = static_cast<std::size_t>(surface.sites);
         const double pixel = surface.length / surface.sites;
@@ -282,6 +291,9 @@ int surface_command(const Case& c, const std::string& out, bool json, const Comm
     world.on_root([&] {
         const std::vector<std::string> lines = write_surface(c, surface, out);
         print_surface(surface);
+        if (given.quiet) return;
+        for (const std::string& note : surface.notes)
+            fmt::print("note: {}\n", note);
         for (const std::string& line : lines)
             fmt::print("{}\n", line);
     });

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace asperity {
 
@@ -45,20 +44,6 @@ ExpectedPath expected_path(const Case& c, double start) {
         path.deepest = std::max(path.deepest, -at);
     }
     return path;
-}
-
-double way_done(const Case& c, double start, std::size_t segment, double top) {
-    const ExpectedPath path = expected_path(c, start);
-    const double ended = std::accumulate(
-        path.ways.begin(), path.ways.begin() + static_cast<std::ptrdiff_t>(segment), 0.0);
-    const double all = std::accumulate(path.ways.begin(), path.ways.end(), 0.0);
-    // Depth of an approach still to come, of a pull-off done
-    const double depth = path.deepest + top;
-    double here = 0.0;
-    if (c.path()[segment].kind == Segment::approach) here = path.ways[segment] - depth;
-    if (c.path()[segment].kind == Segment::pull_off) here = depth;
-    here = std::clamp(here, 0.0, path.ways[segment]);
-    return all > 0.0 ? std::clamp((ended + here) / all, 0.0, 0.99) : 0.0;
 }
 
 } // namespace asperity

@@ -21,8 +21,4 @@ struct ExpectedPath {
 /// Returns the expected path. start: height of the lowest layer at the start, Å.
 ExpectedPath expected_path(const Case& c, double start);
 
-/// Returns the completed part of the whole path, 0 to 1, from the top plane's displacement in a
-/// segment.
-double way_done(const Case& c, double start, std::size_t segment, double top);
-
 } // namespace asperity

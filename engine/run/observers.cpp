@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/observers.hpp"
 
-#include "engine/path/expected_path.hpp"
+#include "engine/path/course.hpp"
 #include "engine/run/run_session.hpp"
 #include "engine/run/summary.hpp"
 #include "io/terminal.hpp"
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <utility>
 
 namespace asperity {
@@ -51,7 +52,9 @@ private:
 /// The line of progress in the terminal.
 class ProgressLine : public Observer {
 public:
-    explicit ProgressLine(RunSession& session) : session_(session) {}
+    ProgressLine(RunSession& session, const Path& path)
+        : session_(session), course_(path.scene_case(), path.surface().statistics.rms,
+                                     path.interface().reference_height()) {}
     /// Shows an iteration of a relaxation, if it is time.
     void look_within(const Path& path, long long iteration, double residual);
 
@@ -60,7 +63,11 @@ protected:
     void look_at_beginning(const Path& path) override;
 
 private:
+    void look_at_course(const Path& path);
+
     RunSession& session_;
+    Course course_;
+    const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 Path::Wish Rows::wish(const Path& path) const {
@@ -89,7 +96,18 @@ void Trajectory::look_at_step(const Path& path) {
     session_.recorder().frame(path, session_.scene_case().output.velocities);
 }
 
-void ProgressLine::look_at_step(const Path& path) { look_within(path, 0, 0.0); }
+/// Tells the course where the path is and when.
+void ProgressLine::look_at_course(const Path& path) {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now() - start_;
+    course_.look(path.segment(), path.now(), since.count());
+}
+
+void ProgressLine::look_at_step(const Path& path) {
+    if (session_.progress().mode() == io::ProgressMode::off) return;
+    // Points are few, steps many.
+    if (!path.scene_case().effects.dynamic || path.now().step % 64 == 0) look_at_course(path);
+    look_within(path, 0, 0.0);
+}
 
 void ProgressLine::look_at_beginning(const Path& path) {
     session_.progress().say(path.scene_case().path()[path.concluded()].text + " begins");
@@ -100,23 +118,24 @@ void ProgressLine::look_within(const Path& path, long long iteration, double res
     if (!progress.due()) return;
     const Case& c = path.scene_case();
     const StepRecord& now = path.now();
+    look_at_course(path);
+    const double done = course_.fraction(), left = course_.left();
     if (path.status() == Path::Status::relaxing) {
-        progress.update(
-            {fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration, 0.0, -1.0});
+        progress.update({fmt::format("relaxing, largest force {:.1e} eV/Å", residual), iteration,
+                         0.0, done, left});
         return;
     }
     const std::string where = progress_phase(c, c.path()[path.segment()].text, now.force,
                                              now.in_contact, now.mean_height) +
                               (iteration > 0 ? ", relaxing" : "");
     progress.update({where, path.iterations().value_or(path.steps()) + iteration,
-                     c.effects.dynamic ? now.time : 0.0,
-                     way_done(c, path.interface().reference_height(), path.segment(), now.top)});
+                     c.effects.dynamic ? now.time : 0.0, done, left});
 }
 
 } // namespace
 
-Observers::Observers(RunSession& session) {
-    auto progress = std::make_unique<ProgressLine>(session);
+Observers::Observers(RunSession& session, const Path& of) {
+    auto progress = std::make_unique<ProgressLine>(session, of);
     look_within_ = [line = progress.get()](const Path& path, long long iteration, double residual) {
         line->look_within(path, iteration, residual);
     };

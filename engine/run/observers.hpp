@@ -21,7 +21,7 @@ bool row_is_due(const Path& path);
 /// The observers of a run, in any order.
 class Observers {
 public:
-    explicit Observers(RunSession& session);
+    Observers(RunSession& session, const Path& path);
 
     /// Returns the data that the observers need of the next step.
     Path::Wish wish(const Path& path) const;

@@ -26,7 +26,7 @@ int run(const Case& c, const RunOptions& options, const Communicator& communicat
     c.require_runnable();
     RunSession session(c, options, communicator);
     const std::unique_ptr<Path> path = path_of(c, session.surface(), communicator);
-    const Observers observers(session);
+    const Observers observers(session, *path);
     path->watch([&](long long iteration, double residual) {
         observers.look_within(*path, iteration, residual);
         return session.stop_within(*path);

@@ -19,6 +19,8 @@ struct RunOptions {
     bool restart = false;             ///< --restart: an unfinished run is thrown away
     std::optional<double> wall_limit; ///< s
     io::ProgressMode progress = io::ProgressMode::automatic;
+    bool quiet = false; ///< print the summary alone
+    bool json = false;  ///< print result.json on one line in place of all else
 
     bool resuming() const { return !resume.empty(); }
 };

@@ -52,13 +52,14 @@ RunSession::RunSession(const Case& c, const RunOptions& options, const Communica
 void RunSession::print_notes() {
     progress_.finish();
     for (const std::string& note : storage_.take_notes()) // however little progress is shown
-        print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
+        if (!options_.quiet && !options_.json)
+            print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
 }
 
 int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
     interruptions_.checkpoint_written();
     try {
-        if (ranks_.root())
+        if (ranks_.root() && !options_.quiet && !options_.json)
             print_unless_closed([&] {
                 print_opening(stdout, case_, surface_, grid_, omp_get_max_threads(), path.bytes(),
                               storage_.path());
@@ -85,6 +86,7 @@ int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
         const io::Result result = write_result(path, nullptr);
         storage_.require_in_place();
         print_unless_closed([&] {
+            if (options_.json) return fmt::print("{}", result.text(-1));
             print_summary(stdout, case_, result, path.results(), storage_.path());
             if (stopped_ != Stopped::no)
                 fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));

@@ -9,10 +9,12 @@ matplotlib and jinja2 are imported with the first of them.
 from __future__ import annotations
 
 import html
+import os
 from collections.abc import Iterable
 from pathlib import Path
 
 from .commands.adhesion import Adhesion, adhesion
+from .files import store
 from .results.result import Result, load
 from .running.runs import run
 from .studies.estimates import Estimate, estimate, load_estimate
@@ -20,6 +22,11 @@ from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import text_of
 
 __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
+
+
+def _place(out: str | os.PathLike | None) -> Path | None:
+    """Returns the directory that a user names. Raises SceneError if it can be none."""
+    return None if out is None else store.chosen(os.fspath(out), "")
 
 
 def _plot_of_run(self: Result):
@@ -49,8 +56,13 @@ def _plot_of_sweep(self: Sweep, name: str = "gamma", ax=None):
     return draw([self], name, ax)
 
 
-def _report_of_run(self: Result) -> Path:
-    """Writes report.html into the directory.
+def _report_of_run(self: Result, out: str | os.PathLike | None = None) -> Path:
+    """Writes report.html into a directory.
+
+    Parameters
+    ----------
+    out : str or Path, optional
+        Directory of the page; None: that of the run.
 
     Returns
     -------
@@ -59,11 +71,16 @@ def _report_of_run(self: Result) -> Path:
     """
     from .reports.run import write_run_page
 
-    return write_run_page(self).path
+    return write_run_page(self, out=_place(out)).path
 
 
-def _report_of_sweep(self: Sweep) -> Path:
-    """Writes report.html into the directory.
+def _report_of_sweep(self: Sweep, out: str | os.PathLike | None = None) -> Path:
+    """Writes report.html into a directory.
+
+    Parameters
+    ----------
+    out : str or Path, optional
+        Directory of the page; None: that of the sweep.
 
     Returns
     -------
@@ -72,7 +89,7 @@ def _report_of_sweep(self: Sweep) -> Path:
     """
     from .reports.sweep import write_sweep_page
 
-    return write_sweep_page(self.directory).path
+    return write_sweep_page(self.directory, out=_place(out)).path
 
 
 def _plot_of_estimate(self: Estimate, ax=None):
@@ -149,8 +166,13 @@ def _text_of_estimate(self: Estimate) -> str:
     return text_of(self)
 
 
-def _report_of_estimate(self: Estimate) -> Path:
-    """Writes report.html into the directory.
+def _report_of_estimate(self: Estimate, out: str | os.PathLike | None = None) -> Path:
+    """Writes report.html into a directory.
+
+    Parameters
+    ----------
+    out : str or Path, optional
+        Directory of the page; None: that of the estimate.
 
     Returns
     -------
@@ -159,7 +181,7 @@ def _report_of_estimate(self: Estimate) -> Path:
     """
     from .reports.estimate import page_of
 
-    page = page_of(self)
+    page = page_of(self, _place(out))
     page.write()
     return page.path
 

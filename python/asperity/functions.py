@@ -253,7 +253,7 @@ def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Pat
     return costing.cost
 
 
-def export(directory: str | os.PathLike, to: str) -> list[Path]:
+def export(directory: str | os.PathLike, to: str, out: str | os.PathLike | None = None) -> list[Path]:
     """Writes the maps and the trajectory of a run for other programs.
 
     Parameters
@@ -262,6 +262,8 @@ def export(directory: str | os.PathLike, to: str) -> list[Path]:
         Result directory of a run.
     to : str
         "xyz" (OVITO, ASE), "vtk" (ParaView) or "png".
+    out : str or os.PathLike, optional
+        Directory of the files; None: export in the directory of the run.
 
     Returns
     -------
@@ -275,4 +277,4 @@ def export(directory: str | os.PathLike, to: str) -> list[Path]:
     SceneError
         There is no such format.
     """
-    return write_exports(Path(directory), to)
+    return write_exports(Path(directory), to, None if out is None else os.fspath(out))

@@ -4,16 +4,20 @@
 
 from __future__ import annotations
 
+import json
 import math
 import os
 import re
 import shutil
 import sys
 import time
+from typing import Any
 
 from .errors import SceneError
 from .units import MILLIJOULE
 
+WIDEST = 100
+"""Columns of text that a table fills at most."""
 PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
 
@@ -43,6 +47,39 @@ def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,))
                                 for i, (c, w) in enumerate(zip(cells, width))).rstrip()
 
     return "\n".join([line(heads), rule, *(line(row) if row else rule for row in rows)])
+
+
+def tables(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,), again: tuple[int, ...] = (0,)) -> str:
+    """Returns a table for the terminal in parts of at most WIDEST columns of text, below each other.
+
+    Parameters
+    ----------
+    heads : list[str]
+        Heads of the columns.
+    rows : list[list[str]]
+        Cells of each row; an empty row is a rule.
+    left : tuple[int, ...]
+        Columns that are set to the left.
+    again : tuple[int, ...]
+        Columns that later parts begin with.
+
+    Returns
+    -------
+    str
+        The lines.
+    """
+    width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) + 2 for i in range(len(heads))]
+    parts: list[list[int]] = [[]]
+    for i in range(len(heads)):
+        if sum(width[k] for k in parts[-1]) + width[i] > WIDEST and set(parts[-1]) - set(again):
+            parts.append([k for k in again if k != i])
+        parts[-1].append(i)
+
+    def of(line: list[str], part: list[int]) -> list[str]:
+        return [line[k] if k < len(line) else "" for k in part] if line else []
+
+    return "\n\n".join(table(of(heads, part), [of(row, part) for row in rows], tuple(at for at, k in enumerate(part) if k in left))
+                       for part in parts)
 
 
 def number(value: float, decimals: int) -> str:
@@ -177,6 +214,47 @@ class Progress:
             sys.stderr.write("\r\033[K")
             sys.stderr.flush()
         self._drawn = False
+
+
+class Voice:
+    """Voice of a command: it prints sentences on the course and results, or with --json one line of JSON in place of both.
+
+    quiet : prints results alone
+    json : prints what tell() is given, and nothing else
+    progress : mode of Progress; None: "off" if quiet or json, else "auto"
+    """
+
+    def __init__(self, quiet: bool = False, json: bool = False, progress: str | None = None):
+        self.quiet, self.json = quiet, json
+        self.progress = progress or ("off" if quiet or json else "auto")
+        Progress(self.progress)  # refuses what is no mode before anything is done
+
+    def say(self, sentence: str) -> None:
+        """Prints a sentence on the course of the command or a note, unless it is quiet."""
+        if not self.quiet and not self.json:
+            print(sentence, flush=True)
+
+    def show(self, text: str) -> None:
+        """Prints a result for people."""
+        if not self.json:
+            print(text, flush=True)
+
+    def tell(self, values: Any) -> None:
+        """Prints a result for programs, if they ask; numbers that are not finite are null."""
+        if self.json:
+            print(json.dumps(_finite(values), ensure_ascii=False), flush=True)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(name): _finite(member) for name, member in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(member) for member in value]
+    if hasattr(value, "tolist"):  # numpy's
+        return _finite(value.tolist())
+    if isinstance(value, float):
+        return value if math.isfinite(value) else None
+    return value if value is None or isinstance(value, (str, int)) else str(value)
 
 
 def progress_shown(wanted: bool | None) -> bool:

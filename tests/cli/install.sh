@@ -24,7 +24,7 @@ if command -v groff >/dev/null; then
     warnings=$(groff -man -Tutf8 -Kutf8 -ww "$page" 2>&1 >/dev/null)
     [ -z "$warnings" ] || fail "groff on the man page: $warnings"
 fi
-for command in $("$installed" --help | sed -n '/^Subcommands:/,/^$/s/^  \([a-z]*\) .*/\1/p'); do
+for command in $("$installed" --help | sed -n '/^commands:/,/^$/s/^  \([a-z-][a-z-]*\) .*/\1/p'); do
     grep -qx "\.SS $command" "$page" || fail "the man page has no $command"
 done
 for key in $("$installed" defaults --plain | awk '/^\[/ { gsub(/[][]/, ""); section = $0 } / = / { print section "." $1 }'); do
@@ -40,6 +40,19 @@ complete_words() { # complete_words WORD...: of the last word
 [ "$(complete_words asperity run --resu)" = --resume ] || fail "completion of an option"
 [ "$(complete_words asperity run --set surface.kin)" = "surface.kind=" ] || fail "completion of a key"
 [ "$(complete_words asperity run --set surface.kind = fl)" = flat ] || fail "completion of a value"
+
+# That of zsh, in a zsh of its own.
+if command -v zsh >/dev/null; then
+    zsh_makes() { # zsh_makes TEXT RESULT
+        for wait in 1 4 15; do # of a busy machine
+            zsh "$source/tests/cli/complete.zsh" "$prefix/share/zsh/site-functions" "$1" $wait | grep -qF -- "$2" && return
+        done
+        fail "zsh makes no '$2' of '$1'"
+    }
+    zsh_makes "asperity pla" "asperity plan"
+    zsh_makes "asperity adhesion --you" "--young"
+    zsh_makes "asperity run --set surface.kind=fl" "surface.kind=flat"
+fi
 
 # The Python package finds the program beside it.
 PYTHONPATH=$prefix/share/asperity/python python3 - <<END || fail "import asperity"

@@ -3,7 +3,6 @@
 //
 // What a plan says of a run follows the scene, and is what runs take: their time here, their memory
 // in tests/python/test_result.py.
-#include "engine/path/expected_path.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/script/stepped_path.hpp"
 #include "io/terminal.hpp"
@@ -120,24 +119,4 @@ TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
         EXPECT_LT(plan.rest, 3.0 * took) << keys.back();
         EXPECT_GT(plan.rest, took / 3.0) << keys.back();
     }
-}
-
-TEST(Plan, ProgressGoesWithTheTimeOfTheRun) {
-    // The top moves at one speed: of the whole path as much is done as of the steps.
-    const Case c = case_with(
-        {"surface.sites=64", "block.thickness=32", "drive.velocity=50", "drive.timestep=10"});
-    SteppedPath path(c, {}, Communicator());
-    std::vector<double> told;
-    while (path.step(100, {}) == 100) {
-        const Simulation& s = path.simulation();
-        told.push_back(
-            way_done(c, s.interface().reference_height(), path.drive().segment(), s.now().top));
-    }
-    ASSERT_GT(told.size(), 4u);
-    const double all = static_cast<double>(path.now().step);
-    double worst = 0.0;
-    for (std::size_t i = 0; i < told.size(); ++i)
-        worst = std::max(worst, std::abs(told[i] - 100.0 * static_cast<double>(i + 1) / all));
-    EXPECT_LT(worst, 0.2);
-    EXPECT_GT(told.back(), 0.8);
 }

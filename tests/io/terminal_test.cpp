@@ -77,9 +77,16 @@ TEST(Durations, ReadAndWritten) {
 
 TEST(Progress, SaysPhaseRateAndTimeLeft) {
     EXPECT_EQ(
-        progress_line({"approach, F = -12.3 eV/Å", 4000, 40000.0, 0.5}, 10.0, 2000, 20000.0, 0.25),
-        " 50 %  approach, F = -12.3 eV/Å | step 4000, 200 steps/s, 173 ns/day | 20 s left");
-    EXPECT_EQ(progress_line({"setting up", 0, 0.0, -1.0}, 0.0, 0, 0.0, -1.0), "setting up");
+        progress_line({"approach, F = -12.3 eV/Å", 4000, 40000.0, 0.5, 20.0}, 10.0, 2000, 20000.0),
+        "20 s left, 50 %, approach, F = -12.3 eV/Å | step 4000, 200 steps/s, 173 ns/day");
+    EXPECT_EQ(progress_line({"setting up", 0, 0.0, -1.0, -1.0}, 0.0, 0, 0.0), "setting up");
+}
+
+TEST(Progress, LinesFitEightyColumns) {
+    const std::string phase =
+        "slide x 13 Å under 300 MPa, -12345.6 MPa, contact 0.123, height 12.34 Å";
+    EXPECT_EQ(progress_line({phase, 123456789, 1e9, 0.5, 4321.0}, 1e4, 123456789, 1e9),
+              "1 h 12 min left, 50 %, slide x 13 Å under 300 MPa, -12345.6 MPa, contact 0.123");
 }
 
 TEST(Progress, ModesAndFiles) {

@@ -60,6 +60,9 @@ TEST(Units, ShiftsOfTheDecimalPointAreExact) {
         {"0.1 eV/Å²", "meV/Å^2", 100.0},
         {"10 eV/nm^2", "meV/Å^2", 100.0},
         {"0.1 meV/Å", "eV/Å", 1e-4},
+        {"100 meV/Å2", "meV/Å^2", 100.0},
+        {"10 kg m-1 s-2", "MPa", 1e-5},
+        {"0.05 ps-1", "1/ps", 0.05},
         {"1%", "", 0.01},
         {"0.5", "", 0.5},
         {"-2 MPa", "MPa", -2.0},
@@ -104,7 +107,7 @@ TEST(Units, MistakesAreExplained) {
 }
 
 TEST(Units, NoUnits) {
-    for (const char* text : {"m^", "m^x", "m/", "/s", "m//s", "m⁻", "kÅ", "mm m x", "m^0"})
+    for (const char* text : {"m^", "m^x", "m/", "/s", "m//s", "m⁻", "kÅ", "mm m x", "m^0", "m0", "m12", "m--1", "-2", "2"})
         EXPECT_FALSE(parse_unit(text).has_value()) << text;
     EXPECT_EQ(parse_unit("kg m^-1 s^-2")->dimension, parse_unit("Pa")->dimension);
     EXPECT_EQ(parse_unit("kg·m²/s²")->dimension, parse_unit("eV")->dimension);

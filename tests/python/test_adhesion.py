@@ -116,7 +116,7 @@ BAD = {"three pixels": (np.zeros((3, 3)), {}, "3 x 3 points"),
        "unit": (STEP, {"unit": "parsec"}, "none of length"),
        "no number": (STEP, {"E": 100}, "has no unit"),
        "no adhesion": (STEP, {"work": "0 mJ/m^2"}, "is no adhesion"),
-       "Poisson's ratio": (STEP, {"nu": 0.75}, "^nu = 0.75"), "another unit": (STEP, {"work": "50 mJ/m"}, "^work = \"50 mJ/m\""),
+       "Poisson's ratio": (STEP, {"nu": 0.75}, "^poisson = 0.75"), "another unit": (STEP, {"work": "50 mJ/m"}, "^adhesion = \"50 mJ/m\""),
        "jelly": (np.random.default_rng(1).normal(size=(32, 32)), {"E": "10 Pa"}, "too small for so soft"),
        "stretched": (np.zeros((32, 40)), {"size": None, "square": True}, "not square")}
 

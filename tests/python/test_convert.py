@@ -92,13 +92,6 @@ def test_every_format_gives_the_same_heights(place, tmp_path, name):
         assert (found == 10 * HEIGHTS.T).all()
 
 
-def test_units_are_the_programs(tmp_path):
-    (tmp_path / "s.toml").write_text("[surface]\nsites = 16\n")
-    for unit, power in module.LENGTHS.items():
-        checked = program.check(tmp_path / "s.toml", [f"surface.spacing={2.6 * 10.0 ** -power!r} {unit}"])
-        assert checked["scene"]["surface"]["spacing"] == pytest.approx(2.6, rel=1e-12), unit
-
-
 def test_gaps_are_missing_points(tmp_path):
     holes = {"bad.txt": "# Width: 2 nm\n# Height: 2 nm\n1 2\nbad void\n", "esri.asc": "ncols 2\nnrows 2\ncellsize 1\n"
              "nodata_value -1\n1 2\n-1 -1\n", "points.xyz": "0 0 1\n1 0 2\n1 1 nan\n", "inf.txt": "1 2\ninf -inf\n"}

@@ -11,7 +11,7 @@ import asperity
 
 # From the bottom to the top: a subpackage and its modules from the bottom to the top, or modules of the package itself.
 SUBPACKAGES = {
-    "errors": (), "units": (), "terminal": (),
+    "errors": (), "units": (), "arguments": (), "terminal": (),
     "files": ("store",),
     "results": ("result",),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
@@ -21,7 +21,7 @@ SUBPACKAGES = {
                 "estimates", "map_scene", "states"),
     "plots": ("style", "run", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "sweep", "export"),
-    "commands": ("studies", "theory", "adhesion"),
+    "commands": ("command_line", "studies", "theory", "adhesion"),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()

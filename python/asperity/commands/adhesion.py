@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from ..arguments import chosen
 from ..errors import BY_CODE, InternalError, Stopped
 from ..files import store
 from ..reports import estimate as report_estimate
@@ -21,6 +22,7 @@ from ..running import lock, program
 from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
 from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating, require_free_runs
 from ..studies.map_scene import MapScene, scene_of, stem_of
+from ..terminal import Voice
 
 
 @dataclass
@@ -58,22 +60,26 @@ class Adhesion:
         return f"<Adhesion {self.directory}: {self.quote()}>"
 
 
-def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os.PathLike | None = None,
-             range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
-             sites: int | None = None, jobs: int = 1, line_noise: str | None = None) -> Adhesion:
+def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | None = None, adhesion: str | None = None,
+             out: str | os.PathLike | None = None, range: str | None = None, size: str | None = None, unit: str | None = None,
+             channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None, *,
+             E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
+             file_size: str | None = None, file_unit: str | None = None) -> Adhesion:
     """Computes the adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
 
-        found = asperity.adhesion("scan.gwy", E="100 GPa", nu=0.25, work="200 mJ/m^2")
+        found = asperity.adhesion("scan.gwy", young="100 GPa", poisson=0.25, adhesion="200 mJ/m2")
         found.quote(), found.quote("lost.cycle"), found.notes
 
     Parameters
     ----------
     map : str or os.PathLike
         File of heights: HDF5, .npy, or any that `convert` reads.
-    E, work : str
-        Young's modulus of the half-space and work of adhesion of flat surfaces, with units.
-    nu : float
+    young : str
+        Young's modulus of the half-space with its unit.
+    poisson : float
         Poisson's ratio of the half-space.
+    adhesion : str
+        Work of adhesion of flat surfaces with its unit.
     out : str or os.PathLike, optional
         Directory; None: results/<map>-adhesion. Runs that are there are not run again.
     range : str, optional
@@ -88,6 +94,8 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
         Runs side by side; they share the processors.
     line_noise : str, optional
         Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
+    E, nu, work, w, file_size, file_unit : optional
+        Other names of young, poisson, adhesion (work and w), size and unit.
 
     Returns
     -------
@@ -105,9 +113,13 @@ def adhesion(map: str | os.PathLike, E: str, nu: float, work: str, out: str | os
     """
     program.refuse_ranks()
     refuse_jobs(jobs)
+    stiffness = chosen("young", 'young="100 GPa"', young=young, E=E)
+    ratio = chosen("poisson", "poisson=0.25", poisson=poisson, nu=nu)
+    bond = chosen("adhesion", 'adhesion="200 mJ/m2"', adhesion=adhesion, work=work, w=w)
+    size, unit = chosen("size", size=size, file_size=file_size), chosen("unit", unit=unit, file_unit=file_unit)
     place = store.chosen(None if out is None else str(out), _place(str(map)))
     _require_free(place, str(map))
-    made = scene_of(str(map), E, nu, work, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
+    made = scene_of(str(map), stiffness, ratio, bond, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
                     line_noise=line_noise)
     making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
     found, complete = _carried_out(making)
@@ -146,7 +158,8 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     return found, complete
 
 
-def adhesion_command(file: str, young: str, poisson: float, work: str, out: str | None, options: PoolOptions, **more) -> int:
+def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: str | None, options: PoolOptions, voice: Voice,
+                     **more) -> int:
     """Carries out `asperity adhesion`.
 
     Parameters
@@ -157,12 +170,14 @@ def adhesion_command(file: str, young: str, poisson: float, work: str, out: str 
         Young's modulus of the half-space with its unit.
     poisson : float
         Its Poisson's ratio.
-    work : str
+    adhesion : str
         Work of adhesion of flat surfaces with its unit.
     out : str | None
         Result directory; None: the default one.
     options : PoolOptions
         Options of the runs.
+    voice : Voice
+        What is printed, and how.
     **more : Any
         Further arguments of map_scene.scene_of().
 
@@ -173,18 +188,20 @@ def adhesion_command(file: str, young: str, poisson: float, work: str, out: str 
     """
     place = store.chosen(out, _place(file))
     _require_free(place, file)
-    made = scene_of(file, young, poisson, work, place, **more)
-    print(f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes), sep="\n", flush=True)
-    making = _estimating(made, place, options, lambda text: print(text, flush=True))
-    print(making.told(), flush=True)
+    made = scene_of(file, young, poisson, adhesion, place, **more)
+    for line in (f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
+        voice.say(line)
+    making = _estimating(made, place, options, voice.say)
+    voice.say(making.told())
     found, complete = _carried_out(making)
     if not complete:
-        print("Stopped early: the same command goes on from here.")
+        voice.show("Stopped early: the same command goes on from here.")
         return STOPPED
     outcome = making.plan.scene.outcome
     if found is None or outcome.status != DONE:
-        print(f"The run of the map failed: {outcome.reason}")
+        voice.show(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
-    print(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in made.notes])))
-    print(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
+    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in made.notes])))
+    voice.tell({**found.json(), "directory": place})
+    voice.say(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0

@@ -6,15 +6,19 @@ from __future__ import annotations
 
 from ..plots.sweep import plot_files, write_plots
 from ..reports import estimate as report_estimate
-from ..reports.cost import FILES, answer_of, text_of, write
+from ..reports.cost import FILES, answer_of, json_of, text_of, write
 from ..running import lock
 from ..running.pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
 from ..studies.cost import Costing, target_of
 from ..studies.estimates import Estimating
 from ..studies.sweeps import TABLES, Carried
+from ..terminal import Voice
+
+EARLY = "Stopped early: the same command goes on from here."
 
 
-def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions) -> int:
+def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
+                  voice: Voice) -> int:
     """Carries out `asperity sweep`.
 
     Parameters
@@ -29,40 +33,43 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
         True: no simulation.
     options : PoolOptions
         Options of the runs.
+    voice : Voice
+        What is printed, and how.
 
     Returns
     -------
     int
         The exit code: 75 if stopped early, else that of the first failure.
     """
-    done = Carried(scenes, sets, out, theory_only, options, lambda text: print(text, flush=True), plot_files(not theory_only))
+    done = Carried(scenes, sets, out, theory_only, options, voice.say, plot_files(not theory_only))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
-        print()
-        sweep.print_table()
+        voice.say("")
+        voice.show(sweep.text())
+        voice.tell({**sweep.json(sweep.table), "directory": sweep.directory})
         for said in sweep.notes:
-            print(f"note: {said}")
+            voice.say(f"note: {said}")
         if len(sweep.run.get("programs", {})) > 1:
-            print("note: points are by several programs: "
-                  + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
+            voice.say("note: points are by several programs: "
+                      + ", ".join(f"{git} ({count})" for git, count in sweep.run["programs"].items()))
     if note:
-        print(f"note: {note}")
+        voice.say(f"note: {note}")
     failed = [(job, outcome) for job, outcome in zip(done.jobs, done.outcomes) if outcome.status == FAILED]
     for job, outcome in failed:
-        print(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
+        voice.show(f"failed: {job.name} (exit {outcome.exit_code}): {outcome.reason}")
     if theory_only:
-        print(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
+        voice.say(f"{sum(len(s.points) for s in done.sweeps)} points in {done.place}")
     else:
-        print(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
-    print(f"tables: {TABLES}" + "; plots: " * bool(written) + " ".join(path.name for path in written))
+        voice.say(f"{sum(o.status == DONE for o in done.outcomes)} of {len(done.jobs)} points are done, in {done.place}")
+    voice.say(f"tables: {TABLES}" + "; plots: " * bool(written) + " ".join(path.name for path in written))
     if not done.complete:
-        print("Stopped early: the same command goes on from here.")
+        voice.show(EARLY)
         return STOPPED
     return next((outcome.exit_code for _, outcome in failed), 0)
 
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
-                 target: str | None = None) -> int:
+                 target: str | None, voice: Voice) -> int:
     """Carries out `asperity cost`.
 
     Parameters
@@ -77,39 +84,39 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
         Result directory; None: the default one.
     options : PoolOptions
         Options of the runs.
-    target : str, optional
-        Relative error to keep, "1%".
+    target : str | None
+        Relative error to keep, "1%"; None: none.
+    voice : Voice
+        What is printed, and how.
 
     Returns
     -------
     int
         The exit code: 75 if stopped early, that of the reference if it failed, 3 if nothing keeps the target.
     """
-    def say(text: str) -> None:
-        print(text, flush=True)
-
-    costing = Costing(scene, overrides, out, options, parameters, None if target is None else target_of(target), say, FILES)
+    costing = Costing(scene, overrides, out, options, parameters, None if target is None else target_of(target), voice.say, FILES)
     cost = costing.cost
-    say(f"reference: {costing.case.reference_text}")
+    voice.say(f"reference: {costing.case.reference_text}")
     with lock.in_use(costing.place):
         complete = costing.carry_out()
         reference = costing.reference
         if complete and reference.status == FAILED:
-            print(f"The reference failed, and there is nothing to compare with: {reference.reason}")
+            voice.show(f"The reference failed, and there is nothing to compare with: {reference.reason}")
             return reference.exit_code
         written = write(cost, costing.place)
-    print(text_of(cost))
-    print(f"in {costing.place}:" + "".join(f" {name}" for name in written))
+    voice.show(text_of(cost))
+    voice.tell({**json_of(cost), "directory": costing.place})
+    voice.say(f"in {costing.place}:" + "".join(f" {name}" for name in written))
     if not complete:
-        print("Stopped early: the same command goes on from here.")
+        voice.show(EARLY)
         return STOPPED
     if target is not None:
-        print("\n" + answer_of(cost))
+        voice.show("\n" + answer_of(cost))
     return 0 if target is None or cost.chosen else PHYSICS
 
 
 def estimate_command(scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
-                     parts: list[str], plan: bool) -> int:
+                     parts: list[str], plan: bool, voice: Voice) -> int:
     """Carries out `asperity estimate`.
 
     Parameters
@@ -128,29 +135,31 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
         Only these parts of the error; none: all.
     plan : bool
         True: only tells what would be run.
+    voice : Voice
+        What is printed, and how.
 
     Returns
     -------
     int
         The exit code: 75 if stopped early, that of the scene if it failed.
     """
-    def say(text: str) -> None:
-        print(text, flush=True)
-
-    making = Estimating(scene, overrides, out, options, seeds, parts, say=say, also=report_estimate.FILES)
-    say(making.told())
+    making = Estimating(scene, overrides, out, options, seeds, parts, say=voice.say, also=report_estimate.FILES)
     if plan:
+        voice.show(making.told())
+        voice.tell({"name": making.name, "directory": making.place, "plan": making.told()})
         return 0
+    voice.say(making.told())
     with lock.in_use(making.place):
         found, complete = making.carry_out()
         outcome = making.plan.scene.outcome
         if complete and found is None:
-            print(f"The scene itself failed, and there is nothing to vary: {outcome.reason}")
+            voice.show(f"The scene itself failed, and there is nothing to vary: {outcome.reason}")
             return outcome.exit_code or PHYSICS
         written = report_estimate.write(found) if complete and found is not None else []
     if not complete or found is None:
-        print("Stopped early: the same command goes on from here.")
+        voice.show(EARLY)
         return STOPPED
-    print(report_estimate.text_of(found))
-    print(f"in {making.place}: {', '.join(written)}")
+    voice.show(report_estimate.text_of(found))
+    voice.tell({**found.json(), "directory": making.place})
+    voice.say(f"in {making.place}: {', '.join(written)}")
     return 0

@@ -170,7 +170,7 @@ def computed(file: str, overrides: list[str]) -> Computed:
     return Computed(Values(json.loads(json.dumps(point), object_hook=Values)), profile, [note for note in notes if note], text)
 
 
-def theory_command(file: str, overrides: list[str], out: str | None, as_json: bool) -> int:
+def theory_command(file: str, overrides: list[str], out: str | None, voice: terminal.Voice) -> int:
     """Carries out `asperity theory`.
 
     Parameters
@@ -181,8 +181,8 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
         Overrides.
     out : str | None
         Result directory; None: the default one.
-    as_json : bool
-        True: prints what result.json would hold as one line and writes nothing.
+    voice : Voice
+        What is printed, and how; with --json nothing is written unless `out` is given.
 
     Returns
     -------
@@ -191,16 +191,16 @@ def theory_command(file: str, overrides: list[str], out: str | None, as_json: bo
     """
     found = computed(file, overrides)
     point = found.values
-    if as_json:
-        print(json.dumps(point, ensure_ascii=False))
+    voice.tell(point)
+    if voice.json and out is None:
         return 0
     place, said = _directory(out, point.text("name"))
     names = ("theory.h5", "result.json")
     with lock.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
         _write_profile(written, found.profile)
         written.write("result.json", store.sealed_json(point))
-    print(found.text)
+    voice.show(found.text)
     for note in [*found.notes, *said]:
-        print(f"  note: {note}")
-    print(f"  written: {place}/result.json, {place}/theory.h5 (the profile over magnification)")
+        voice.say(f"  note: {note}")
+    voice.say(f"  written: {place}/result.json, {place}/theory.h5 (the profile over magnification)")
     return 0

@@ -13,7 +13,7 @@ from typing import Any
 import numpy
 
 from ..errors import InputOutputError
-from ..units import LENGTHS
+from ..units import conversion, is_length
 
 NO_HEIGHT = 1e30
 """Numbers this large stand for points without a height: 1.7e38 of Surfer, the largest float or double (SDF)."""
@@ -90,9 +90,9 @@ def length(where: object, unit: object, what: str, fix: str = "name the unit: --
         It is no unit of length.
     """
     said = text_of(unit)
-    if said not in LENGTHS:
-        raise refuse(where, f"the unit of its {what}, {said}, is none of length", "known: " + ", ".join(LENGTHS), fix)
-    return 10.0 ** LENGTHS[said]
+    if (found := conversion(said, "Å")) is None:
+        raise refuse(where, f"the unit of its {what}, {said}, is none of length", "known: m with a prefix (nm, µm, um, mm), Å, A", fix)
+    return found
 
 
 def factor(where: object, scale: object) -> float:
@@ -174,7 +174,7 @@ def select(path: Path, channels: list[Channel], wanted: str | None, first: int |
     InputOutputError
         None or several are meant; all are listed.
     """
-    names = [c.name + ("" if c.unit is None or c.unit in LENGTHS else f" (in {c.unit})") for c in channels]
+    names = [c.name + ("" if c.unit is None or is_length(c.unit) else f" (in {c.unit})") for c in channels]
     listed = ", ".join(f"{k} {name}" for k, name in enumerate(names[:LISTED], 1))
     listed = "its channels: " + listed + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "")
     if not channels:
@@ -189,12 +189,12 @@ def select(path: Path, channels: list[Channel], wanted: str | None, first: int |
                          "leave --channel out" if len(channels) == 1 else
                          f"name one of them, or its number: --channel {min(2, len(channels))}")
     if number is None:
-        heights = [k for k, c in enumerate(channels) if c.unit in LENGTHS]
+        heights = [k for k, c in enumerate(channels) if is_length(c.unit)]
         if len(heights) != 1:
             raise refuse(path, f"holds {len(channels)} maps", listed, f"name one, or its number: --channel {min(heights or [0]) + 1}")
         number = heights[0]
     taken = channels[number]
-    if unit is None and taken.unit is not None and taken.unit not in LENGTHS:
+    if unit is None and taken.unit is not None and not is_length(taken.unit):
         raise refuse(path, f"holds no heights in channel {number + 1} ({taken.name})", f"it is in {taken.unit}, which is no length; {listed}",
                      "take another channel, or export the heights")
     found = taken.load()

@@ -31,7 +31,7 @@ from ..errors import Error, to_install
 from ..files import store
 from ..running import program
 from ..running.scene import toml_of
-from ..units import LENGTHS
+from ..units import in_angstrom, is_length
 from . import arrays as map_arrays
 from .atoms import extended_xyz, folded, lammps
 from .channels import NO_HEIGHT, Channel, factor, refuse, select, text_of
@@ -154,8 +154,8 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
             "resample": "band-limited", "spacing": 1.0}
     if found.get("unit") is None:
         keys["file_unit"] = "nm"
-    if size and unit in LENGTHS:
-        keys["spacing"] = min(size) * 10.0 ** LENGTHS[unit] / n
+    if size and is_length(unit):
+        keys["spacing"] = min(size) * in_angstrom(str(unit)) / n
     else:
         keys["file_size"] = float(n)
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:

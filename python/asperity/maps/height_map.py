@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy
 
-from ..units import LENGTHS
+from ..units import conversion, is_length
 from .channels import factor, length, refuse
 from .convert import read_heights
 
@@ -61,12 +61,12 @@ def read_map(file: str, unit: str | None = None, size: float | None = None, chan
     if told is None:
         raise refuse(file, "does not tell the unit of its heights", "", "name it: --unit nm")
     one = length(file, told, "heights")
-    if unit and own is not None and LENGTHS.get(own) != LENGTHS[unit]:
+    if unit and own is not None and conversion(own, "Å") != one:
         notes.append(f"the file says that its heights are in {own}, and {unit} is taken (--unit)")
     heights = heights * (one * factor(file, found.get("scale")))
-    across = found.get("size_unit") or (own if own in LENGTHS else told)
+    across = found.get("size_unit") or (own if is_length(own) else told)
     edges = tuple(float(s) for s in found.get("size") or ())
-    if across in LENGTHS or not size:
+    if is_length(across) or not size:
         edges = tuple(s * length(file, across, "size", "say how wide it is: --size 100nm") for s in edges)
     elif edges:  # in a unit that is none
         edges = ()

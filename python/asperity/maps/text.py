@@ -14,7 +14,7 @@ from typing import Any
 import numpy
 
 from ..errors import InputOutputError
-from ..units import LENGTHS
+from ..units import in_angstrom, is_length
 from .channels import Channel, refuse
 
 SIZE = r"([-+]?[\d.,]+(?:[eE][-+]?\d+)?)\s*(.*)"
@@ -107,7 +107,7 @@ class Text:
         said = list(self.header.items())
         for k, ((_, width), (_, height), (_, unit)) in enumerate(zip(said, said[1:], said[2:])):
             sizes = [re.fullmatch(SIZE, text) for text in (width, height)]
-            if re.fullmatch(r"[^\s\d]\S{0,7}", unit) and all(size and size[2] in LENGTHS for size in sizes):
+            if re.fullmatch(r"[^\s\d]\S{0,7}", unit) and all(size and is_length(size[2]) for size in sizes):
                 self.header |= {"width": width, "height": height, "value units": unit}
                 return said[k - 1][1] if k else None
         return self.header.get("channel")
@@ -116,7 +116,7 @@ class Text:
         """Returns headers that state a length, of which nothing was taken."""
         def states(text: str) -> bool:
             size = re.fullmatch(SIZE, text)
-            return text in LENGTHS or bool(size and size[2] in LENGTHS)
+            return is_length(text) or bool(size and is_length(size[2]))
 
         taken = {self.header.get(key) for key in HEADERS}
         return [f"{key}: {text}" for key, text in self.header.items()
@@ -140,10 +140,10 @@ class Text:
         for key in keys:
             if found := re.fullmatch(SIZE, self.header.get(key, "")):
                 value, unit = float(found[1].replace(",", ".")), found[2] or unit
-                if unit not in LENGTHS or not 0.0 < value < numpy.inf:
+                if not is_length(unit) or not 0.0 < value < numpy.inf:
                     raise refuse(self.path, f"the header '{key}: {self.header[key]}' is no size",
                                  f"unit: {unit}" if value > 0.0 else "it is not above zero", "correct the header")
-                return value * 10.0 ** LENGTHS[unit]
+                return value * in_angstrom(str(unit))
         return None
 
 
@@ -310,7 +310,7 @@ def _named(line: str) -> list[tuple[str, str | None]]:
         word = word.strip(" \"'")
         parted = re.fullmatch(r"(.*?)\s*(?:[(\[]\s*([^)\]]*?)\s*[)\]]|/\s*(\S+)|_([^\W_]+))", word)
         unit = next((g for g in parted.groups()[1:] if g), None) if parted else None
-        if parted and (parted[4] is None or unit in LENGTHS):
+        if parted and (parted[4] is None or is_length(unit)):
             found.append((parted[1].strip(), unit))
         else:
             found.append((word, None))

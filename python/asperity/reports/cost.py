@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,7 +17,7 @@ from ..plots import style as figures
 from ..plots.style import BLUE, DASHES, GREEN, GREY, PINK, RED, SKY, YELLOW, curve, finish
 from ..running.pool import FAILED
 from ..studies.cost import TARGETS, Cost, errors_of
-from ..studies.cost_parameters import ASKED, QUANTITIES
+from ..studies.cost_parameters import ASKED, QUANTITIES, Row
 from ..studies.variations import NAN
 
 GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"),
@@ -62,6 +63,16 @@ def csv_of(cost: Cost) -> str:
          *(f"front_{q}" for q in ASKED)],
         *([row.parameter, row.label, " ".join(row.setting), row.seconds, row.seconds / (cost.rows[1].seconds or NAN), *row.numbers,
            *row.error.values(), *row.front.values()] for row in cost.rows)])
+
+
+def json_of(cost: Cost) -> dict[str, Any]:
+    """Returns the rows with their numbers, errors and times (s), and the cheapest settings for the target, as JSON has them."""
+    def row(one: Row) -> dict[str, Any]:
+        return {"parameter": one.parameter, "value": one.label, "setting": one.setting, "seconds": one.seconds,
+                "numbers": dict(zip(QUANTITIES, one.numbers)), "error": one.error, "failed": one.outcome.reason}
+
+    return {"rows": [row(one) for one in cost.rows], "target": cost.target,
+            "chosen": cost.chosen.setting if cost.chosen else None}
 
 
 FILES = ["cost.csv", *(file for question in ASKED for file in figures.files_of(f"cost-{question}"))]
@@ -133,8 +144,8 @@ def text_of(cost: Cost) -> str:
         rows.append([*cells, *(percent(error, grain) for error, grain in zip(errors_of(row.numbers, reference.numbers), least)),
                      *("-" if "nan" in time else time for time in times),
                      "".join("*" if f else " " for f in row.front.values())])
-    parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
-                                rows, left=(0, 1)))
+    parts.append(terminal.tables(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
+                                rows, left=(0, 1), again=(0, 1)))
     for question, what in (("state", "the state at zero load (γ, contact)"),
                            ("path", "the whole path (works, pull-off force too)")):
         if cost.target or not cost.answered(question):

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -110,7 +111,7 @@ def text_of(estimate: Estimate) -> str:
     """Returns the estimate as text for the terminal."""
     parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
     for columns in tables_of(estimate):
-        parts += [terminal.table(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2)), ""]
+        parts += [terminal.tables(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2), again=(1,)), ""]
     parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
     parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed,
@@ -159,9 +160,22 @@ def _set(text: str) -> str:
     return re.sub(r"_(\w+)", r"_{\1}", text)
 
 
-def page_of(estimate: Estimate) -> Page:
-    """Makes the page of an estimate, which its write() writes."""
-    page = Page(estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
+def page_of(estimate: Estimate, out: Path | None = None) -> Page:
+    """Makes the page of an estimate, which its write() writes.
+
+    Parameters
+    ----------
+    estimate : Estimate
+        Estimate.
+    out : Path, optional
+        Directory of the page; None: that of the estimate.
+
+    Returns
+    -------
+    Page
+        The page.
+    """
+    page = Page(out or estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
     for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):
         page.add("paragraph", _set(line) + ".")

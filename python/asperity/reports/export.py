@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity export DIR --to xyz|vtk|png`: what run.h5 holds, for other programs.
+"""`asperity export DIR --to xyz|vtk|png`: what run.h5 holds, for other programs, into DIR/export or the directory of --out.
 
     xyz    DIR/export/<state>.xyz: the atoms of the substrate and of the block's lowest layer, for every state with
            maps, with what is known of each atom as columns; DIR/export/trajectory.xyz: the frames of the trajectory
@@ -170,8 +170,9 @@ def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:
 class Export:
     """The files that are made from one result."""
 
-    def __init__(self, directory: Path):
+    def __init__(self, directory: Path, out: Path | None = None):
         self.run = Result(directory)
+        self.place, self.folder = (directory, "export/") if out is None else (out, "")
         expect(directory, "run.h5")
         for note in self.run.notes:
             print(f"note: {note}")
@@ -196,10 +197,10 @@ class Export:
         return InputOutputError(str(self.run.file.path), what, why, "was the file written by another program?")
 
     def _outputs(self, names: Iterable[str]) -> AbstractContextManager[store.Outputs]:
-        return store.outputs(self.run.directory, [f"export/{name}" for name in names])
+        return store.outputs(self.place, [self.folder + name for name in names], inputs=[str(self.run.file.path)])
 
     def _paths(self, names: Iterable[str]) -> list[Path]:
-        return [self.run.directory / "export" / name for name in names]
+        return [self.place / (self.folder + name) for name in names]
 
     def _frames(self) -> int:
         steps = self.run.file.members(TRAJECTORY + "/position")
@@ -261,7 +262,7 @@ class Export:
             frames["trajectory.xyz"] = self._trajectory_atoms
         with self._outputs(frames) as out:
             for name, of_file in frames.items():
-                with out.replacing(f"export/{name}") as beside, open(beside, "w", encoding="utf-8") as file:
+                with out.replacing(self.folder + name) as beside, open(beside, "w", encoding="utf-8") as file:
                     for frame in of_file():
                         write_xyz(file, frame)
         return self._paths(frames)
@@ -275,7 +276,7 @@ class Export:
             for stem, (state, name) in made.items():
                 fig = figures.make(partial(map_of, self.run, state, name))
                 if fig is not None:
-                    figures.save(fig, out, f"export/{stem}")
+                    figures.save(fig, out, self.folder + stem)
                     written += figures.files_of(stem)
         return self._paths(written)
 
@@ -294,7 +295,7 @@ class Export:
         written = [name + ".vti" for name in texts] + ["trajectory.pvd"] * film
         with self._outputs([*written, *frames]) as out:
             for name, text in texts.items():
-                out.write(f"export/{name}.vti", text)
+                out.write(f"{self.folder}{name}.vti", text)
             if film:
                 self._film(out, frames)
         return self._paths(written)
@@ -304,8 +305,8 @@ class Export:
         frames = []
         for name, (_, time, layer, more) in zip(names, self._trajectory()):
             frames.append((time, name))
-            out.write(f"export/{name}", points_text(layer, {f"{key} (Å/ps)": values for key, values in more.items()}))
-        out.write("export/trajectory.pvd", _text("trajectory.pvd", frames=frames))
+            out.write(self.folder + name, points_text(layer, {f"{key} (Å/ps)": values for key, values in more.items()}))
+        out.write(self.folder + "trajectory.pvd", _text("trajectory.pvd", frames=frames))
 
 
 def _title(name: str) -> str:
@@ -319,7 +320,7 @@ GONE = {"lammps": "its atoms are in --to xyz, which OVITO and ASE convert for LA
 """Formats of earlier versions, and what to use instead."""
 
 
-def export(directory: Path, kind: str) -> list[Path]:
+def export(directory: Path, kind: str, out: str | None = None) -> list[Path]:
     """Exports the maps and the trajectory of a run.
 
     Parameters
@@ -328,6 +329,8 @@ def export(directory: Path, kind: str) -> list[Path]:
         Directory of the result.
     kind : str
         "xyz" (OVITO, ASE), "vtk" (ParaView) or "png".
+    out : str, optional
+        Directory of the files; None: export in the directory of the result.
 
     Returns
     -------
@@ -347,7 +350,7 @@ def export(directory: Path, kind: str) -> list[Path]:
     if kind not in FORMATS:
         raise SceneError(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
                          f"for example: asperity export {directory} --to xyz")
-    written = FORMATS[kind](Export(directory))
+    written = FORMATS[kind](Export(directory, None if out is None else store.chosen(out, "")))
     if not written:
         raise InputOutputError(str(directory / "run.h5"), "has nothing to export",
                                "it holds neither maps of a state nor a trajectory",

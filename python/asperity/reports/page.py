@@ -61,7 +61,7 @@ class Section:
 
 @dataclass
 class Page:
-    """Built from top to bottom; `write()` makes DIR/report.html."""
+    """Built from top to bottom; `write()` makes report.html in a directory: that of the result, or another one."""
 
     directory: Path
     kicker: str

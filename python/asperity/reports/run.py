@@ -237,7 +237,7 @@ def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> lis
                        *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)
 
 
-def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
+def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS, out: Path | None = None) -> Page:
     """Writes DIR/report.html of a run.
 
     Parameters
@@ -246,6 +246,8 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
         Result of the run.
     kinds : tuple[str, ...]
         Endings of the files of a figure.
+    out : Path, optional
+        Directory of the page; None: that of the run.
 
     Returns
     -------
@@ -253,7 +255,7 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS) -> Page:
         The page.
     """
     combined.complete(run)
-    page = Page(run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
+    page = Page(out or run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),
                  partial(_figures, "energies"), _numbers, _times):
         part(page, run)

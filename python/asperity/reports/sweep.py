@@ -8,6 +8,7 @@ from __future__ import annotations
 import base64
 import contextlib
 import io
+import os
 from functools import partial
 from pathlib import Path
 
@@ -81,9 +82,10 @@ class _Points:
             self.unread.append(str(error).splitlines()[0])
             return  # its row stays without a page
         self.unread += [f"{name}: {note}" for note in run.notes]
-        if _wants_page(run.directory):
+        page = run.directory / "report.html"
+        if _wants_page(run.directory) and directory in (place, place.parent):  # a page elsewhere writes nothing into the sweep
             write_run_page(run, kinds=("png",))
-        link = (run.directory / "report.html").relative_to(directory).as_posix()
+        link = Path(os.path.relpath(page, directory)).as_posix() if page.exists() else ""
         self.links[-1] = link
         self.origin = self.origin or run.text("surface.origin")
         self.runs.append((name, run))
@@ -114,7 +116,7 @@ def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) 
     """Checks that no file is in the way of the page or of the pages of the points. Raises SceneError with the files that are."""
     curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
     names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
-    for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name):
+    for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name and directory in (sweep.directory, sweep.directory.parent)):
         if (place / "result.json").exists() and _wants_page(place):
             with contextlib.suppress(Error):  # a point that cannot be read stays without a page
                 names[place] = run_page_files(Result(place).fields, ("png",))
@@ -214,7 +216,7 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
         page.add("paragraph", f"Measured surface: {points.origin}.")
 
 
-def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path | None = None) -> Page:
     """Writes DIR/report.html of a sweep, and the pages of its points.
 
     Parameters
@@ -223,17 +225,19 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         Directory of the sweep.
     kinds : tuple[str, ...]
         Endings of the files of a figure.
+    out : Path, optional
+        Directory of the page; None: that of the sweep.
 
     Returns
     -------
     Page
         The page.
     """
-    sweeps = load_sweeps(directory)
-    _require_free(directory, sweeps, kinds)
-    page = Page(directory, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
+    sweeps, out = load_sweeps(directory), out or directory
+    _require_free(out, sweeps, kinds)
+    page = Page(out, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
                 kinds=kinds)
-    points = [_Points(sweep, directory) for sweep in sweeps]
+    points = [_Points(sweep, out) for sweep in sweeps]
     page.unread = [line for some in points for line in some.unread]
     for sweep in sweeps:
         _notices(page, sweep)
@@ -263,7 +267,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     return page
 
 
-def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
+def write_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: str | None = None) -> Page:
     """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run.
 
     Parameters
@@ -272,6 +276,8 @@ def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
         Directory of the result.
     kinds : tuple[str, ...]
         Endings of the files of a figure.
+    out : str, optional
+        Directory of the page; None: that of the result.
 
     Returns
     -------
@@ -283,12 +289,13 @@ def write_page(directory: Path, kinds: tuple[str, ...] = KINDS) -> Page:
     InputOutputError
         The directory has no result.
     """
+    place = None if out is None else store.chosen(out, "")
     if (directory / RESULT).exists():
-        page = page_of(load_estimate(directory))
+        page = page_of(load_estimate(directory), place)
         page.write()
         return page
     run = (directory / "result.json").exists()
     if (directory / "sweep.json").exists() or not run and any(directory.glob("*/sweep.json")):
-        return write_sweep_page(directory, kinds)
+        return write_sweep_page(directory, kinds, place)
     expect(directory, "result.json", "sweep.json")
-    return write_run_page(Result(directory), kinds)
+    return write_run_page(Result(directory), kinds, place)

@@ -34,10 +34,10 @@ SITE_BYTES = 1200
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""
-UNITS = {"E": ("GPa", "MPa"), "work": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
+UNITS = {"young": ("GPa", "MPa"), "adhesion": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
 
 
-ARGUMENTS = {"block.young": "E", "block.poisson": "nu", "interface.adhesion": "work", "interface.range": "range",
+ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhesion": "adhesion", "interface.range": "range",
              "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
 
@@ -51,7 +51,7 @@ def _named(text: str) -> str:
 
 def _with_unit(name: str, value: object) -> str:
     """Returns the text of a quantity with its unit, as scenes have it."""
-    text = re.sub(r"m2$", "m^2", str(value).strip())
+    text = str(value).strip()
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
                          "write the one that is meant: " + " or ".join(f'"{text or 1} {unit}"' for unit in UNITS[name]))
@@ -126,7 +126,7 @@ class MapScene(NamedTuple):
     condition: str
 
 
-def scene_of(file: str, young: object, poisson: float, work: object, place: Path, *, reach: object = None,
+def scene_of(file: str, young: object, poisson: float, adhesion: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
              line_noise: str | None = None) -> MapScene:
     """Writes the scene of a map and the map beside it, after all checks.
@@ -139,7 +139,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
         Young's modulus of the half-space with its unit, "100 GPa".
     poisson : float
         Poisson's ratio of the half-space.
-    work : object
+    adhesion : object
         Work of adhesion of flat surfaces with its unit, "200 mJ/m2".
     place : Path
         Directory to write to.
@@ -166,9 +166,9 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     SceneError
         No scene can be made of the map or an argument; nothing is written.
     """
-    sections: dict[str, dict[str, Any]] = {"block": {"young": _with_unit("E", young), "poisson": poisson},
+    sections: dict[str, dict[str, Any]] = {"block": {"young": _with_unit("young", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
-                "interface": {"kind": "wall", "adhesion": _with_unit("work", work),
+                "interface": {"kind": "wall", "adhesion": _with_unit("adhesion", adhesion),
                               "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
     if size is not None:
         sections["surface"]["file_size"] = _with_unit("size", size)
@@ -178,7 +178,7 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     except SceneError as error:
         raise SceneError.of([{**one, "where": "", "what": _named(one["what"])} for one in error.listed]) from None
     if not keys.needed("interface.adhesion") > 0.0:
-        raise SceneError(f"work = {work}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
+        raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
     points = len(heights)
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
@@ -186,37 +186,37 @@ def scene_of(file: str, young: object, poisson: float, work: object, place: Path
     n = _smooth_below(max(most, height_map.FEWEST))
     spacing = edge / n
     stiff = keys.needed("block.young") * GIGAPASCAL / (1 - keys.needed("block.poisson") ** 2)  # eV/Å³
-    adhesion, asked = keys.needed("interface.adhesion") / 1e3, keys.needed("interface.range")
+    work, asked = keys.needed("interface.adhesion") / 1e3, keys.needed("interface.range")
 
     def resolved(spacing: float) -> float:
         """Returns the range, Å, whose attraction reaches over two spacings beside an edge of the contact (docs/explanation/model.md)."""
-        return max(asked, math.sqrt(2 * spacing * adhesion / stiff))
+        return max(asked, math.sqrt(2 * spacing * work / stiff))
 
     used = resolved(spacing)
     longer = f'--range "{math.ceil(used * 1e3) / 1e3:g} Å"'
 
     def sites_for(reach: float) -> str:
         """Spells the option of as many sites as resolve this range, "--sites 96, or "; "" if the map has fewer points."""
-        least = edge * 2 * adhesion / (stiff * reach**2)
+        least = edge * 2 * work / (stiff * reach**2)
         enough = next((k for k in range(max(n, math.ceil(least)), points + 1) if _smooth_below(k) == k), 0)
         return f"--sites {enough}, or " * (enough > n)
 
     if reach is not None and used > 1.001 * asked:
         raise SceneError(f"range = {reach}", f"is not resolved by a spacing of {spacing:.4g} Å", "beside the edge of a contact it "
-                         f"would act on less than two sites (work / E* = {adhesion / stiff:.3g} Å)", f"{sites_for(asked)}{longer}; or "
+                         f"would act on less than two sites (w / E* = {work / stiff:.3g} Å)", f"{sites_for(asked)}{longer}; or "
                          "leave it out for the numbers that depend on no range")
     if used > 0.25 * edge:
         raise SceneError(file, f"is too small for so soft a solid: its attraction would reach {used:.3g} Å, and the map is "
                          f"{edge:.4g} Å wide", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with a range "
-                         f"of {used:.3g} Å (work / E* = {adhesion / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
+                         f"of {used:.3g} Å (w / E* = {work / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
     flat = height_map.without_tilt(heights)
     rms = float(np.nanstd(height_map.without_plane(heights)))
     if used > 1.001 * asked and used > rms > 0.0:
         flattened = stiff * missing_waves.energy_shown(heights, edge) * 1e3 * MILLIJOULE
         raise SceneError(file, f"is too smooth for so soft a solid: its attraction would reach {used:.3g} Å, and the rms height is "
-                         f"{rms:.3g} Å", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with that range (work / E* = "
-                         f"{adhesion / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
-                         f"map stores {flattened:.3g} of the {1e3 * adhesion * MILLIJOULE:.3g} mJ/m^2 of the work",
+                         f"{rms:.3g} Å", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with that range (w / E* = "
+                         f"{work / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
+                         f"map stores {flattened:.3g} of the {1e3 * work * MILLIJOULE:.3g} mJ/m^2 of the work of adhesion",
                          f"{sites_for(rms)}a map with smaller pixels; or, if the attraction does reach so far, {longer}")
     withheld = condition = ""
     if used > 1.001 * asked:

@@ -27,7 +27,7 @@ from ..files import store
 from ..running import lock, program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of
-from ..terminal import Progress, millijoules, table
+from ..terminal import Progress, Voice, millijoules, tables
 from ..units import MEGAPASCAL, MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
@@ -341,7 +341,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
     return found
 
 
-def states_command(scene: str, sets: list[str], out: str | None, starts: int, progress: str) -> int:
+def states_command(scene: str, sets: list[str], out: str | None, starts: int, voice: Voice) -> int:
     """Carries out `asperity states`.
 
     Parameters
@@ -354,20 +354,20 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
         Result directory; None: the default one.
     starts : int
         Random starts.
-    progress : str
-        Mode of the progress: "auto", "bar", "lines" or "off".
+    voice : Voice
+        What is printed, and how.
 
     Returns
     -------
     int
         The exit code.
     """
-    warnings.showwarning = lambda message, *_: print(f"note: {message}", file=sys.stderr)
-    place, shown = Path(out if out is not None else f"results/{Path(scene).stem}-states"), Progress(progress)
+    warnings.showwarning = lambda message, *_: voice.say(f"note: {message}")
+    place, shown = Path(out if out is not None else f"results/{Path(scene).stem}-states"), Progress(voice.progress)
     try:
         found = states(scene, sets, place, starts, lambda text: shown.update(text) if shown.due() else None)
     except KeyboardInterrupt:
-        print("Stopped early: the same command goes on from here.")
+        voice.show("Stopped early: the same command goes on from here.")
         return 75
     finally:
         shown.finish()
@@ -376,17 +376,19 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, pr
 
     rows = [[*(cell(s, name) for name in NUMBERS), f"{s['barrier']:.3g}" if s["barrier"] else "-",
              ", ".join(s["found"])] for s in found["states"]]
-    print(table(["binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
-                 "to the next, MPa", "found by"], rows, left=(6,)))
+    voice.tell({**found, "directory": place})
+    rows = [[str(i), *row] for i, row in enumerate(rows)]
+    voice.show(tables(["state", "binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
+                       "to the next, MPa", "found by"], rows, left=(0, 7)))
     deepest = found["states"][found["deepest_found"]]["binding_energy"]
-    print(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "
+    voice.show(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "
           f"({millijoules(deepest)} mJ/m²)" + (
               f"; {found['starts_at_deepest']} of the starts ended within {NEAR:.0%} of it. A further start ends deeper with a "
               f"probability of at most {found['deeper_next']:.2g}." if found["starts"] else "."))
-    print(f"The path went in to a mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; "
+    voice.show(f"The path went in to a mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; "
           f"it ended because: {found['ended']}.")
     if found["approach_less_run"]:
         less = found["approach_less_run"]
-        print(f"The state after an approach binds by {less:+.3g} meV/Å² ({less * MILLIJOULE:+.3g} mJ/m²) relative to that of a run.")
-    print("May be missed: " + "; ".join(found["may_miss"]) + f".\n{place / RESULT}")
+        voice.show(f"The state after an approach binds by {less:+.3g} meV/Å² ({less * MILLIJOULE:+.3g} mJ/m²) relative to that of a run.")
+    voice.show("May be missed: " + "; ".join(found["may_miss"]) + f".\n{place / RESULT}")
     return 0

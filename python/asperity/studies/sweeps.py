@@ -70,7 +70,7 @@ class Sweep:
 
     if TYPE_CHECKING:
         def plot(self, name: str = "gamma", ax: Axes | None = None) -> Axes: ...
-        def report(self) -> Path: ...
+        def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     name: str
     scene: dict[str, Any]
@@ -172,16 +172,20 @@ class Sweep:
                         made.create_dataset(name, data=np.asarray(values, float)).attrs["unit"] = units[name]
         out.write("sweep.json", store.sealed_json(self.json(table)))
 
-    def print_table(self) -> None:
-        """Prints the table: at most about 25 lines, evenly chosen; the files have all of them."""
+    def text(self) -> str:
+        """Returns the table as text: at most about 25 lines, evenly chosen; the files have all of them."""
         heads, rows, meaning = text_of(self.table)
         stride = max(1, (len(rows) + 19) // 25)
-        if meaning:
-            print(f"{self.name}: {meaning}")
-        print(terminal.table(heads, [r for i, r in enumerate(rows) if i % stride == 0 or i + 1 == len(rows)],
-                             left=(0, len(heads) - 1)))
+        lines = [f"{self.name}: {meaning}"] if meaning else []
+        lines.append(terminal.tables(heads, [r for i, r in enumerate(rows) if i % stride == 0 or i + 1 == len(rows)],
+                                     (0, len(heads) - 1), tuple(i for i, head in enumerate(heads) if head in self.axes)))
         if stride > 1:
-            print(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
+            lines.append(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
+        return "\n".join(lines)
+
+    def print_table(self) -> None:
+        """Prints text()."""
+        print(self.text())
 
     def __repr__(self) -> str:
         done = sum(p.get("status") == DONE for p in self.points)

@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""A walk over all commands: the form of their help, exit codes, -o, --json, --quiet, tables of at most 100 columns."""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import asperity
+from conftest import OF_PYTHON, ROOT, in_this_process
+
+sys.path.insert(0, str(ROOT / "packaging"))
+from generate import commands_of, completion, options_of, say, zsh_completion  # noqa: E402
+
+PROGRAM = os.environ["ASPERITY_PROGRAM"]
+COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]
+HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
+FOR_PROGRAMS = {"theory-points", "hold"}
+WRITES_NOTHING = {"check", "plan", "defaults", "info"}
+RUNS_SEVERAL = {"sweep", "cost", "estimate", "adhesion"}
+EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
+SCENE = '[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 16\n[drive]\npath = ["relax"]\n'
+PATH = SCENE.replace('["relax"]', '["approach", "pull-off"]\nmode = "quasistatic"')
+GIVEN = ["--young", "5 GPa", "--poisson", "0.3", "--adhesion", "200 mJ/m2", "--unit", "nm", "--size", "16 nm"]
+
+
+def words_of(name):
+    """Words of a call that succeeds, and its output: where it is written, and the file to look for."""
+    return {"run": (["s.toml"], "out", "result.json"), "init": ([], "new.toml", ""), "check": (["s.toml"], "", ""),
+            "plan": (["s.toml"], "", ""), "surface": (["s.toml"], "out", "heights.h5"), "theory": (["s.toml"], "out", "theory.h5"),
+            "sweep": (["s.toml", "--set", "surface.rms=0.2,0.4"], "out", "sweep.json"),
+            "cost": (["s.toml", "--parameters", "tolerance"], "out", "cost.csv"),
+            "estimate": (["s.toml", "--parts", "convergence", "--seeds", "2"], "out", "estimate.json"),
+            "adhesion": (["map.npy", *GIVEN, "--sites", "16"], "out", "estimate.json"),
+            "states": (["s.toml", "--starts", "2"], "out", "states.json"), "report": (["done"], "out", "report.html"),
+            "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
+            "defaults": ([], "", ""), "info": ([], "", ""),
+            "tip": (None, "", "")}[name]
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    place = tmp_path_factory.mktemp("walk")
+    (place / "s.toml").write_text(SCENE)
+    asperity.run(place / "s.toml", out=place / "done")
+    draw = np.random.default_rng(1).normal(size=(16, 16))
+    np.save(place / "map.npy", draw)
+    np.savetxt(place / "map.txt", draw)
+    return place
+
+
+@pytest.fixture()
+def work(results, tmp_path, monkeypatch):
+    for name in ("s.toml", "map.npy", "map.txt", "done"):
+        (tmp_path / name).symlink_to(results / name)
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def called(*words):
+    """Exit code, standard output and error of a call."""
+    if words[0] in OF_PYTHON:
+        return in_this_process(words)
+    done = subprocess.run([PROGRAM, *words], capture_output=True, text=True)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_the_list_of_commands():
+    text = say(PROGRAM, "--help")
+    assert text.startswith("usage: asperity COMMAND [options]\n\n") and text.endswith(EXIT)
+    assert max(map(len, text.splitlines())) <= 80 and len(COMMANDS) >= 18
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_help_has_one_form(name):
+    """Usage, what the command does, arguments, options, exit codes; 80 columns; the options in one order."""
+    text = HELPS[name]
+    arguments = r"(arguments:\n(  [A-Z].*\n( {26}.*\n)*)+\n)?"
+    assert re.fullmatch(rf"usage: asperity {name}[^\n]*\n(?: {{7}}[^\n]*\n)?\n[A-Z][^\0]*?\.\n\n(?:[^\0]*?\n\n)?{arguments}"
+                        r"options:\n(?: {2,6}-.*\n(?: {26}\S.*\n)*)+\n" + re.escape(EXIT), text), text
+    assert max(map(len, text.splitlines())) <= 80
+    options = {one: value for names, value, _ in options_of(text) for one in names}
+    assert {"-h", "--help"} <= options.keys() and list(options)[-1] == "--help"
+    if name in FOR_PROGRAMS:
+        return
+    assert {"-q", "--quiet", "--json"} <= options.keys()
+    assert ("-o" in options and "--out" in options) == (name not in WRITES_NOTHING)
+    assert ("-j" in options and "--jobs" in options) == (name in RUNS_SEVERAL)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_a_misspelt_option_is_refused_with_the_right_one(name):
+    code, out, said = called(name, "--hepl")
+    assert code == 2 and out == "" and "--hepl is no option of" in said and "did you mean --help?" in said, said
+    if name not in FOR_PROGRAMS:
+        code, out, said = called(name, "--hepl", "--json")
+        assert code == 2 and json.loads(said)["error"]["problems"][0]["fix"] == "did you mean --help?"
+
+
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name not in FOR_PROGRAMS and words_of(name)[0] is not None])
+def test_json_quiet_and_out(work, light, name):
+    words, out, file = words_of(name)
+    made = ["-o", out] if out else []
+    code, said, other = called(name, *words, *made, "--json")
+    assert code == 0 and other == "", other
+    assert isinstance(json.loads(said), dict) and said.count("\n") == 1
+    wanted = work / out / file
+    if name == "surface":
+        assert (work / out / file).exists()
+    assert wanted.exists()
+    before = {path for path in work.rglob("*") if "done" not in path.parts}
+    if out:
+        assert all(path == work / out or work / out in path.parents or path.name in ("s.toml", "map.npy", "map.txt", ".asperity-files",
+                   "run.lock") for path in before), before
+    code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
+    assert code == 0 and other == "" and "note:" not in said, said + other
+    if said and name in ("run", "sweep", "cost", "estimate", "adhesion", "states", "theory"):
+        assert not re.search("written:|going on|begins|points in|runs, about", said), said
+
+
+def rows(text):
+    """Lines of the tables: those above and below a rule."""
+    lines = text.splitlines()
+    found = []
+    for i, line in enumerate(lines):
+        if "──" in line:
+            found += [lines[i - 1], line]
+            for below in lines[i + 1:]:
+                if not below.startswith("  ") or not below.strip():
+                    break
+                found.append(below)
+    return found
+
+
+@pytest.mark.parametrize("words", [
+    ["run", "p.toml", "--quiet"], ["run", "p.toml", "--quiet", "--set", "surface.radius=100"],
+    ["plan", "p.toml"], ["check", "p.toml"], ["surface", "p.toml"], ["info"], ["theory", "s.toml"],
+    ["theory", "s.toml", "--set", "surface.radius=100"],
+    ["sweep", "p.toml", "--set", "surface.rms=0.2,0.4", "surface.seed=1,2"],
+    ["sweep", "p.toml", "--set", "surface.radius=100,150"],
+    ["sweep", "s.toml", "--theory-only", "--set", "surface.rms=0.2,0.4"],
+    ["cost", "p.toml", "--parameters", "tolerance,step"], ["estimate", "p.toml", "--parts", "convergence,thickness", "--seeds", "2"],
+    ["states", "s.toml", "--starts", "2"]], ids=lambda words: " ".join(words)[:50])
+def test_tables_fit_a_hundred_columns(work, light, words):
+    (work / "p.toml").write_text(PATH)
+    code, said, other = called(*words)
+    assert code == 0, said + other
+    found = rows(said)
+    assert found or words[0] in ("check", "plan", "info"), said
+    wide = [line for line in found if len(line) > 100]
+    assert not wide, "\n".join(wide)
+
+
+def test_completions_have_every_command_and_option():
+    schema = json.loads(say(PROGRAM, "defaults", "--json"))
+    listed = commands_of(say(PROGRAM, "--help"))
+    for text in (completion(listed, HELPS, schema), zsh_completion(listed, HELPS, schema)):
+        for name in COMMANDS:
+            for names, _, _ in options_of(HELPS[name]):
+                assert names[-1] in text
+        assert all(name in text for name in COMMANDS) and "surface.rms" in text and "quasistatic" in text
+
+
+def test_every_command_of_the_package_is_in_the_table():
+    from asperity.commands.command_line import parsers
+
+    assert set(parsers()) <= set(COMMANDS) and set(OF_PYTHON) == set(parsers())
+
+
+def test_a_page_elsewhere_writes_nothing_into_the_result(work, light, results):
+    before = sorted(path.name for path in Path("done").iterdir())
+    asperity.load("done").report("elsewhere")
+    assert (work / "elsewhere/report.html").exists() and sorted(path.name for path in Path("done").iterdir()) == before
