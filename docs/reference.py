@@ -103,6 +103,10 @@ def python() -> str:
         if isinstance(thing, type):
             for shown, doc in members(thing):
                 out += [f"\n**`{shown}`**\n\n", doc]
+    out += ["\n## asperity.crack\n\n", prose(asperity.crack.__doc__)]
+    for name in asperity.crack.__all__:
+        thing = getattr(asperity.crack, name)
+        out += [f"\n**`{called(name, thing)}`**\n\n", prose(thing.__doc__)]
     out += ["\n## Errors\n\n", prose(asperity.errors.__doc__), "\n"]
     for name, kind in vars(asperity.errors).items():
         if isinstance(kind, type) and kind.__module__ == "asperity.errors":
@@ -180,7 +184,7 @@ def names() -> str:
     return ("# SPDX-FileCopyrightText: 2026 The Asperity authors\n# SPDX-License-Identifier: MIT\n#\n"
             "# Names of results and of scenes with their types and units, for type checkers and editors: what a run has not is not\n"
             "# there. Written by docs/reference.py from what the program says of itself; do not edit.\nfrom typing import Any\n\n"
-            "import numpy as np\n\nfrom .result import Values\n\nclass Units(Values):\n    def __getattr__(self, name: str) -> Any: ...\n"
+            "import numpy as np\n\nfrom .values import Values\n\nclass Units(Values):\n    def __getattr__(self, name: str) -> Any: ...\n"
             + "\n".join(out) + "\n")
 
 

@@ -70,7 +70,9 @@ def __getattr__(name: str):
         return [importlib.import_module(module, __name__) for module in _MODULES[name]][-1]
     if name == "__version__":
         return importlib.import_module(".running.program", __name__).version()
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name.startswith("_"):
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    raise UnknownName.among(__name__, name, [one for one in __dir__() if not one.startswith("_")])
 
 
 def __dir__() -> list[str]:

@@ -24,6 +24,7 @@ from .running import program
 from .running.scene import STANDARD_INPUT, scene_file
 from .terminal import Voice, launched
 
+
 def _is_override(word: str) -> bool:
     """Returns True for an override: `--set a.b=1 c.d=2 scene.toml` means what it looks like."""
     before, equals, _ = word.partition("=")

@@ -21,6 +21,7 @@ from .running.engine import quantity
 from .theories import viscoelastic
 from .units import ANGSTROM_PER_PS
 
+__all__ = ["modulus", "opening_factor"]
 Prony = Sequence[tuple[float, "float | str"]]
 
 

@@ -16,7 +16,7 @@ import sys
 import sysconfig
 from collections.abc import Callable, Iterable
 from pathlib import Path
-from typing import Self
+from typing import TYPE_CHECKING, Self
 
 NEEDED = ("numpy", "scipy", "h5py", "matplotlib", "jinja2")
 """Packages of PyPI that this package imports."""
@@ -26,7 +26,7 @@ def to_install(*packages: str) -> str:
     """Returns the commands that install packages of PyPI for this Python. Debian's own Python takes none by pip."""
     if not (Path(sysconfig.get_path("stdlib")) / "EXTERNALLY-MANAGED").exists() or sys.prefix != sys.base_prefix:
         return f"{sys.executable} -m pip install {' '.join(packages)}"
-    debian = {name: "python3-" + name for name in (*NEEDED, "ase")}
+    debian = {name: "python3-" + name for name in (*NEEDED, "ase", "pandas", "xarray")}
     if all(name in debian for name in packages):
         return "apt-get install " + " ".join(debian[name] for name in packages)
     place = "~/asperity-python"
@@ -127,6 +127,17 @@ class UnknownName(SceneError, AttributeError, KeyError):
         near = difflib.get_close_matches(str(name), there, 1)
         fix = f"did you mean {near[0]}?" if near else "take one of these" * bool(there)
         return cls(where, f"has no {what} {name!r}".replace("  ", " "), ("it has " + ", ".join(there)) if there else why, fix)
+
+
+class Named:
+    """Base class of results whose wrong attributes raise UnknownName with the existing names."""
+
+    if not TYPE_CHECKING:  # type checkers know the names
+        def __getattr__(self, name: str):
+            if name.startswith("_"):
+                raise AttributeError(name)
+            there = [one for one in dir(self) if not one.startswith("_")]
+            raise UnknownName.among(type(self).__name__, name, there)
 
 
 class SceneWarning(UserWarning):

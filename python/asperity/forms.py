@@ -8,18 +8,20 @@ matplotlib and jinja2 are imported with the first of them.
 
 from __future__ import annotations
 
-import html
 import os
-from collections.abc import Iterable
 from pathlib import Path
 
 from .commands.adhesion import Adhesion, adhesion
 from .files import store
-from .results.result import Result, load
+from .results.frames import Frames
+from .results.result import Group, Result, Values, load
 from .running.runs import run
+from .studies.cost import Cost
 from .studies.estimates import Estimate, estimate, load_estimate
+from .studies.stated_number import Number
 from .studies.sweeps import Sweep, load_sweep, sweep
-from .studies.tables import text_of
+from .studies.tables import Columns, text_of
+from .terminal import html_table
 
 __all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
 
@@ -129,30 +131,20 @@ def _quote(self: Estimate, path: str = "") -> str:
     return quote(self.number(path))
 
 
-def _html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], below: str = "") -> str:
-    """Returns a small table for a notebook."""
-    def cells(tag: str, row: Iterable[str]) -> str:
-        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
-
-    heads = list(heads)
-    return (f"<p><b>{html.escape(title)}</b></p><table>" + (cells("th", heads) if heads else "") + "".join(cells("td", row) for row in rows)
-            + "</table>" + (f"<p>{html.escape(below)}</p>" if below else ""))
-
-
 def _html_of_run(self: Result) -> str:
     from .reports.sentences import key_numbers
 
-    return _html_table(self.title, (), [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in key_numbers(self)],
+    return html_table(self.title, (), [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in key_numbers(self)],
                        self.failure_text or ("stopped early: " + self.stopped if self.stopped else ""))
 
 
 def _html_of_sweep(self: Sweep) -> str:
     heads, rows, meaning = text_of(self.table)
-    return _html_table(self.name, heads, rows, meaning)
+    return html_table(self.name, heads, rows, meaning)
 
 
 def _html_of_estimate(self: Estimate) -> str:
-    return _html_table(self.name, (), [[_quote(self, path)] for path in self.numbers],
+    return html_table(self.name, (), [[_quote(self, path)] for path in self.numbers],
                        f"not measured: {'; '.join(self.unseen)}" if self.unseen else "")
 
 
@@ -186,7 +178,41 @@ def _report_of_estimate(self: Estimate, out: str | os.PathLike | None = None) ->
     return page.path
 
 
-for kind, name, form in ((Estimate, "plot", _plot_of_estimate), (Estimate, "quote", _quote), (Estimate, "report", _report_of_estimate),
+def _html_of_group(self: Group) -> str:
+    rows = [(name, self.unit(name), " x ".join(map(str, self[name].shape))) for name in self]
+    return html_table(self._called.strip("/"), ("array", "unit", "shape"), rows)
+
+
+def _html_of_columns(self: Columns) -> str:
+    names, rows = list(self)[:8], max((len(column) for column in self.values()), default=0)
+    def text(value: object) -> str:
+        return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+    return html_table(f"{rows} rows, {len(self)} columns", [f"{name}, {self.units[name]}".removesuffix(", ") for name in names],
+                       [[text(self[name][i]) for name in names] for i in range(min(rows, 12))])
+
+
+def _html_of_values(self: Values) -> str:
+    return html_table(self._called, (), [(name, f"{value:.6g}") for name, value in self.numbers().items()])
+
+
+def _html_of_cost(self: Cost) -> str:
+    rows = [(row.parameter, row.label, f"{row.seconds:.3g}", *(f"{error:.2g}" for error in row.error.values())) for row in self.rows]
+    return html_table("Cost of accuracy", ("parameter", "value", "s", *(f"error, {question}" for question in self.rows[0].error)), rows)
+
+
+def _html_of_frames(self: Frames) -> str:
+    return html_table(repr(self).strip("<>"), ("step", "time, ps"), [(str(a), f"{b:.6g}") for a, b in zip(self.steps[:12], self.times)])
+
+
+def _html_of_numbers(self: Number) -> str:
+    return html_table(self.name, (), [(str(self),)])
+
+
+for kind, name, form in (
+        (Group, "_repr_html_", _html_of_group), (Columns, "_repr_html_", _html_of_columns), (Values, "_repr_html_", _html_of_values),
+        (Cost, "_repr_html_", _html_of_cost), (Frames, "_repr_html_", _html_of_frames), (Number, "_repr_html_", _html_of_numbers),
+        (Estimate, "plot", _plot_of_estimate), (Estimate, "quote", _quote), (Estimate, "report", _report_of_estimate),
                          (Estimate, "__str__", _text_of_estimate), (Estimate, "_repr_html_", _html_of_estimate),
                          (Adhesion, "_repr_html_", _html_of_adhesion), (Result, "_repr_html_", _html_of_run),
                          (Sweep, "_repr_html_", _html_of_sweep), (Result, "plot", property(_plot_of_run)),

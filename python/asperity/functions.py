@@ -14,16 +14,18 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from .commands.theory import computed
-from .errors import BY_CODE, InternalError, SceneError, Stopped
+from .errors import BY_CODE, InternalError, Named, SceneError, Stopped
 from .maps.convert import convert
 from .reports import cost as report_cost
 from .reports.export import export as write_exports
+from .results.frames import data_set
 from .results.result import Values
 from .running import lock, program
 from .running.pool import FAILED, PoolOptions, refuse_jobs
 from .running.scene import Overrides, SceneLike, assignments, scene_file
 from .studies.cost import Cost, Costing, target_of
 from .studies.estimates import surface_made
+from .terminal import duration, html_table
 
 if TYPE_CHECKING:
     from .results.names import Scene, Theory
@@ -32,7 +34,7 @@ __all__ = ["Checked", "Planned", "Surface", "TheoryOfScene", "check", "convert",
 
 
 @dataclass
-class Checked:
+class Checked(Named):
     """A scene as it would be run: its keys, notes on it, the longest stable time step of dynamic paths (fs), and the
     factor by which a coarse spacing increases the pull-off force of a sphere."""
 
@@ -42,9 +44,14 @@ class Checked:
     longest_timestep: float
     edge_pinning: float
 
+    def _repr_html_(self) -> str:
+        rows = [(key, str(value)) for section, keys in self.scene.items() if isinstance(keys, dict) for key, value in
+                ((f"{section}.{name}", keys[name]) for name in keys)]
+        return html_table(self.name, ("key", "value"), rows, "; ".join(self.notes))
+
 
 @dataclass
-class Planned:
+class Planned(Named):
     """Cost of a run: steps, memory in bytes and wall time in seconds, each by part with the sum as "altogether", and the effects
     that are simulated or not, each with the reason ("on", "because")."""
 
@@ -55,19 +62,34 @@ class Planned:
     effects: dict[str, dict[str, Any]]
     notes: list[str]
 
+    def _repr_html_(self) -> str:
+        rows = [(part, f"{self.bytes.get(part, 0.0) / 1e6:.4g}", duration(self.seconds[part]) if part in self.seconds else "")
+                for part in dict.fromkeys([*self.bytes, *self.seconds])]
+        return html_table(self.name, ("part", "MB", "time"), rows, "; ".join(self.notes))
+
 
 @dataclass
-class Surface:
-    """Surface of a scene: heights [y, x] (Å), their rms (Å), rms slope of neighbours, and doubts about the file of a map."""
+class Surface(Named):
+    """Surface of a scene: heights [y, x] (Å), their rms (Å), rms slope of neighbours, doubts about the file of a map, and the edge
+    of the box (Å)."""
 
     heights: np.ndarray
     rms: float
     slope: float
     doubts: list[str]
+    edge: float = 0.0
+
+    def _repr_html_(self) -> str:
+        rows = [("points", " x ".join(map(str, self.heights.shape))), ("rms, Å", f"{self.rms:.5g}"), ("rms slope", f"{self.slope:.5g}")]
+        return html_table("Surface", (), rows, "; ".join(self.doubts))
+
+    def to_xarray(self):
+        """Returns the heights as an xarray Dataset over y and x (Å)."""
+        return data_set({"heights": (("y", "x"), self.heights)}, {"heights": "Å"}, {"y": self.edge, "x": self.edge})
 
 
 @dataclass
-class TheoryOfScene:
+class TheoryOfScene(Named):
     """Theories of a scene: numbers by their names in result.json (energies in meV/Å²), Δγ (meV/Å²), notes, and their text, which the
     command prints."""
 
@@ -79,6 +101,9 @@ class TheoryOfScene:
 
     def __str__(self) -> str:
         return self.text
+
+    def _repr_html_(self) -> str:
+        return html_table(self.name, (), [(name, f"{value:.6g}") for name, value in self.theory.numbers().items()], "; ".join(self.notes))
 
 
 def _values(found: dict[str, Any]) -> Values:
@@ -162,7 +187,9 @@ def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
     """
     with scene_file(scene, overrides=overrides) as file:
         made = surface_made(file, assignments(overrides))
-    return Surface(made.heights, made.rms, made.slope, made.doubts)
+        keys = Values(program.check(file, assignments(overrides))["scene"])
+        edge = keys.number("surface.sites", 0.0) * keys.number("surface.spacing", 0.0)
+    return Surface(made.heights, made.rms, made.slope, made.doubts, edge)
 
 
 def defaults() -> dict[str, dict[str, Any]]:

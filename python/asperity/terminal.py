@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import math
 import os
@@ -11,6 +12,7 @@ import re
 import shutil
 import sys
 import time
+from collections.abc import Iterable
 from typing import Any
 
 from .errors import SceneError
@@ -80,6 +82,33 @@ def tables(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)
 
     return "\n\n".join(table(of(heads, part), [of(row, part) for row in rows], tuple(at for at, k in enumerate(part) if k in left))
                        for part in parts)
+
+
+def html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], below: str = "") -> str:
+    """Returns a small table for a notebook.
+
+    Parameters
+    ----------
+    title : str
+        Text above the table.
+    heads : Iterable[str]
+        Heads of the columns; none: without.
+    rows : Iterable[Iterable[str]]
+        Cells of each row.
+    below : str
+        Text below the table; "": none.
+
+    Returns
+    -------
+    str
+        HTML.
+    """
+    def cells(tag: str, row: Iterable[str]) -> str:
+        return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
+
+    heads = list(heads)
+    return (f"<p><b>{html.escape(title)}</b></p><table>" + (cells("th", heads) if heads else "") + "".join(cells("td", row) for row in rows)
+            + "</table>" + (f"<p>{html.escape(below)}</p>" if below else ""))
 
 
 def number(value: float, decimals: int) -> str:

@@ -16,7 +16,7 @@ import asperity
 from conftest import OF_PYTHON, ROOT, in_this_process
 
 sys.path.insert(0, str(ROOT / "packaging"))
-from generate import commands_of, completion, options_of, say, zsh_completion  # noqa: E402
+from generate import commands_of, completion, options_of, say, zsh_completion
 
 PROGRAM = os.environ["ASPERITY_PROGRAM"]
 COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]

@@ -16,9 +16,7 @@ import pytest
 
 from asperity import errors
 from asperity.errors import InputOutputError, SceneError
-from asperity.maps import convert as module
 from asperity.maps.convert import convert
-from asperity.running import program
 from conftest import command
 
 N, PIXEL = 24, 0.25  # nm

@@ -13,7 +13,7 @@ import asperity
 SUBPACKAGES = {
     "errors": (), "units": (), "arguments": (), "terminal": (),
     "files": ("store",),
-    "results": ("result",),
+    "results": ("values", "frames", "result"),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),

@@ -276,9 +276,10 @@ def test_numbers_that_are_none_are_refused_by_name(place):
     for name, value in (("size", "0nm"), ("size", "-5nm"), ("size", "nan nm"), ("poisson", float("nan")), ("poisson", float("inf")),
                         ("young", "nan GPa"),
                         ("adhesion", "nan mJ/m2"), ("range", "0Å"), ("range", "nan Å")):
-        given = {"young": "1GPa", "poisson": 0.3, "adhesion": "50mJ/m2", "size": "100nm", "range": None} | {name: value}
+        given = {"young": "1GPa", "poisson": 0.3, "adhesion": "50mJ/m2", "size": "100nm", "range": None, name: value}
         with pytest.raises(Error, match=f"^{name} = ") as raised:
-            scene_of("map.npy", given["young"], given["poisson"], given["adhesion"], place / "out", size=given["size"], unit="nm", reach=given["range"])
+            scene_of("map.npy", given["young"], given["poisson"], given["adhesion"], place / "out", size=given["size"], unit="nm",
+                     reach=given["range"])
         assert "TOML" not in str(raised.value)
     said = command("adhesion", "map.npy", "--E=1GPa", "--nu=nan", "--work=50mJ/m2", "--unit=nm", "--size=100nm", expect=2)
     assert said.startswith("poisson = nan") and not (place / "out").exists()

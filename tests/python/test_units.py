@@ -102,8 +102,9 @@ def test_works_are_read_everywhere(place, unit):
 
 def test_forces_are_read():
     for unit in ("nN", "pN", "uN", "µN", "eV/Å", "eV/A"):
-        scene = {**WALL, "surface": {**STATE["surface"], "radius": 200.0}, "drive": {"mode": "quasistatic", "path": ["approach", f"load {written(0.1, 'eV/Å', unit)}"]}}
-        assert written(0.1, "eV/Å", unit) in asperity.check(scene).scene.drive.path[1]
+        load = written(0.1, "eV/Å", unit)
+        scene = {**WALL, "surface": {**STATE["surface"], "radius": 200.0}, "drive": {"mode": "quasistatic", "path": ["approach", f"load {load}"]}}
+        assert load in asperity.check(scene).scene.drive.path[1]
 
 
 # What stands for no key of a scene: what a command does with the result.

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from ..arguments import chosen
-from ..errors import BY_CODE, InternalError, Stopped
+from ..errors import BY_CODE, InternalError, Named, Stopped
 from ..files import store
 from ..reports import estimate as report_estimate
 from ..reports.run import run_page_files, write_run_page
@@ -26,7 +26,7 @@ from ..terminal import Voice
 
 
 @dataclass
-class Adhesion:
+class Adhesion(Named):
     """Adhesion on a map: estimate (.numbers), result (the run of the map's scene: series, fields), notes on changes of the
     map, scene (its file), directory."""
 

@@ -26,7 +26,7 @@ from xml.sax.saxutils import quoteattr
 import jinja2
 import numpy as np
 
-from ..errors import InputOutputError, SceneError
+from ..errors import InputOutputError, SceneError, UnknownName
 from ..files import store
 from ..plots import style as figures
 from ..plots.run import map_of
@@ -348,7 +348,7 @@ def export(directory: Path, kind: str, out: str | None = None) -> list[Path]:
         raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],
                          f"asperity export {directory} --to {'xyz' if kind == 'lammps' else 'vtk'}")
     if kind not in FORMATS:
-        raise SceneError(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
+        raise UnknownName(f"--to {kind}", "is no format of export", "formats: " + ", ".join(FORMATS),
                          f"for example: asperity export {directory} --to xyz")
     written = FORMATS[kind](Export(directory, None if out is None else store.chosen(out, "")))
     if not written:

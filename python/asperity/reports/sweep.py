@@ -116,7 +116,8 @@ def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) 
     """Checks that no file is in the way of the page or of the pages of the points. Raises SceneError with the files that are."""
     curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
     names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
-    for place in (sweep.directory / name for sweep in sweeps for name in _shown(sweep) if name and directory in (sweep.directory, sweep.directory.parent)):
+    own = [sweep for sweep in sweeps if directory in (sweep.directory, sweep.directory.parent)]
+    for place in (sweep.directory / name for sweep in own for name in _shown(sweep) if name):
         if (place / "result.json").exists() and _wants_page(place):
             with contextlib.suppress(Error):  # a point that cannot be read stays without a page
                 names[place] = run_page_files(Result(place).fields, ("png",))

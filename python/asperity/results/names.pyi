@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from .result import Values
+from .values import Values
 
 class Units(Values):
     def __getattr__(self, name: str) -> Any: ...

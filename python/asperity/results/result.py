@@ -15,13 +15,15 @@ import math
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast, overload
+from typing import TYPE_CHECKING, Any, cast
 
 import h5py
 import numpy as np
 
 from ..errors import InputOutputError, UnknownName
 from ..files import store
+from .frames import Frames, data_frame, data_set
+from .values import Attributes, Values, finite as finite
 
 if TYPE_CHECKING:
     from ..plots.run import RunPlots
@@ -33,189 +35,6 @@ LARGEST_ARRAY = 2**28
 """Largest number of values of a data set that is read."""
 DEEPEST_JSON = 64
 """Largest number of levels of a JSON file; the program itself reads no deeper ones."""
-
-
-@overload
-def finite(value: Any, otherwise: float) -> float: ...
-@overload
-def finite(value: Any, otherwise: None = None) -> float | None: ...
-def finite(value: Any, otherwise: float | None = None) -> float | None:
-    """Returns a value of a JSON file if it is a finite number.
-
-    Parameters
-    ----------
-    value : Any
-        Value.
-    otherwise : float, optional
-        Answer for any other value.
-
-    Returns
-    -------
-    float | None
-        The number, or `otherwise`.
-    """
-    with contextlib.suppress(OverflowError):
-        if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
-            return float(value)
-    return otherwise
-
-
-class Attributes:
-    """Mapping whose members are attributes too."""
-
-    _called = "the result"
-
-    if not TYPE_CHECKING:  # type checkers know the names (names.pyi)
-        def __getattr__(self, key: str) -> Any:
-            if key.startswith("_"):
-                raise AttributeError(key)
-            try:
-                return self[key]
-            except KeyError:
-                raise UnknownName.among(self._called, key, self) from None
-
-    def __missing__(self, key: str) -> Any:
-        raise UnknownName.among(self._called, key, cast(Mapping[str, Any], self))
-
-    def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *cast(Mapping[str, Any], self)]
-
-
-class Values(Attributes, dict):
-    """A JSON object: v.theory.persson.gamma_eff, v["theory"]["persson"]["gamma_eff"]."""
-
-    def __repr__(self) -> str:
-        return json.dumps(self, indent=2, ensure_ascii=False)
-
-    def find(self, name: str) -> Any:
-        """Returns a value by its path, None if there is none.
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "theory.persson.gamma_eff".
-
-        Returns
-        -------
-        object
-            The value: number, text, list or Values.
-        """
-        value: Any = self
-        for part in name.split("."):
-            if not isinstance(value, dict) or part not in value:
-                return None
-            value = value[part]
-        return value
-
-    @overload
-    def number(self, name: str, otherwise: float) -> float: ...
-    @overload
-    def number(self, name: str, otherwise: None = None) -> float | None: ...
-    def number(self, name: str, otherwise: float | None = None) -> float | None:
-        """Returns a value by its path if it is a finite number.
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "theory.persson.gamma_eff".
-        otherwise : float, optional
-            Returned for every other value.
-
-        Returns
-        -------
-        float or None
-            The number, in the unit of unit(name).
-        """
-        return finite(self.find(name), otherwise)
-
-    def needed(self, name: str) -> float:
-        """Returns a number by its path that every such file has, as a key of a resolved scene.
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "block.young".
-
-        Returns
-        -------
-        float
-            The number, in the unit of unit(name).
-
-        Raises
-        ------
-        UnknownName
-            There is no such number.
-        """
-        number = self.number(name)
-        if number is None:
-            raise UnknownName.among(self._called, name, self, what="number")
-        return number
-
-    def text(self, name: str) -> str:
-        """Returns a value by its path if it is a text, else "".
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "theory.persson.gamma_eff".
-
-        Returns
-        -------
-        str
-            The text.
-        """
-        value = self.find(name)
-        return value if isinstance(value, str) else ""
-
-    def part(self, name: str) -> Values:
-        """Returns a value by its path if it is an object, else an empty one.
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "theory.persson.gamma_eff".
-
-        Returns
-        -------
-        Values
-            The object.
-        """
-        value = self.find(name)
-        return Values(value) if isinstance(value, dict) else Values()
-
-    def listed(self, name: str, kind: type = object) -> list:
-        """Returns the members of a kind of a list by its path, [] if the value is no list.
-
-        Parameters
-        ----------
-        name : str
-            Path of the value, "theory.persson.gamma_eff".
-        kind : type
-            Type of the members that are returned.
-
-        Returns
-        -------
-        list
-            The members.
-        """
-        value = self.find(name)
-        return [member for member in value if isinstance(member, kind)] if isinstance(value, list) else []
-
-    def numbers(self) -> dict[str, float]:
-        """Returns all finite numbers by their paths, in the order of the file.
-
-        Returns
-        -------
-        dict of str to float
-            The numbers, in the units of unit(path).
-        """
-        found: dict[str, float] = {}
-        for key, value in self.items():
-            if isinstance(value, dict):
-                found |= {f"{key}.{name}": number for name, number in Values(value).numbers().items()}
-            elif (number := finite(value)) is not None:
-                found[key] = number
-        return found
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
@@ -421,8 +240,9 @@ class Group(Attributes, Mapping):
 
     lists: tuple[str, ...] = ()
 
-    def __init__(self, file: RunFile, path: str):
-        self._file = file
+    def __init__(self, file: RunFile, path: str, edge: float = 0.0):
+        """Looks for the arrays of a group. edge: width of the box of maps, Å; 0: not known."""
+        self._file, self.edge = file, edge
         self._called = self._path = path
         self._all = file.members(path)
         self._read: dict[str, np.ndarray | None] = dict.fromkeys(name for name in self._all if name not in self.lists)
@@ -450,6 +270,12 @@ class Group(Attributes, Mapping):
         """Returns the unit of an array; "" for pure numbers."""
         return str(self._file.attribute(f"{self._path}/{name}", "unit") or "")
 
+    def to_xarray(self):
+        """Returns the maps as an xarray Dataset over y and x (Å); attrs["units"] of each has its unit."""
+        maps = {name: self[name] for name in self}
+        return data_set({name: (("y", "x"), values) for name, values in maps.items()}, {name: self.unit(name) for name in self},
+                        {axis: self.edge for axis in ("y", "x")})
+
     def _lists(self, *names: str) -> list[np.ndarray] | None:
         """Returns arrays of one dimension; None unless all exist."""
         return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
@@ -470,11 +296,11 @@ class Series(Group, SeriesArrays):
 
     def frame(self):
         """Returns the columns as a pandas DataFrame; its attrs["units"] has the unit of each column."""
-        import pandas
+        return data_frame(self._read, {name: self.unit(name) for name in self})
 
-        found = pandas.DataFrame(self._read)
-        found.attrs["units"] = {name: self.unit(name) for name in self}
-        return found
+    def to_xarray(self):
+        """Returns the columns as an xarray Dataset along "row"; attrs["units"] of each has its unit."""
+        return data_set({name: (("row",), self[name]) for name in self}, {name: self.unit(name) for name in self})
 
 
 class State(Group, StateMaps):
@@ -482,8 +308,8 @@ class State(Group, StateMaps):
 
     lists = ("gap_edges", "gap_density")
 
-    def __init__(self, file: RunFile, name: str):
-        super().__init__(file, f"/fields/{name}")
+    def __init__(self, file: RunFile, name: str, edge: float = 0.0):
+        super().__init__(file, f"/fields/{name}", edge)
         self.name = name
 
     def _number(self, key: str) -> float:
@@ -513,8 +339,8 @@ class Substrate(Group, SubstrateMaps):
 
     lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
-    def __init__(self, file: RunFile):
-        super().__init__(file, "/substrate")
+    def __init__(self, file: RunFile, edge: float = 0.0):
+        super().__init__(file, "/substrate", edge)
 
     @property
     def spectrum(self) -> list[np.ndarray] | None:
@@ -540,8 +366,8 @@ class Substrate(Group, SubstrateMaps):
 class States(dict[str, "State"]):
     """States of a run file by name."""
 
-    def __init__(self, file: RunFile):
-        super().__init__({name: State(file, name) for name in file.members("/fields")})
+    def __init__(self, file: RunFile, edge: float = 0.0):
+        super().__init__({name: State(file, name, edge) for name in file.members("/fields")})
         self._file = file
 
     def __missing__(self, name: str) -> State:
@@ -564,6 +390,8 @@ class Result(Values, Numbers):
         Maps of states, arrays [y, x]: fields["relaxed"].pressure (GPa).
     substrate : Substrate
         Heights (Å) and spectrum of the substrate.
+    frames : Frames
+        Lowest layer at the steps of output.trajectory: frames[0] (Å, [site, xyz]), frames.times (ps).
     units : Values
         Unit of each number, in the same nesting as the numbers.
     plot : RunPlots
@@ -606,7 +434,8 @@ class Result(Values, Numbers):
 
     def _open(self, name: str, unread: str = "") -> None:
         file = self.file = RunFile(self.directory / name, unread)
-        self.series, self.substrate, self.fields = Series(file), Substrate(file), States(file)
+        self.series, self.substrate, self.fields = Series(file), Substrate(file, self.edge), States(file, self.edge)
+        self.frames = Frames(file)
 
     @property
     def units(self) -> Units:

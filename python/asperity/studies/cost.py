@@ -16,7 +16,7 @@ from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
-from ..errors import SceneError
+from ..errors import Named, SceneError
 from ..running.pool import FAILED, Outcome, PoolOptions
 from .cost_parameters import ASKED, Base, CostCase, Row, cost_case
 from .variations import NAN, Study, joined
@@ -86,7 +86,7 @@ def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarra
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
 
 
-class Cost:
+class Cost(Named):
     """The rows: the first is the reference, the second the scene itself."""
 
     def __init__(self, case: CostCase, target: float | None = None):

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import BY_CODE, Error, InternalError, SceneError, Stopped, UnknownName
+from ..errors import BY_CODE, Error, InternalError, Named, SceneError, Stopped, UnknownName
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
@@ -48,7 +48,7 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 
 
 @dataclass
-class Estimate:
+class Estimate(Named):
     """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
     in their order: name, group, what (was varied, or why nothing was), failed; notes."""
 

@@ -10,6 +10,7 @@ import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
+from ..errors import Named
 from ..terminal import minus
 from ..units import MILLIJOULE, NANONEWTON, shown
 
@@ -26,7 +27,7 @@ class Found(NamedTuple):
 
 
 @dataclass
-class Number:
+class Number(Named):
     """A number of the scene: value as it is run, estimate with the biases corrected, its standard error, and the shift
     and error of each part by name.
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 import contextlib
 import json
 import os
-import sys
 import time
 import tomllib
 import warnings
@@ -24,10 +23,11 @@ import numpy
 
 from ..errors import PhysicsError, SceneError
 from ..files import store
+from ..results.result import Values
 from ..running import lock, program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of
-from ..terminal import Progress, Voice, millijoules, tables
+from ..terminal import Progress, Voice, html_table, millijoules, tables
 from ..units import MEGAPASCAL, MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
@@ -276,6 +276,16 @@ class Search:
         self.log, self.kept = log, states
 
 
+class FoundStates(Values):
+    """States of a contact: what states() returns."""
+
+    _called = "the states"
+
+    def _repr_html_(self) -> str:
+        rows = [[f"{state[name]:.4g}" for name in NUMBERS] for state in self["states"]]
+        return html_table("Stable states", NUMBERS, rows, f"the path ended because: {self['ended']}")
+
+
 def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
     """Searches for the stable states of a scene under its load. The dictionary that is returned has
@@ -338,7 +348,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         if place and written:
             written.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
-    return found
+    return FoundStates(found)
 
 
 def states_command(scene: str, sets: list[str], out: str | None, starts: int, voice: Voice) -> int:

@@ -24,7 +24,7 @@ import h5py
 import numpy as np
 
 from .. import terminal
-from ..errors import Error, InputOutputError, SceneError
+from ..errors import Error, InputOutputError, Named, SceneError
 from ..files import store
 from ..results.result import Result, Values, read_json
 from ..running import lock, program
@@ -42,7 +42,7 @@ TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
 
 
 @dataclass
-class Sweep:
+class Sweep(Named):
     """Points of a sweep over one scene.
 
     Attributes

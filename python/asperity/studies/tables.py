@@ -12,7 +12,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..errors import UnknownName
+from ..errors import Named, UnknownName
+from ..results.frames import data_frame, data_set
 from ..results.result import Values, finite
 from ..running import program
 from ..running.pool import DONE
@@ -90,7 +91,7 @@ class Average(NamedTuple):
     points: np.ndarray
 
 
-class Columns(UserDict):
+class Columns(Named, UserDict):
     """Columns by name: numpy arrays of numbers (NaN: none) or, of keys that are words, lists of strings."""
 
     def __repr__(self) -> str:
@@ -108,11 +109,11 @@ class Columns(UserDict):
 
     def frame(self):
         """Returns the columns as a pandas DataFrame; its attrs["units"] has the unit of each column."""
-        import pandas
+        return data_frame(self.data, self.units)
 
-        found = pandas.DataFrame(self.data)
-        found.attrs["units"] = self.units
-        return found
+    def to_xarray(self):
+        """Returns the columns as an xarray Dataset along "point"; attrs["units"] of each has its unit."""
+        return data_set({name: (("point",), values) for name, values in self.data.items()}, self.units)
 
 
 class Table(Columns):

@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Protocol
 
-from ..errors import SceneError
+from ..errors import SceneError, UnknownName
 from ..files import store
 from ..results.result import Values
 from ..running import program
@@ -292,5 +292,5 @@ class Study:
         there = [group.name for group in groups]
         for name in names:
             if name not in there:
-                raise SceneError(f"{option} {name}", "is none of them", "this scene has " + ", ".join(there),
+                raise UnknownName(f"{option} {name}", "is none of them", "this scene has " + ", ".join(there),
                                  f"name some of these, or leave {option} out for all of them")
