@@ -97,7 +97,8 @@ def python() -> str:
 
     out = ["\n", prose(asperity.__doc__)]
     for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "Result", "Sweep", "Estimate",
-                 "Adhesion", "Simulation", "Statics", "states", "check", "plan", "surface", "defaults", "theory", "cost", "convert", "export"):
+                 "Adhesion", "Simulation", "Statics", "states", "check", "plan", "surface", "defaults", "theory", "cost", "convert",
+                 "prony", "export"):
         thing = getattr(asperity, name)
         out += [f"\n## asperity.{name}\n\n", f"`{called(name, thing)}`\n\n", prose(thing.__doc__)]
         if isinstance(thing, type):

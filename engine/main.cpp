@@ -133,6 +133,7 @@ std::vector<Command> all_commands() {
         {"report", "a run or a sweep as one self-contained HTML page", {}},
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
         {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},
+        {"prony", "branches of a viscoelastic block from a master curve of a rubber", {}},
         {"defaults",
          "every key of a scene with its default, as TOML",
          {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},

@@ -323,6 +323,9 @@ inline constexpr Quantity result_quantities[] = {
      "of atoms. A sweep takes a result again only if the file still holds the same"},
     {"interface.cutoff", "Å", "",
      "cutoff of the pairs, of a scene with interface.cutoff = \"4 r0\" too"},
+    {"block.prony_file", "", "",
+     "file of block.prony, as the scene names it; scene.block has the numbers that it held"},
+    {"block.prony_error", "1", "", "rms error of the fit that this file is, over the moduli"},
     {"interface.table_digest", "", "",
      "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
      "result again only if they are the same"},

@@ -262,6 +262,11 @@ struct Store {
     }
 
     Problem operator()(const Schema::Rows& field) const {
+        if (key.text) {
+            const auto* text = as<std::string>();
+            *key.text = text ? *text : "";
+            if (text && !text->empty()) return {};
+        }
         const auto* list = as<Schema::RawRows>();
         const auto* none = as<Words>(); // an empty list may be of anything
         const std::size_t columns = field.columns.size();
@@ -273,7 +278,9 @@ struct Store {
                 names += (names.empty() ? "" : ", ") + column.name;
                 example += (example.empty() ? "" : ", ") + column.example;
             }
-            return wrong_type("a list of [" + names + "]", "[[" + example + "]]");
+            return wrong_type("a list of [" + names + "]" + (key.text ? ", or a file," : ""),
+                              "[[" + example + "]]" +
+                                  (key.text ? fmt::format(", or \"{}\"", key.example) : ""));
         }
         std::vector<std::vector<double>> rows;
         for (std::size_t i = 0; list && i < list->size(); ++i) {

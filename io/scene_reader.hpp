@@ -146,8 +146,8 @@ public:
             std::string unit{}, why{}, fix{};
         };
         Was was{};
-        /// Text that may stand in place of a number: the name of a field; null: numbers only.
-        /// Empty: the key has a number.
+        /// Text that may stand in place of a number or of rows: the name of a file; null: numbers
+        /// only. Empty: the key has numbers.
         std::string* text = nullptr;
         std::string example{}; ///< such a text
         /// Length from which a count follows, Å; null: counts only
@@ -238,7 +238,8 @@ public:
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .choices = choices});
     }
-    /// Adds a key that is a list of rows of quantities: layers = [["2 nm", "10 GPa", 0.3]].
+    /// Adds a key that is a list of rows of quantities: layers = [["2 nm", "10 GPa", 0.3]]. With
+    /// Key::text it may also be the name of a file, from which the caller fills in the rows.
     template <std::size_t N>
     Key& rows(std::string name, std::vector<std::array<double, N>>& field,
               const std::array<Column, N>& columns, std::string doc) {

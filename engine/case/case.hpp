@@ -73,7 +73,8 @@ struct Case {
 
     /// Returns the segments of the path; never empty in a valid scene.
     const std::vector<Segment>& path() const { return simulation.drive.path; }
-    /// Returns the paths of the files that were read: the scene, the map or the atoms, tables.
+    /// Returns the paths of the files that were read: the scene, the map or the atoms, tables,
+    /// the branches, the field of adhesion.
     std::vector<std::string> inputs() const;
     bool has(Segment::Kind kind) const;
     /// Returns true if the path has segments other than approach and pull-off.

@@ -167,6 +167,51 @@ void check_atoms(const Scene& scene, io::Problems& problems) {
                      "take a cutoff of 100 Å or less");
 }
 
+/// Adds notes on the branches of a viscoelastic block: their file, and those that the path cannot
+/// excite.
+void note_branches(const Case& c, std::vector<std::string>& list) {
+    const Scene& scene = c.scene;
+    if (scene.fit.rms_error)
+        list.push_back(fmt::format(
+            "block.prony: \"{}\" is a fit of {}, with an rms error of {:.2g} "
+            "% of the moduli",
+            scene.fit.file, scene.fit.source.empty() ? "a master curve" : scene.fit.source,
+            100.0 * *scene.fit.rms_error));
+    if (scene.fit.young > 0.0 && scene.fit.young != scene.block.young)
+        list.push_back(fmt::format("block.young = {:.6g} GPa holds over the {:.6g} GPa of \"{}\"",
+                                   scene.block.young, scene.fit.young, scene.fit.file));
+    if (!c.effects.branches) return;
+    // A way of some hundred steps, slides and holds; as slow as the path can look closer.
+    const double an_angstrom = 100.0 / scene.drive.velocity; // ps: Å over m/s
+    const double a_step = scene.drive.displacement_step * an_angstrom;
+    double path = 200.0 * a_step;
+    for (const Segment& segment : c.path()) {
+        if (segment.kind == Segment::hold) path += segment.amount / units::picosecond;
+        if (segment.kind == Segment::slide) path += std::abs(segment.amount) * an_angstrom;
+    }
+    std::vector<double> springs, relaxed;
+    for (const auto& [ratio, time] : scene.block.prony) {
+        if (time > 1000.0 * path) springs.push_back(time);
+        if (time < 0x1p-16 * a_step) relaxed.push_back(time);
+    }
+    const auto times = [](const std::vector<double>& some) {
+        if (some.size() == 1) return fmt::format("{:.4g} ps", some[0]);
+        return fmt::format("{} times from {:.4g} to {:.4g} ps", some.size(), some.front(),
+                           some.back());
+    };
+    const auto say = [&](const std::vector<double>& some, const std::string& where,
+                         const char* stay, const char* stays) {
+        if (some.empty()) return;
+        const bool one = some.size() == 1;
+        list.push_back(fmt::format("block.prony: {} {} {}: {}", times(some), one ? "is" : "are",
+                                   where, one ? stays : stay));
+    };
+    say(springs, fmt::format("far beyond the path, which takes some {:.1g} ps", path),
+        "these branches stay springs", "this branch stays a spring");
+    say(relaxed, fmt::format("below the shortest step of the path, {:.1g} ps", 0x1p-16 * a_step),
+        "these branches are always relaxed", "this branch is always relaxed");
+}
+
 } // namespace
 
 void check_keys(const Case& c, io::Problems& problems) {
@@ -432,23 +477,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             list.push_back(fmt::format("the well of {} is {:.4g} eV deep: its energies are read in "
                                        "eV, and may be meV",
                                        c.table_files[i], depth));
-    if (c.effects.branches) {
-        // A way of some hundred steps, and holds; as slow as the path can look closer.
-        const double a_step =
-            100.0 * scene.drive.displacement_step / scene.drive.velocity; // ps: Å over m/s
-        double path = 200.0 * a_step;
-        for (const Segment& segment : c.path())
-            if (segment.kind == Segment::hold) path += segment.amount / units::picosecond;
-        for (const auto& [ratio, time] : scene.block.prony)
-            if (time > 1000.0 * path)
-                list.push_back(fmt::format("block.prony: {:.4g} ps is far beyond the path, which "
-                                           "takes some {:.1g} ps: this branch stays a spring",
-                                           time, path));
-            else if (time < 0x1p-16 * a_step)
-                list.push_back(fmt::format("block.prony: {:.4g} ps is below the shortest step of "
-                                           "the path, {:.1g} ps: this branch is always relaxed",
-                                           time, 0x1p-16 * a_step));
-    }
+    note_branches(c, list);
     for (std::string& note : notes_on_idle_keys(scene))
         list.push_back(std::move(note));
     return list;

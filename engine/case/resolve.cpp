@@ -24,16 +24,6 @@ namespace asperity {
 
 namespace {
 
-/// Returns the places of a file: beside the scene, then in the working directory (in reverse order
-/// if it was named on the command line).
-std::array<std::filesystem::path, 2> places_of(const Scene& scene, const std::string& file,
-                                               const std::string& key) {
-    namespace fs = std::filesystem;
-    std::array<fs::path, 2> places = {fs::path(scene.file).parent_path() / file, fs::path(file)};
-    if (scene.positions.where(key).starts_with("--set")) std::swap(places[0], places[1]);
-    return places;
-}
-
 /// Returns the file of kind = "file" or "atoms".
 std::string file_of(const Scene& scene, io::Problems& problems) {
     if (!scene.surface.reads_file()) return {};
@@ -45,9 +35,7 @@ std::string file_of(const Scene& scene, io::Problems& problems) {
     }
     if (const std::string found = find_beside_scene(scene, file, "surface.file"); !found.empty())
         return found + dataset;
-    const auto places = places_of(scene, file, "surface.file");
-    std::string looked = places[0].string();
-    if (places[1] != places[0]) looked += " and " + places[1].string();
+    const std::string looked = places_looked_at(scene, file, "surface.file");
     const bool named = scene.positions.is_set("surface.file");
     problems.add(named ? "surface.file" : "surface.kind",
                  named ? fmt::format("= \"{}\": there is no such file", scene.surface.file)
@@ -408,14 +396,6 @@ void derive(Case& c, io::Problems& problems) {
 
 } // namespace
 
-std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key) {
-    std::error_code error;
-    for (const auto& place : places_of(scene, file, key))
-        if (std::filesystem::is_regular_file(place, error))
-            return std::filesystem::absolute(place).lexically_normal().string();
-    return {};
-}
-
 double Case::load_in_megapascal() const {
     return simulation.drive.load_force / (units::megapascal * area());
 }
@@ -428,6 +408,7 @@ ProcessGrid Case::grid(int rank) const {
 std::vector<std::string> Case::inputs() const {
     std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
     files.insert(files.end(), table_files.begin(), table_files.end());
+    if (!scene.fit.found.empty()) files.push_back(scene.fit.found);
     if (!adhesion_file.empty()) files.push_back(adhesion_file.substr(0, adhesion_file.find(":/")));
     return files;
 }

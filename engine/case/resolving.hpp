@@ -5,6 +5,7 @@
 #pragma once
 
 #include "engine/case/case.hpp"
+#include "engine/scene/scene_files.hpp"
 
 namespace asperity {
 
@@ -15,9 +16,6 @@ void find_potentials(Case& c, io::Problems& problems);
 /// simulation.interface.adhesion except mean_factor, and its largest value in the scene. Adds the
 /// mistakes to problems.
 void find_adhesion_field(Case& c, io::Problems& problems);
-/// Returns the file that a key names, beside the scene or in the working directory; empty if there
-/// is none.
-std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);
 /// Compares the errors of tables of potentials with the work of adhesion: fills in table_error,
 /// adds notes. Returns false, with problems, if a table is too coarse or too noisy.
 bool check_tables(Case& c, io::Problems& problems);

@@ -214,6 +214,8 @@ io::Result scene_result(const Scene& scene) {
 io::Result surface_result(const Case& c, const Surface& surface) {
     io::Result result = scene_result(c.scene);
     add_surface(surface, result);
+    if (!c.scene.fit.file.empty()) result.set("block.prony_file", c.scene.fit.file);
+    if (c.scene.fit.rms_error) result.set("block.prony_error", *c.scene.fit.rms_error);
     if (c.table_digest)
         result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
     if (const auto& field = c.simulation.interface.adhesion) {

@@ -240,18 +240,21 @@ io::Schema bind(Scene& scene) {
         needs.dynamic, "on a quasi-static path",
         "on such a path the block is a sum of waves, and at finite strain waves do not add up",
         "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"")};
-    schema
-        .rows<2>("prony", block.prony,
-                 {{{"modulus over young", "", positive(), "0.5"},
-                   {"relaxation time", "ps", positive(), "\"1 ns\""}}},
-                 "branches of a viscoelastic block, on a quasi-static path, as in [[9.0, \"1 "
-                 "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
-                 "modulus, and drive.velocity says how fast time passes")
-        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
-                                 "only the block of a quasi-static path can be viscoelastic",
-                                 "take drive.mode = \"quasistatic\", or leave prony out"),
-                  {[&scene] { return !scene.only_relaxes(); },
-                   "drive.path is one relaxation, and its state is the relaxed one"}};
+    auto& prony =
+        schema.rows<2>("prony", block.prony,
+                       {{{"modulus over young", "", positive(), "0.5"},
+                         {"relaxation time", "ps", positive(), "\"1 ns\""}}},
+                       "branches of a viscoelastic block, on a quasi-static path, as in [[9.0, \"1 "
+                       "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
+                       "modulus, and drive.velocity says how fast time passes; or the file that "
+                       "`asperity prony` made of a master curve, which gives young as well");
+    prony.text = &scene.fit.file;
+    prony.example = "rubber.toml";
+    prony.needs = {needs.refusing(needs.equilibria, "on a dynamic path",
+                                  "only the block of a quasi-static path can be viscoelastic",
+                                  "take drive.mode = \"quasistatic\", or leave prony out"),
+                   {[&scene] { return !scene.only_relaxes(); },
+                    "drive.path is one relaxation, and its state is the relaxed one"}};
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
                                     "its surface, has them";
     constexpr const char* of_one =

@@ -97,6 +97,15 @@ struct Scene {
         double surface_stress = 0.0; ///< N/m
     } block;
 
+    /// The file of block.prony, which has filled in block.prony and block.young.
+    struct Fit {
+        std::string file;   ///< name in the scene; empty: the scene has the branches itself
+        std::string found;  ///< place of the file
+        std::string source; ///< the measurement to which the branches were fitted
+        double young = 0.0; ///< relaxed modulus of the file, GPa
+        std::optional<double> rms_error; ///< error of the fit, over the moduli measured
+    } fit;
+
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
         int potential = 0; ///< index of a kind of PairPotential

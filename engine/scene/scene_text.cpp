@@ -4,6 +4,7 @@
 // Reads and writes scenes as text.
 #include "engine/scene/scene.hpp"
 
+#include "engine/scene/scene_files.hpp"
 #include "engine/units.hpp"
 #include "io/json.hpp"
 
@@ -49,6 +50,7 @@ Scene read_scene_text(const std::string& text, const std::string& file,
     scene.name = std::filesystem::path(file).stem().string();
     if (scene.name.empty()) scene.name = "scene";
     bind(scene).read(text, file, overrides, scene.positions, problems);
+    if (!scene.fit.file.empty()) read_fit(scene, problems);
     make_counts(scene, problems);
     if (!scene.positions.is_set("block.thickness")) scene.block.thickness = scene.surface.sites;
     if (scene.interface.kind == InterfaceKind::wall &&

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
         load as load,
         load_estimate as load_estimate,
         load_sweep as load_sweep,
+        prony as prony,
         run as run,
         sweep as sweep,
     )
@@ -51,7 +52,7 @@ if TYPE_CHECKING:
     from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
-                          "load_sweep", "run", "sweep"), ".forms"),
+                          "load_sweep", "prony", "run", "sweep"), ".forms"),
          **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}

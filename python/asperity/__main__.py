@@ -95,6 +95,14 @@ def _carry_out(given: argparse.Namespace) -> int:
             voice.say(note)
         voice.tell({"file": target, "text": said, "notes": [note.removeprefix("note: ") for note in notes]})
         return 0
+    if given.command == "prony":
+        from .commands.prony import prony_command
+
+        if given.target and given.out:
+            raise SceneError("command line", f"two files to write are given, {given.target} and {given.out}", "", "leave one out")
+        target = given.target or given.out or str(Path(given.source).with_suffix(".toml"))
+        return prony_command(given.source, target, given.branches, given.poisson, given.frequency_unit, given.modulus_unit, given.modulus,
+                             voice)
     if given.command == "theory":
         from .commands.theory import theory_command
 

@@ -18,12 +18,14 @@ from .results.result import Group, Result, Values, load
 from .running.runs import run
 from .studies.cost import Cost
 from .studies.estimates import Estimate, estimate, load_estimate
+from .studies.prony import Prony, prony
 from .studies.stated_number import Number
 from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
 from .terminal import html_table
 
-__all__ = ["Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "run", "sweep"]
+__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
+           "sweep"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:
@@ -44,7 +46,7 @@ def _plot_of_sweep(self: Sweep, name: str = "gamma", ax=None):
     Parameters
     ----------
     name : str
-        "gamma", "area", "separation", "radius", "pull-off" or "hysteresis".
+        "gamma", "area", "separation", "radius", "pull-off", "friction", "sliding-area" or "hysteresis".
     ax : matplotlib Axes, optional
         Axes to draw into; by default new ones.
 
@@ -111,6 +113,25 @@ def _plot_of_estimate(self: Estimate, ax=None):
     from .reports.estimate import chart
 
     return drawn_into(ax, lambda a: chart(self, a), self.name, "estimate", "it has no number")
+
+
+def _plot_of_prony(self: Prony, ax=None):
+    """Draws storage and loss modulus over frequency, measured and fitted.
+
+    Parameters
+    ----------
+    ax : matplotlib Axes, optional
+        Axes to draw into; by default new ones.
+
+    Returns
+    -------
+    Axes
+        The axes with the plot.
+    """
+    from .plots.prony import moduli
+    from .plots.style import drawn_into
+
+    return drawn_into(ax, lambda a: moduli(self, a), self.source, "moduli", "it has no branches")
 
 
 def _quote(self: Estimate, path: str = "") -> str:
@@ -216,5 +237,6 @@ for kind, name, form in (
                          (Estimate, "__str__", _text_of_estimate), (Estimate, "_repr_html_", _html_of_estimate),
                          (Adhesion, "_repr_html_", _html_of_adhesion), (Result, "_repr_html_", _html_of_run),
                          (Sweep, "_repr_html_", _html_of_sweep), (Result, "plot", property(_plot_of_run)),
+                         (Prony, "plot", _plot_of_prony),
                          (Result, "report", _report_of_run), (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep)):
     setattr(kind, name, form)

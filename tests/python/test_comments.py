@@ -137,7 +137,8 @@ def test_a_sentence_is_accepted(text):
 # noun for classes and properties. Functions have the sections Parameters, Returns or Yields of NumPy's style. One rule for short
 # ones: a function of no or one argument that returns no tuple may do with its sentence. What a function raises itself is named.
 
-HELD_BY_USERS = {"forms": ("_plot_of_sweep", "_report_of_run", "_report_of_sweep", "_plot_of_estimate", "_quote", "_report_of_estimate")}
+HELD_BY_USERS = {"forms": ("_plot_of_sweep", "_report_of_run", "_report_of_sweep", "_plot_of_estimate", "_plot_of_prony", "_quote",
+                           "_report_of_estimate")}
 """Functions that become members of public classes."""
 SECTION = re.compile(r"^(\w+)\n-{3,}\n(.*?)(?=^\w+\n-{3,}$|\Z)", re.M | re.S)
 

@@ -15,13 +15,13 @@ SUBPACKAGES = {
     "files": ("store",),
     "results": ("values", "frames", "result"),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
-    "maps": ("channels", "arrays", "text", "atoms", "convert", "height_map", "missing_waves"),
+    "maps": ("channels", "arrays", "text", "master_curve", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),
     "studies": ("grid", "tables", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
-                "estimates", "map_scene", "states"),
-    "plots": ("style", "run", "sweep"),
+                "estimates", "map_scene", "prony", "states"),
+    "plots": ("style", "run", "prony", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "sweep", "export"),
-    "commands": ("command_line", "studies", "theory", "adhesion"),
+    "commands": ("command_line", "studies", "theory", "adhesion", "prony"),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()

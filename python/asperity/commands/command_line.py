@@ -204,6 +204,18 @@ def parsers() -> dict[str, Parser]:
     convert.add_argument("-o", "--out", metavar="OUT.h5", help="the same as an option")
     convert.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
     _voice(convert, progress=False)
+    prony = add("prony", "branches of a viscoelastic block from a master curve of a rubber",
+                "Text of columns: frequency, storage and loss modulus (or tan δ), maybe a shift factor aT; names and units stand above. "
+                "OUT.toml is what block.prony of a scene names; OUT.svg shows the fit.")
+    prony.add_argument("source", metavar="FILE", help="the master curve")
+    prony.add_argument("target", nargs="?", metavar="OUT.toml", help="the file to write (default: FILE with .toml for its ending)")
+    prony.add_argument("-o", "--out", metavar="OUT.toml", help="the same as an option")
+    prony.add_argument("--branches", type=_many, metavar="N", help="at most (default: one a decade of frequency)")
+    prony.add_argument(*options("poisson"), type=_number, metavar="0.49", help="Poisson's ratio, which shear moduli need")
+    prony.add_argument("--frequency-unit", default="", metavar="UNIT", help="Hz or rad/s; holds over what the file says")
+    prony.add_argument("--modulus-unit", default="", metavar="UNIT", help="for example MPa; holds over what the file says")
+    prony.add_argument("--modulus", default="", metavar="KIND", help="E (Young's) or G (of shear); holds over what the file says")
+    _voice(prony, progress=False)
     for parser in found.values():
         parser.add_argument("-h", "--help", action="help", help="print this help")
     return found

@@ -378,6 +378,12 @@ class Interface(Values):
     table_error: float
     """bound of the error of energies of flat surfaces, and so of binding energies, that the spline between the ..."""
 
+class Block(Values):
+    prony_file: str
+    """file of block.prony, as the scene names it"""
+    prony_error: float
+    """rms error of the fit that this file is, over the moduli"""
+
 class RunPhase(Values):
     seconds: float
     """s: wall time spent in a phase of the run, since the last resume"""
@@ -459,6 +465,7 @@ class Numbers:
     energy: Energy
     surface: Surface
     interface: Interface
+    block: Block
     run: Run
     digest: str
     """last member"""

@@ -82,18 +82,17 @@ def _panels(pieces: list[list[float]]) -> tuple[np.ndarray, np.ndarray, np.ndarr
     coefficients = (2 * degrees[:, None] + 1) / 2 * powers[:, :NODES].T * w  # of degree d by the value at a node
     steps = [(powers[:, d + 1] - powers[:, d - 1]) / (2 * d + 1) if d else powers[:, 1] + 1 for d in degrees]
     within = np.array(steps).T @ coefficients
-    starts, widths, c, n, qa = [], [], [], [], []
+    columns: list[list[np.ndarray]] = [[], [], [], [], []]
     for low, high, value, power in pieces:
         if not high > low:
             continue
         edges = np.linspace(math.log(low), math.log(high), 1 + max(1, math.ceil(math.log(high / low) / WIDEST)))
-        if not starts:  # of little pressure the contact breaks up within the longest waves
+        if not columns[0]:  # of little pressure the contact breaks up within the longest waves
             edges = np.concatenate([edges[:1], edges[0] + (edges[1] - edges[0]) * 0.5 ** np.arange(20, 0, -1), edges[1:]])
-        starts.append(edges[:-1])
-        widths.append(np.diff(edges))
-        for column, number in ((c, value), (n, power), (qa, low)):
-            column.append(np.full(len(edges) - 1, number))
-    first, width, height, power, base = (np.concatenate(column)[:, None] for column in (starts, widths, c, n, qa))
+        one = np.ones(len(edges) - 1)
+        for column, numbers in zip(columns, (edges[:-1], np.diff(edges), value * one, power * one, low * one)):
+            column.append(numbers)
+    first, width, height, power, base = (np.concatenate(column)[:, None] for column in columns)
     half = width / 2
     q = np.exp(first + half * (1 + x))
     spectrum = height * (q / base) ** power
@@ -116,7 +115,9 @@ class _Contact:
     def __init__(self, rubber: Rubber):
         self.rough = any(c > 0 for _, _, c, _ in rubber.pieces)
         self.stiffness, self.beta = rubber.modulus / rubber.pressure, rubber.beta
-        self.q, self._weight, self._within = _panels(rubber.pieces) if self.rough else (np.ones((1, NODES)),) * 3
+        smooth = np.ones((1, NODES))
+        self.q: np.ndarray
+        self.q, self._weight, self._within = _panels(rubber.pieces) if self.rough else (smooth, smooth, smooth)
         self._sum = np.polynomial.legendre.leggauss(NODES)[1]
 
     def integral(self, loss: np.ndarray, square: np.ndarray) -> tuple[float, float]:

@@ -1,0 +1,294 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Branches of a viscoelastic block (block.prony) from a master curve, by non-negative least squares.
+
+    E'(ω) = E [1 + Σ r ω²τ²/(1 + ω²τ²)],    E''(ω) = E Σ r ωτ/(1 + ω²τ²)
+
+The relative errors of both moduli at all frequencies are least in squares: first over times evenly spaced in log τ between the
+inverse frequencies of the ends, then over the times as well. Branches that come out zero are left out.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from scipy.optimize import least_squares, nnls
+
+from ..arguments import chosen
+from ..errors import SceneError
+from ..files import store
+from ..maps.channels import refuse
+from ..maps.master_curve import MasterCurve, read_master_curve
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+MOST_BRANCHES = 30
+LARGEST_MISFIT = 0.25
+"""rms error beyond which branches do not describe a curve."""
+DENSITY = 5
+"""So many times of a first look for each branch."""
+NEGLIGIBLE = 1e-8
+"""Branches that are nowhere more of a modulus are left out."""
+LEAST_RELAXED = 1e-3
+"""Of the storage modulus at the lowest frequency: what the relaxed modulus must be, or the curve is of a liquid."""
+CLOSEST = 1.05
+"""Times nearer to each other than this factor are one branch."""
+
+
+@dataclass
+class Prony:
+    """Branches of a viscoelastic block that were fitted to a master curve.
+
+    Attributes
+    ----------
+    young : float
+        Relaxed Young's modulus, block.young, GPa.
+    prony : list of (float, float)
+        Branches, block.prony: modulus over the relaxed one, and relaxation time (ps), the shortest first.
+    poisson : float or None
+        Poisson's ratio with which shear moduli were converted.
+    rms_error, storage_error, loss_error : float
+        rms errors of the fit over the moduli, of both, the storage and the loss modulus.
+    largest_error, at : float
+        Largest error, and its angular frequency (rad/s).
+    source : str
+        Name of the file of the master curve.
+    frequency, storage, loss : array
+        The master curve: angular frequencies (rad/s), Young's moduli (GPa).
+    notes : list of str
+        Notes on the curve.
+    """
+
+    if TYPE_CHECKING:
+        def plot(self, ax: Axes | None = None) -> Axes: ...
+
+    young: float
+    prony: list[tuple[float, float]]
+    poisson: float | None
+    rms_error: float
+    storage_error: float
+    loss_error: float
+    largest_error: float
+    at: float
+    source: str
+    frequency: np.ndarray
+    storage: np.ndarray
+    loss: np.ndarray
+    notes: list[str] = field(default_factory=list)
+
+    def modulus(self, frequency: float | np.ndarray) -> np.ndarray:
+        """Returns the fitted modulus.
+
+        Parameters
+        ----------
+        frequency : float or array
+            Angular frequencies, rad/s.
+
+        Returns
+        -------
+        array
+            Complex Young's moduli, GPa.
+        """
+        from ..theories import viscoelastic
+
+        return self.young * viscoelastic.modulus(self.prony, 1e-12 * np.asarray(frequency, float))
+
+    @property
+    def scene(self) -> dict[str, dict]:
+        """Sections of a scene with this material: {"block": {"young", "prony", "poisson"}}."""
+        return {"block": {"young": self.young, "prony": [list(branch) for branch in self.prony]} |
+                ({} if self.poisson is None else {"poisson": self.poisson})}
+
+    @property
+    def toml(self) -> str:
+        """The file that block.prony names: the keys young and prony of a scene, and the error of the fit."""
+        rows = "".join(f"    [{ratio!r}, \"{1e-12 * time!r} s\"],\n" for ratio, time in self.prony)
+        return (f"# Viscoelastic moduli: a scene names this file as block.prony, or has these lines. Of {self.source}, "
+                f"{len(self.frequency)} frequencies\n# from {self.frequency[0]:.4g} to {self.frequency[-1]:.4g} rad/s. {self.errors}.\n"
+                f"[block]\nyoung = {self.young!r} # GPa, relaxed\n" +
+                (f"poisson = {self.poisson!r}\n" if self.poisson is not None else "") +
+                f"prony = [ # modulus over young, relaxation time\n{rows}]\n\n[fit]\nsource = {_quoted(self.source)}\n"
+                f"rms_error = {float(f'{self.rms_error:.3g}')!r}\n")
+
+    @property
+    def errors(self) -> str:
+        """The errors of the fit in words."""
+        return (f"rms error {100 * self.rms_error:.2g} % (storage modulus {100 * self.storage_error:.2g} %, loss modulus "
+                f"{100 * self.loss_error:.2g} %), largest {100 * self.largest_error:.2g} % at {self.at:.3g} rad/s")
+
+
+def _quoted(text: str) -> str:
+    return '"' + "".join(c if c.isprintable() else "?" for c in text).replace("\\", "\\\\").replace('"', '\\"') + '"'
+
+
+def _columns(curve: MasterCurve, times: np.ndarray) -> np.ndarray:
+    """Returns relative moduli of the relaxed solid and of each branch: rows of E', then of E''."""
+    y = curve.frequency[:, None] * times
+    storage = np.hstack([np.ones((len(y), 1)), y**2 / (1 + y**2)]) / curve.storage[:, None]
+    loss = np.hstack([np.zeros((len(y), 1)), y / (1 + y**2)]) / curve.loss[:, None]
+    return np.vstack([storage, loss])
+
+
+def _solved(curve: MasterCurve, times: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Returns moduli of the relaxed solid and of the branches (Pa), and the relative errors."""
+    columns = _columns(curve, times)
+    scale = np.linalg.norm(columns, axis=0)  # or nnls takes columns of 1e-9 for none
+    moduli = nnls(columns / scale, np.ones(len(columns)), maxiter=100 * len(scale))[0] / scale
+    return moduli, columns @ moduli - 1
+
+
+def _merged(times: np.ndarray) -> np.ndarray:
+    kept = [time for k, time in enumerate(times) if k == 0 or time > CLOSEST * times[k - 1]]
+    return np.array(kept)
+
+
+def _starts(curve: MasterCurve, many: int) -> list[np.ndarray]:
+    """Returns two sets of times, s: evenly spaced ones, and those that many more times leave, next ones together until they are
+    so many."""
+    ends = 1 / curve.frequency[-1], 1 / curve.frequency[0]
+    even, found = (np.geomspace(*ends, number) for number in (many, DENSITY * many))
+    weights = _solved(curve, found)[0][1:]
+    found, weights = found[weights > 0], weights[weights > 0]
+    while len(found) > many or (len(found) > 1 and (found[1:] / found[:-1]).min() < (ends[1] / ends[0]) ** (1.5 / (DENSITY * many))):
+        k = int(np.argmin(found[1:] / found[:-1]))
+        one = np.exp(np.average(np.log(found[k:k + 2]), weights=weights[k:k + 2]))
+        found, weights = np.r_[found[:k], one, found[k + 2:]], np.r_[weights[:k], weights[k:k + 2].sum(), weights[k + 2:]]
+    return [even, found]
+
+
+def _times(curve: MasterCurve, many: int) -> np.ndarray:
+    """Returns the times of the branches, s, the shortest first."""
+    best, least = np.zeros(0), math.inf
+    ends = math.log(0.1 / curve.frequency[-1]), math.log(10 / curve.frequency[0])
+
+    def look_at(times: np.ndarray) -> np.ndarray:
+        nonlocal best, least
+        moduli, error = _solved(curve, times)
+        times = times[(_columns(curve, times) * moduli).max(axis=0)[1:] > NEGLIGIBLE]
+        if error @ error < least:
+            best, least = times, error @ error
+        return times
+
+    for start in _starts(curve, many):
+        start = look_at(start)
+        if len(start) and least > 1e-16 * len(curve.frequency):  # else the curve was made of these
+            moved = least_squares(lambda x: _solved(curve, np.exp(x))[1], np.log(start), bounds=ends, xtol=1e-13, ftol=1e-13,
+                                  gtol=1e-13, max_nfev=200)
+            look_at(_merged(np.sort(np.exp(moved.x))))
+    return best
+
+
+def fit(curve: MasterCurve, branches: int | None = None, poisson: float | None = None) -> Prony:
+    """Computes branches that fit a master curve.
+
+    Parameters
+    ----------
+    curve : MasterCurve
+        The curve.
+    branches : int, optional
+        Number of branches at most; None: one for each decade of frequency.
+    poisson : float, optional
+        Poisson's ratio, with which shear moduli become Young's.
+
+    Returns
+    -------
+    Prony
+        The branches.
+
+    Raises
+    ------
+    InputOutputError
+        No branches describe the curve.
+    SceneError
+        A number of branches or Poisson's ratio is missing or wrong.
+    """
+    if curve.kind == "G" and poisson is None:
+        raise SceneError("--poisson", "is missing", f"the moduli of {curve.source} are of shear, and block.young is 2 (1 + ν) times as "
+                         "large", "say --poisson 0.49")
+    if poisson is not None and not -1 < poisson < 0.5:
+        raise SceneError(f"--poisson {poisson:g}", "is out of range", "Poisson's ratio is between -1 and 0.5", "for example --poisson 0.49")
+    many = branches or min(MOST_BRANCHES, max(3, math.ceil(math.log10(curve.frequency[-1] / curve.frequency[0]))))
+    if not 1 <= many <= MOST_BRANCHES:
+        raise SceneError(f"--branches {many}", "is out of range", f"1 to {MOST_BRANCHES} are allowed", "for example --branches 8")
+    if 2 * many + 1 > 2 * len(curve.frequency):
+        raise refuse(curve.source, "has too few points", f"{len(curve.frequency)} frequencies do not determine {many} branches",
+                     f"say --branches {len(curve.frequency) - 1}, or less")
+    times = _times(curve, many)
+    moduli, error = _solved(curve, times)
+    if not len(times):
+        raise refuse(curve.source, "has no branches", "its loss modulus is too small for them", "take an elastic block: block.young alone")
+    half = len(error) // 2
+    worst = int(np.argmax(np.abs(error)))
+    rms, storage, loss = (float(np.sqrt(np.mean(e**2))) for e in (error, error[:half], error[half:]))
+    if rms > LARGEST_MISFIT:
+        raise refuse(curve.source, "is not described by branches", f"{len(times)} of them miss its moduli by {100 * rms:.3g} % rms, the "
+                     f"storage modulus by {100 * storage:.3g} %, the loss modulus by {100 * loss:.3g} %, most at "
+                     f"{curve.frequency[worst % half]:.4g} rad/s: the two moduli of a linear solid follow from each other",
+                     "look whether the columns are what their names say, or take more branches (--branches)")
+    if not moduli[0] > LEAST_RELAXED * curve.storage[0]:
+        raise refuse(curve.source, "has no relaxed modulus", "its moduli are best fitted by a liquid, which flows at low frequencies",
+                     "measure to lower frequencies, down to the rubber's plateau, or leave out the rows that flow")
+    stiff = 1.0 if curve.kind == "E" else 2 * (1 + (poisson or 0.0))
+    notes = list(curve.notes)
+    if curve.loss[0] > 0.1 * curve.storage[0]:
+        notes.append(f"at the lowest frequency the loss modulus is still {curve.loss[0] / curve.storage[0]:.2g} of the storage modulus: the "
+                     "relaxed modulus, young, is extrapolated")
+    if rms > 0.05:
+        notes.append("the fit is poor: take more branches (--branches), or look at the plot")
+    return Prony(1e-9 * stiff * float(moduli[0]), [(float(m / moduli[0]), float(1e12 * t)) for m, t in zip(moduli[1:], times)],
+                 poisson, rms, storage, loss, float(abs(error[worst])), float(curve.frequency[worst % half]), curve.source,
+                 curve.frequency, 1e-9 * stiff * curve.storage, 1e-9 * stiff * curve.loss, notes)
+
+
+def prony(source: str | Path, target: str | Path | None = None, branches: int | None = None, poisson: float | None = None,
+          nu: float | None = None, frequency_unit: str = "", modulus_unit: str = "", modulus: str = "") -> Prony:
+    """Computes the branches of a viscoelastic block from a master curve of a rubber.
+
+        asperity.prony("master.csv", "rubber.toml")     # then block.prony = "rubber.toml"
+
+    Parameters
+    ----------
+    source : str or Path
+        Text file with columns of frequency, storage and loss modulus (or tan δ), and maybe a shift factor aT, whose names and
+        units stand above.
+    target : str or Path, optional
+        File to write for block.prony, which must not be there; its name ends in .toml.
+    branches : int, optional
+        Number of branches at most; by default one for each decade of frequency.
+    poisson, nu : float, optional
+        Poisson's ratio, which shear moduli need.
+    frequency_unit : str
+        Unit of the frequency, "Hz" or "rad/s", if the file does not say it.
+    modulus_unit : str
+        Unit of the moduli, "MPa", if the file does not say it.
+    modulus : str
+        "E" or "G", if the file does not say it.
+
+    Returns
+    -------
+    Prony
+        Relaxed modulus, branches and errors of the fit; its plot() draws them.
+
+    Raises
+    ------
+    InputOutputError
+        The file is no master curve, or no branches describe it.
+    SceneError
+        An argument is wrong, or the target is there already.
+    """
+    if target is not None:
+        if Path(target).suffix.lower() != ".toml":
+            raise SceneError(str(target), "is no name of a TOML file", "what is written is TOML", f"for example {Path(target).with_suffix('.toml')}")
+        store.require_new(Path(target))
+    if modulus not in ("", "E", "G"):
+        raise SceneError(f"--modulus {modulus}", "is none of its choices", "choices: E, G", "say E of Young's moduli, G of shear moduli")
+    found = fit(read_master_curve(source, frequency_unit, modulus_unit, modulus), branches, chosen("poisson", poisson=poisson, nu=nu))
+    if target is not None:
+        with store.new(Path(target)) as beside:
+            Path(beside).write_text(found.toml, encoding="utf-8")
+    return found
