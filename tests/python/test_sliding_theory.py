@@ -169,7 +169,7 @@ def test_what_the_command_says(place):
 def test_a_sweep_over_velocity_has_theory_and_simulation_in_one_plot(place):
     Path("slide.toml").write_text(SCENE)
     command("sweep", "slide.toml", "--set", "drive.velocity=0.01,2", "--out", "sweep", "--progress", "off",
-            says=["friction coefficient", "theory, friction"])
+            says=["friction μ", "theory μ", "theory A/A0"])
     sweep = asperity.load_sweep("sweep")
     table, curves = sweep.table, sweep.curves
     assert (table["slide.friction_coefficient"] > 0).all() and table.units["slide.friction_stress"] == "MPa"

@@ -201,18 +201,22 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("interface, out", "-work_of_interface.pull_off_ratio", 4),
                  ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
-                 ("radius, Å", "contact_radius.relaxed", 1), ("friction coefficient", "slide.friction_coefficient", 4),
-                 ("±", "slide.friction_coefficient_error", 4), ("sliding contact", "slide.steady_contact_fraction", 4),
-                 ("theory, friction", "theory.sliding.friction_coefficient", 4),
-                 ("theory, sliding contact", "theory.sliding.contact_fraction", 4), ("lost" + BOTH, "lost.cycle", 4),
+                 ("radius, Å", "contact_radius.relaxed", 1), ("friction μ", "slide.friction_coefficient", 4),
+                 ("±", "slide.friction_coefficient_error", 4), ("sliding A/A0", "slide.steady_contact_fraction", 4),
+                 ("theory μ", "theory.sliding.friction_coefficient", 4), ("theory A/A0", "theory.sliding.contact_fraction", 4),
+                 ("lost" + BOTH, "lost.cycle", 4),
                  ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
     ("γ_eff" + BOTH, "persson.gamma_eff", 3), ("γ_eff/Δγ", "persson.gamma_eff_ratio", 5),
     ("A/A0", "persson.contact_fraction", 5), ("full contact", "persson.gamma_full_contact_ratio", 5),
-    ("renormalised", "renormalised.gamma_eff_ratio", 5), ("friction coefficient", "sliding.friction_coefficient", 5),
+    ("renormalised", "renormalised.gamma_eff_ratio", 5), ("friction μ", "sliding.friction_coefficient", 5),
     ("sliding A/A0", "sliding.contact_fraction", 5)))
+
+
+OF_ADHESION = ("theory.persson.", "theory.renormalised.")
+"""Beginnings of columns that the text of a sweep over slides leaves out."""
 
 
 def _status(words: list[str]) -> str:
@@ -236,9 +240,10 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
         Heads of the columns, a row for all seeds of a point, and a sentence on what the numbers are.
     """
     axes = [key for key in table.axes if not is_seed(key)]
+    slides = np.isfinite(table.column("theory.sliding.friction_coefficient")).any()  # in place of theories of adhesion
     cells = [(head, table.average(column), digits)
              for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
-             if np.isfinite(column := table.column(name)).any()]
+             if np.isfinite(column := table.column(name)).any() and not (slides and name.startswith(OF_ADHESION))]
     rows = []
     for group, (values, places) in enumerate(table.groups):
         row = [shown(values[key]) for key in axes]

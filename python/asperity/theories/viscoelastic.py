@@ -116,8 +116,8 @@ class _Contact:
         self.rough = any(c > 0 for _, _, c, _ in rubber.pieces)
         self.stiffness, self.beta = rubber.modulus / rubber.pressure, rubber.beta
         smooth = np.ones((1, NODES))
-        self.q: np.ndarray
-        self.q, self._weight, self._within = _panels(rubber.pieces) if self.rough else (smooth, smooth, smooth)
+        panels: tuple[np.ndarray, np.ndarray, np.ndarray] = _panels(rubber.pieces) if self.rough else (smooth, smooth, smooth)
+        self.q, self._weight, self._within = panels
         self._sum = np.polynomial.legendre.leggauss(NODES)[1]
 
     def integral(self, loss: np.ndarray, square: np.ndarray) -> tuple[float, float]:
