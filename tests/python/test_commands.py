@@ -118,8 +118,9 @@ def test_json_quiet_and_out(work, light, name):
     assert wanted.exists()
     before = {path for path in work.rglob("*") if "done" not in path.parts}
     if out:
-        assert all(path == work / out or work / out in path.parents or path.stem == Path(out).stem or path.name in ("s.toml", "map.npy", "map.txt", "curve.csv", ".asperity-files",
-                   "run.lock") for path in before), before
+        inputs = ("s.toml", "map.npy", "map.txt", "curve.csv", ".asperity-files", "run.lock")
+        assert all(path == work / out or work / out in path.parents or path.stem == Path(out).stem or path.name in inputs
+                   for path in before), before
     code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
     assert code == 0 and other == "" and "note:" not in said, said + other
     if said and name in ("run", "sweep", "cost", "estimate", "adhesion", "states", "theory"):
