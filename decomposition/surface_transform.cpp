@@ -88,8 +88,8 @@ struct SurfaceTransform<T>::Parts {
     /// row to row for the passes of FFTW, which take two to three times as long.
     static constexpr int side_by_side = 256;
     bool one_after_another() const { return slab.sites > side_by_side; }
-    /// Distance between two columns one after another, in numbers: a line more than a column, so
-    /// that they do not all lie at one place of a page.
+    /// Returns the distance between two columns one after another, in numbers: a line more than a
+    /// column, so that they do not all lie at one place of a page.
     std::size_t column_length() const { return 2 * static_cast<std::size_t>(slab.sites) + line; }
     /// Memory of each thread: two blocks of waves; or a row of sites of each component, and one of
     /// waves. Behind both, the columns of one component one after another.

@@ -21,14 +21,14 @@ namespace {
 
 constexpr const char* unfinished = "unfinished";
 
-std::string digest_text(const Directory& directory, const std::string& name) {
+std::string digest_of_file(const Directory& directory, const std::string& name) {
     struct stat status {};
     const Descriptor file = directory.open(name, O_RDONLY | O_NOFOLLOW);
     std::optional<std::uint32_t> digest;
     if (file && ::fstat(file.get(), &status) == 0)
         digest = digest_of(file.get(), static_cast<std::uint64_t>(status.st_size));
     if (!digest) fail_by_system(directory / name, "cannot be read");
-    return fmt::format("crc32:{:08x}", *digest);
+    return digest_text(*digest);
 }
 
 bool is_same_file(const struct stat& one, const std::string& path) {
@@ -87,7 +87,7 @@ std::string FileRecord::reason_to_keep(const std::string& file, const std::optio
         return fmt::format("it is not one of the files that Asperity wrote here ({} lists them)",
                            name);
     if (known->second == unfinished) return "";
-    if (known->second != digest_text(directory_, file))
+    if (known->second != digest_of_file(directory_, file))
         return "it was changed after Asperity wrote it";
     return "it belongs to an earlier result, and results are not written over";
 }
@@ -133,7 +133,7 @@ void FileRecord::release(bool finished) {
             if (::fstatat(directory_.fd(), file.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
                 after.erase(file);
             else
-                after[file] = finished ? digest_text(directory_, file) : unfinished;
+                after[file] = finished ? digest_of_file(directory_, file) : unfinished;
         }
         return after;
     });

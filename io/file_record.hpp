@@ -45,8 +45,8 @@ private:
     /// Explains, for an error message, why a file must not be replaced; empty if it may be.
     std::string reason_to_keep(const std::string& file, const std::optional<Names>& names,
                                const std::vector<std::string>& inputs) const;
-    /// Returns what the record says; nothing if there is none. Throws SceneError for a file of its
-    /// name that is no record.
+    /// Returns the contents of the record; nothing if the directory has none. Throws SceneError if
+    /// the file of that name is no record.
     std::optional<Names> read() const;
     /// Writes the record that change(record) returns.
     void update(const std::function<Names(const std::optional<Names>&)>& change) const;

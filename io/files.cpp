@@ -4,6 +4,8 @@
 
 #include "io/error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
@@ -176,6 +178,8 @@ std::uint32_t digest_of(Bytes bytes, std::uint32_t before) {
     return static_cast<std::uint32_t>(
         ::crc32_z(before, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
+
+std::string digest_text(std::uint32_t digest) { return fmt::format("crc32:{:08x}", digest); }
 
 std::optional<std::uint32_t> digest_of(int fd, std::uint64_t length) {
     std::uint32_t digest = 0;

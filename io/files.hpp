@@ -137,6 +137,8 @@ std::optional<std::uint32_t> sealed_digest(const Directory& directory, const std
 /// that other programs can check it too. The digest shows every change within 32 neighbouring bits,
 /// and any other with a probability of 1 - 2^-32. It is no protection against intent.
 std::uint32_t digest_of(Bytes bytes, std::uint32_t before = 0);
+/// Returns a digest as texts of JSON have it: "crc32:" and eight hexadecimal digits.
+std::string digest_text(std::uint32_t digest);
 /// Returns the digest of the first `length` bytes of a file; nothing if the file is shorter.
 std::optional<std::uint32_t> digest_of(int fd, std::uint64_t length);
 

@@ -77,7 +77,8 @@ private:
     Refusal* refusal_;
 };
 
-/// Before anything else is asked of the library, anywhere: its start installs the exit handler.
+/// Result of the first call of the library in the process: a later one would find the exit handler
+/// installed.
 const herr_t no_exit_handler = H5dont_atexit();
 
 /// Opens the file of a descriptor of this process, whatever has become of its directory. Without

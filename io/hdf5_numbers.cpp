@@ -115,7 +115,8 @@ NumberSets sets_of(Bytes bytes) {
     return sets;
 }
 
-/// In front of what the child hands over; written last, so that it is there when all of it is.
+/// Head of the data that the child hands over. The child writes the head last, when the data are
+/// complete.
 struct Answer {
     enum : std::uint64_t { none, numbers, refused } kind = none;
     std::uint64_t head = 0; ///< bytes

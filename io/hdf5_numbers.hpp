@@ -32,7 +32,7 @@ struct NumbersWanted {
     /// Returns the names of the data sets to read, or throws. Called in the child process.
     std::function<std::vector<std::string>(const Hdf5File&)> data_sets;
     std::vector<const char*> texts, numbers; ///< names of the attributes to read, if they are there
-    bool values = true;                      ///< read the values; false: shape and attributes only
+    bool values = true;                      ///< false: only shape and attributes are read
 };
 
 /// Reads the wanted data sets by name, and "/" with the attributes of the file. Compares their

@@ -33,7 +33,7 @@ struct HeightMap {
     std::size_t rows = 0, columns = 0;
     /// heights[y * columns + x], Å, or what MapOptions::quantity says; NaN at missing points
     std::vector<double> heights;
-    std::optional<double> width, height; ///< widths along x and y, Å, if the file has them
+    std::optional<double> width, height; ///< widths along x and y, Å; empty: not in the file
     std::string unit = "Å";              ///< unit of the heights in the file: "nm", "0.03 nm"
     bool unit_assumed = false;           ///< neither the file nor the scene gives a unit: Å
     std::size_t missing = 0;             ///< number of points without a finite height
@@ -47,10 +47,10 @@ struct HeightMap {
 /// Quantity that the numbers of a map stand for.
 struct MapQuantity {
     std::string_view one = "height",
-                     all = "heights";      ///< in messages; the latter names the data set
-    std::string_view unit = "Å";           ///< unit to which they are brought
+                     all = "heights";      ///< names; the plural names the data set
+    std::string_view unit = "Å";           ///< unit of the numbers that the reader returns
     std::string_view key = "surface.file"; ///< key of the scene that names the map
-    std::string_view kind = "length";      ///< dimension of the unit, in messages
+    std::string_view kind = "length";      ///< dimension of the unit, for messages
 };
 
 /// Options of a scene for reading a map. Unit and size hold over those of the file; doubts name

@@ -16,7 +16,7 @@ namespace asperity::io {
 
 namespace {
 
-/// In front of each payload.
+/// Head of each entry.
 struct Head {
     std::uint64_t kind;
     std::uint64_t size; ///< size of the payload, bytes
@@ -87,7 +87,7 @@ void Journal::replay(const std::function<void(std::uint64_t, Bytes)>& take) cons
 
 void PayloadReader::take(std::span<std::byte> to) {
     if (to.size() > bytes_.size())
-        throw FileError("run.journal", "holds a record that is too short",
+        throw FileError("run.journal", "holds an entry that is too short",
                         fmt::format("{} bytes where {} are expected", bytes_.size(), to.size()),
                         "this is a mistake in the program");
     std::copy_n(bytes_.begin(), to.size(), to.begin());

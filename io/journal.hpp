@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A file of records that only grows. A mark tells the number of its bytes at some moment, and their
+// A file of entries that only grows. A mark tells the number of its bytes at some moment, and their
 // digest.
 //
 // A run appends its results to the journal; a checkpoint holds the mark of its moment. When the run
-// goes on from the checkpoint, everything after the mark (half a record, a full disk, a kill) is
+// goes on from the checkpoint, everything after the mark (half an entry, a full disk, a kill) is
 // cut off, and the bytes before the mark are checked against the digest.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace asperity::io {
 
-/// A file of records with a mark.
+/// A file of entries with a mark.
 class Journal {
 public:
     /// Length of the file at some moment, bytes, and the digest of these bytes.
@@ -39,13 +39,13 @@ public:
     /// must exist. Throws FileError.
     Journal(const Directory& directory, const std::string& name, std::uint64_t bytes = 0);
 
-    /// Appends a record. kind: a number of the caller's. Throws FileError, also for every record
+    /// Appends an entry. kind: a number of the caller's. Throws FileError, also for every entry
     /// after one that failed.
     void append(std::uint64_t kind, Bytes payload);
     Mark mark() const { return {bytes_, digest_}; }
-    /// Brings all records to the disk. Throws FileError.
+    /// Brings all entries to the disk. Throws FileError.
     void synchronize();
-    /// Calls take with every record, the first one first. Throws FileError.
+    /// Calls take with every entry, the first one first. Throws FileError.
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
 private:
@@ -56,7 +56,7 @@ private:
     bool failed_ = false;
 };
 
-/// Writer of a record's payload: numbers in the order in which they are put.
+/// Writer of an entry's payload: numbers in the order in which they are put.
 class PayloadWriter {
 public:
     /// Appends a number, or a range of numbers.
@@ -76,7 +76,7 @@ private:
     std::vector<std::byte> bytes_;
 };
 
-/// Reader of a record's payload: numbers in the order in which they were put.
+/// Reader of an entry's payload: numbers in the order in which they were put.
 class PayloadReader {
 public:
     explicit PayloadReader(Bytes bytes) : bytes_(bytes) {}

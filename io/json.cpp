@@ -50,8 +50,8 @@ namespace {
 
 /// Appends the digest of the text to the text.
 std::string sealed(std::string text) {
-    return text + fmt::format(",\n  \"digest\": \"crc32:{:08x}\"\n}}\n",
-                              digest_of(std::as_bytes(std::span(text))));
+    return text + fmt::format(",\n  \"digest\": \"{}\"\n}}\n",
+                              digest_text(digest_of(std::as_bytes(std::span(text)))));
 }
 
 } // namespace

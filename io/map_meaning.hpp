@@ -22,8 +22,8 @@ struct MapUnits {
     std::optional<std::string> of_sizes{}; ///< unit of width and height; empty: that of the heights
 };
 
-/// Converts heights and sizes of a map to Å and counts its missing points. What the scene says of
-/// unit and size holds; where the file says something else, doubts name both. Throws SceneError.
+/// Converts heights and sizes of a map to Å and counts its missing points. Unit and size of the
+/// scene hold over those of the file; if they differ, a doubt names both. Throws SceneError.
 void complete(HeightMap& map, const MapUnits& units, const MapOptions& said);
 
 /// Adds to map.doubts what may be wrong with the file: sizes that no map of roughness has, a height

@@ -28,36 +28,36 @@ namespace asperity::io {
 struct ResultRequest {
     std::string asked; ///< --out; empty: results/<name>
     std::string name;
-    bool resume = false; ///< an unfinished run goes on; without --out in the last directory of name
-    bool restart = false;                 ///< an unfinished run is thrown away
+    bool resume = false;  ///< an unfinished run goes on, without --out in the name's last directory
+    bool restart = false; ///< an unfinished run is thrown away
     std::vector<std::string> files = {};  ///< names of all files that the command writes
     std::vector<std::string> inputs = {}; ///< paths of the files that the command reads
 };
 
 class ResultDirectory {
 public:
-    /// Makes the directory and takes it. Throws SceneError where it holds a result, an unfinished
-    /// run that nobody spoke of, or a file that would have to be replaced; FileError where it is in
-    /// use or cannot be made.
+    /// Makes the directory and takes it. Throws SceneError if the directory holds a result, an
+    /// unfinished run (unless the request resumes or restarts it), or a file that would have to be
+    /// replaced, and FileError if the directory is in use or cannot be made.
     explicit ResultDirectory(const ResultRequest& request);
-    /// Gives it back. The files of a run that can be resumed stay unfinished in the record. A
-    /// directory that was made and is still empty is removed.
+    /// Releases the directory. The files of a run that can be resumed stay unfinished in the
+    /// record. A directory that was made and is still empty is removed.
     ~ResultDirectory();
     ResultDirectory(const ResultDirectory&) = delete;
     ResultDirectory& operator=(const ResultDirectory&) = delete;
 
     const Directory& directory() const { return directory_; }
     const std::string& path() const { return directory_.path(); }
-    /// Throws FileError where path() does not lead to it any more: it was moved or replaced.
+    /// Throws FileError if the directory was moved or replaced, so that path() leads elsewhere.
     void require_in_place() const;
-    /// Returns notes for the user: another name than expected, a lock whose owner is gone.
+    /// Returns notes for the user: on another name than expected, or a lock whose owner is gone.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
     ResultDirectory(const ResultRequest& request, const std::string& path);
 
     std::vector<std::string> notes_;
-    bool made_; ///< by this object
+    bool made_; ///< true if this object has made the directory
     Directory directory_;
     std::optional<DirectoryLock> lock_;
     FileRecord record_;
@@ -69,12 +69,13 @@ inline constexpr const char* series = "run.h5";
 inline constexpr const char* result = "result.json";
 inline constexpr const char* last_good = "last-good.h5";
 inline constexpr const char* checkpoint_damaged = "checkpoint-damaged.h5";
-inline constexpr const char* checkpoint_next = "checkpoint-next.part"; ///< whole, not yet in place
+inline constexpr const char* checkpoint_next =
+    "checkpoint-next.part"; ///< a whole one before its renaming
 inline constexpr const char* journal = "run.journal";
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* checkpoint_before = "checkpoint-before.h5";
 inline constexpr const char* lock = DirectoryLock::name;
-/// All but the lock.
+/// Names of all files except the lock.
 inline constexpr std::array all = {
     journal, checkpoint, checkpoint_before, checkpoint_damaged, checkpoint_next,
     series,  result,     last_good};

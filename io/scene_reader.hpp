@@ -234,7 +234,7 @@ public:
     }
     /// Adds a key that is a list of strings. A member is valid if it equals a choice, or starts
     /// with a choice that ends in ':' and goes on with a positive whole number ("every:1000").
-    /// Without choices every member is valid.
+    /// Every member is valid if there are no choices.
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
         return add({.name = name, .field = &field, .doc = doc, .choices = choices});
     }

@@ -140,7 +140,7 @@ double scaled(double value, int power) { // powers of ten are exact up to 10^22
     return power >= 0 ? value * std::pow(10.0, power) : value / std::pow(10.0, -power);
 }
 
-/// For a base unit, a value that a key of it could have.
+/// Base units, each with a value that a key of the unit could have.
 constexpr std::pair<std::string_view, std::string_view> examples[] = {
     {"Å", "\"0.3 nm\""},       {"eV", "\"100 meV\""},     {"GPa", "\"77.2 GPa\""},
     {"MPa", "\"1 kPa\""},      {"m/s", "\"5 m/s\""},      {"fs", "\"0.01 ps\""},

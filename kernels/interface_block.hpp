@@ -32,7 +32,7 @@ struct SiteTerms {
 /// Totals over sites, and the transfer of finished blocks: forces to memory, sums to the totals.
 struct Totals {
     BasicExactSum<Real> force_z, energy;
-    std::int64_t in_contact = 0, repulsive = 0, in_reach = 0;
+    std::int64_t in_contact = 0, repulsive = 0;
     double closest_r2 = no_pair;
 
     template <bool observe>
@@ -86,7 +86,6 @@ struct Totals {
         }
         sums.in_contact += in_contact;
         sums.repulsive += repulsive;
-        sums.in_reach += in_reach;
         sums.closest_r2 = closest_r2 < sums.closest_r2 ? closest_r2 : sums.closest_r2;
     }
 };
@@ -144,19 +143,18 @@ ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& 
             const int count = nx - x < interface_block ? nx - x : interface_block;
             const BlockOfSites site(sites, x, y, count, datum, range, access.margin());
             const auto reach = access.reach(x, y, site, pair);
-            if (reach.from_rest < 0.0 && !site.beyond) {
+            if (!reach.any() && !site.beyond) {
                 totals.pass<observe>(sites, x, y, count);
                 continue;
             }
             SiteTerms terms;
-            if (reach.from_rest > 0.0) {
+            if (reach.any()) {
                 sum(site, reach, x, y, count, terms);
                 if constexpr (observe && !SubstrateAccess<Substrate>::of_types) {
                     terms.in_contact = 0;
                     for (int i = 0; i < count; ++i)
                         terms.in_contact |= unsigned{terms.nearest[i] < pair.contact_r2} << i;
                 }
-                totals.in_reach += count;
             } else {
                 terms.clear();
             }

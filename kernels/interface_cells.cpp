@@ -27,8 +27,9 @@ struct SubstrateAccess<CellSubstrate> {
     double margin() const { return from.offset_margin; }
     const SubstrateAtoms& exact() const { return from.atoms; }
     struct Some {
-        double from_rest; ///< negative: nothing is in reach
+        double from_rest; ///< distance within which atoms may matter, Å
         bool close;       ///< a pair may be nearer than it can be
+        bool any() const { return from_rest > 0.0; }
     };
     ASPERITY_INLINE Some reach(int x, int y, const BlockOfSites& site,
                                const PairTable& pairs) const {
@@ -212,7 +213,7 @@ struct CellSums {
             add(pair, ex, ey, ez, s2, s);
         }
     }
-    /// Adds them to those of the types before, if there are any.
+    /// Adds the sums of this type of atoms to those of the types before.
     template <class P>
     ASPERITY_INLINE void finish(const PairTerms<Simd, double, P>& pair, bool first, int to,
                                 SiteTerms& terms) const {

@@ -7,7 +7,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// In single precision: the difference of two heights in fixed_quantum is exact.
+/// Heights in single precision: the difference of two heights in fixed_quantum is exact.
 template <>
 struct SiteHeight<Simd, float> {
     using Atom = std::int32_t;

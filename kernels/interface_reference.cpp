@@ -87,7 +87,6 @@ void sweep_one_by_one(const InterfaceSites& sites, const Substrate& substrate,
             sums.energy.add(site.energy);
             sums.in_contact += site.in_contact;
             sums.repulsive += site.force[2] > 0.0;
-            sums.in_reach += 1;
             if (site.nearest_r2 < sums.closest_r2) sums.closest_r2 = site.nearest_r2;
         }
         sums.carry();

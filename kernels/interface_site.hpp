@@ -20,18 +20,23 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
+/// Height or distance beyond every atom's, Å, whose square has a place in single precision.
+inline constexpr double beyond_atoms = 1e6;
+/// Height above every site's, Å.
+inline constexpr double above_sites = 1e300;
+
 /// Heights over the datum of the sites that the tables cover, Å.
 struct HeightRange {
-    double deepest = -1e300; ///< lower sites are left to the reference loop
-    double ceiling = 1e6;    ///< sites higher than this have no atom in reach
+    double deepest = -above_sites; ///< lower sites are left to the reference loop
+    double ceiling = beyond_atoms; ///< sites higher than this have no atom in reach
 };
 
 /// Displacements of one block of sites, or of one site, made safe for the tables.
 template <class Real, int size>
 struct SiteBlock {
     alignas(8 * Real::width) double ux[size], uy[size];
-    alignas(8 * Real::width) double z[size]; ///< over the datum, Å
-    double lowest_z, highest_z;              ///< over the sites, Å
+    alignas(8 * Real::width) double z[size]; ///< height over the datum, Å
+    double lowest_z, highest_z;              ///< extreme heights of the sites, Å
     double sideways;                         ///< largest |(ux, uy)|, Å
     /// Bits of sites that the tables do not cover; the reference loop sums them.
     unsigned beyond;
@@ -46,7 +51,7 @@ struct SiteBlock {
             return Real::load_first(row + x + first, count - first);
         };
         const double rise = sites.reference_height - datum;
-        Real least(1e300), most(-1e300), widest(0.0);
+        Real least(above_sites), most(-above_sites), widest(0.0);
         beyond = 0;
         for (int lane = 0; lane < size; lane += Real::width) {
             Real x_lanes = load(sites.displacement.x.line(y), lane);
@@ -101,11 +106,13 @@ ASPERITY_INLINE int lowest_bit(unsigned bits) {
 
 /// Lateral distances of the atoms that matter to a block of sites, Å.
 struct Reach {
-    /// Distance from the undisplaced site beyond which no atom matters; negative: none matters.
-    double from_rest = -1.0;
+    double from_rest = 0.0; ///< distance from the undisplaced site beyond which no atom matters
     double from_site = 0.0; ///< the same distance from the displaced site
-    double inside = 1e6;    ///< nearer atoms, from the undisplaced site, are within the cutoff
-    bool close = false;     ///< some may be closer than any pair can be
+    /// Distance from the undisplaced site up to which all atoms are within the cutoff
+    double inside = beyond_atoms;
+    bool close = false; ///< some may be closer than any pair can be
+    /// Returns true if some atom may matter.
+    ASPERITY_INLINE bool any() const { return from_rest > 0.0; }
 
     template <class Real, int size>
     ASPERITY_INLINE Reach(const ReachBounds& bounds, int x, int y, double datum,

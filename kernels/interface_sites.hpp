@@ -39,7 +39,6 @@ struct InterfaceSums {
     ExactSum energy;             ///< U_LJ, eV (only if asked for)
     std::int64_t in_contact = 0; ///< sites closer than contact_distance to some atom (if asked for)
     std::int64_t repulsive = 0;  ///< sites whose net normal force is repulsive (if asked for)
-    std::int64_t in_reach = 0;   ///< sites of the blocks of sites that were not skipped
     double closest_r2 = no_pair; ///< smallest squared pair distance met (if asked for), Å^2
 
     void merge(const InterfaceSums& other) {
@@ -47,7 +46,6 @@ struct InterfaceSums {
         energy.merge(other.energy);
         in_contact += other.in_contact;
         repulsive += other.repulsive;
-        in_reach += other.in_reach;
         closest_r2 = other.closest_r2 < closest_r2 ? other.closest_r2 : closest_r2;
     }
     void carry() { force_z.carry(), energy.carry(); }

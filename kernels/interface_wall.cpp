@@ -13,8 +13,8 @@ namespace asperity::ASPERITY_VARIANT {
 
 namespace {
 
-/// Number below every height, above which a height that is NaN (a hole) is not.
-constexpr double no_height = -std::numeric_limits<double>::infinity();
+/// Height below every other one: a hole, whose height is NaN, is not above it.
+constexpr double below_all = -std::numeric_limits<double>::infinity();
 
 /// Calls use(by_site) with true or false as a type: whether the law has a factor at each site.
 template <class Law, class Use>
@@ -39,7 +39,7 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
     const int nx = sites.displacement.x.nx;
     const typename Law::template Terms<Real> whole(wall);
     const double contact_gap = wall.contact_gap();
-    const Real nothing(no_height);
+    const Real nothing(below_all);
     const Real reference(sites.reference_height);
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
@@ -70,7 +70,6 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
                     terms.nearest[i] = gap < no_pair ? open * open : no_pair;
                 }
             totals.take<observe>(sites, terms, x, y, count);
-            totals.in_reach += count;
         }
     }
     totals.give(sums);
@@ -95,7 +94,7 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
     const typename Law::template Terms<Real> whole(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
     const Real compliance(1.0 / rule.spring), load(rule.load), norm(rule.norm);
-    const Real nothing(no_height);
+    const Real nothing(below_all);
     Real furthest(0.0), reversal(0.0), height(0.0);
     for (int x = 0; x < sites; x += interface_block) {
         const int count = sites - x < interface_block ? sites - x : interface_block;

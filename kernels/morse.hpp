@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The Morse potential (P. M. Morse, Phys. Rev. 34, 57 (1929)). With e = exp(-a (r - r0)):
+// The Morse potential (P. M. Morse, Phys. Rev. 34, 57 (1929)). With e = exp(-a (r - r_min)):
 //
 //     V0 = D (e^2 - 2 e)
 //     -V0'/r = 2 D a (e^2 - e) / r
@@ -18,7 +18,7 @@ struct Morse {
     /// Defaults: depth, curvature and place of the minimum of the default Lennard-Jones potential.
     double D = 0.1;        ///< depth, eV
     double a = 1.63;       ///< 1/Å
-    double r0 = 3.6816;    ///< place of the minimum, Å
+    double r_min = 3.6816; ///< place of the minimum, Å
     double cutoff = 13.12; ///< Å
 
     static constexpr const char* name = "morse";
@@ -28,17 +28,17 @@ struct Morse {
         visit("D", "eV", self.D, "depth of the Morse well");
         visit("a", "1/Å", self.a,
               "of the Morse potential D (exp(-2 a (r - r_min)) - 2 exp(-a (r - r_min)))");
-        visit("r_min", "Å", self.r0, "distance of the Morse minimum");
+        visit("r_min", "Å", self.r_min, "distance of the Morse minimum");
     }
 
-    double zero() const { return r0 - std::log(2.0) / a; }
-    double minimum() const { return r0; }
-    double inflection() const { return r0 + std::log(2.0) / a; }
+    double zero() const { return r_min - std::log(2.0) / a; }
+    double minimum() const { return r_min; }
+    double inflection() const { return r_min + std::log(2.0) / a; }
     ASPERITY_INLINE double depth() const { return D; }
     /// Returns the distance below which 1/r is held; the potential is finite down to r = 0.
-    ASPERITY_INLINE double closest() const { return 0.1 * r0; }
+    ASPERITY_INLINE double closest() const { return 0.1 * r_min; }
     double shift() const {
-        const double e = std::exp(-a * (cutoff - r0));
+        const double e = std::exp(-a * (cutoff - r_min));
         return e * e - 2.0 * e;
     }
 
@@ -48,7 +48,7 @@ struct Morse {
         double force_scale, energy_scale;
 
         Terms(const Morse& p, double unit)
-            : rate(same<V>(p.a * unit)), at_rest(same<V>(p.r0 / unit)),
+            : rate(same<V>(p.a * unit)), at_rest(same<V>(p.r_min / unit)),
               force_scale(2.0 * p.D * p.a / unit), energy_scale(p.D) {}
 
         /// Returns 1/r.

@@ -12,9 +12,8 @@
 // A potential is a struct P of numbers (lennard_jones.hpp, morse.hpp, tabulated.hpp), in the list
 // PairPotential below. It has
 //   name, parameters()    for scenes, which give the cutoff beside them
-//   zero(), minimum(), inflection()   distances of V0 = 0, V0' = 0, V0'' = 0, Å. A site nearer to
-//   an
-//                         atom than the inflection is in contact with it
+//   zero(), minimum(), inflection()   distances of V0 = 0, V0' = 0, V0'' = 0, Å. A site is in
+//                         contact with an atom that is nearer than the inflection
 //   depth(), closest()    eV, Å
 //   shift()               V0(r_c), in units of Terms::energy_scale
 //   has_tail              true if Terms have a moment(): for the tail and for a smeared wall

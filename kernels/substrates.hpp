@@ -41,7 +41,7 @@ struct ReachBounds {
 
 /// The substrate's heights as the sweeps read them.
 struct SubstrateHeights {
-    PlaneView<const double> height; ///< over the datum, Å
+    PlaneView<const double> height; ///< height over the datum, Å
     double datum = 0.0;             ///< height of the highest atom, Å
 };
 

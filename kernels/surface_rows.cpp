@@ -51,20 +51,20 @@ void combine(double a, const From* from, double b, To* to, int n) {
                                 to_factor * static_cast<T>(to[i]));
 }
 
-template <bool keep, class T>
+template <bool accumulate, class T>
 void multiply_three(const T* m, int sites, const T* u, double norm_, const T* g, T* f) {
     using namespace matrix_entry;
     constexpr int n = block_columns;
     const std::ptrdiff_t component = static_cast<std::ptrdiff_t>(sites) * 2 * n;
     const T norm = static_cast<T>(norm_);
-    for (int row = 0; row < sites; ++row, u += 2 * n, g += keep ? 2 * n : 0, f += 2 * n) {
+    for (int row = 0; row < sites; ++row, u += 2 * n, g += accumulate ? 2 * n : 0, f += 2 * n) {
         const int mirrored = row < sites - row ? row : sites - row;
         const T* const e = m + static_cast<std::ptrdiff_t>(mirrored) * count * n;
         const T sign = 2 * row > sites ? T(-1) : T(1);
         const T *ux = u, *uy = ux + component, *uz = uy + component;
         T *fx = f, *fy = fx + component, *fz = fy + component;
         const T *gx = g, *gy = nullptr, *gz = nullptr;
-        if constexpr (keep) {
+        if constexpr (accumulate) {
             gy = gx + component;
             gz = gy + component;
         }
@@ -81,7 +81,7 @@ void multiply_three(const T* m, int sites, const T* u, double norm_, const T* g,
             T fx0 = a * x0 + cross * y0 - along * z1, fx1 = a * x1 + cross * y1 + along * z0;
             T fy0 = cross * x0 + b * y0 - across * z1, fy1 = cross * x1 + b * y1 + across * z0;
             T fz0 = c * z0 + along * x1 + across * y1, fz1 = c * z1 - along * x0 - across * y0;
-            if constexpr (keep) {
+            if constexpr (accumulate) {
                 fx0 += norm * gx[2 * i];
                 fx1 += norm * gx[2 * i + 1];
                 fy0 += norm * gy[2 * i];
@@ -142,7 +142,7 @@ void multiply_sites(const SiteMatrices& m, float* const* v, int components, int 
     }
 }
 
-float longest(const float* const* v, int components, int n) {
+float longest_squared(const float* const* v, int components, int n) {
     float most = 0.0f;
     if (components == 1) {
         const float* z = v[0];
@@ -160,14 +160,14 @@ float longest(const float* const* v, int components, int n) {
     return most;
 }
 
-void tie(double k, double norm, const double* u, const double* f, float* to, int n) {
+void spring_force(double k, double norm, const double* u, const double* f, float* to, int n) {
 #pragma omp simd
     for (int i = 0; i < n; ++i)
         to[i] = static_cast<float>(norm * (k * u[i] + f[i]));
 }
 
 template <int components>
-float move(const BallRow& row, const BallRule& rule_, int n) {
+float move(const HeavyBallRow& row, const HeavyBallRule& rule_, int n) {
     // Copies and selections of values: loops over pointers and branches within a row's structure
     // the compiler would not make wide.
     constexpr int z = components - 1, x = 0, y = components / 2;
@@ -175,8 +175,8 @@ float move(const BallRow& row, const BallRule& rule_, int n) {
     float *mx = row.momentum[x], *my = row.momentum[y], *mz = row.momentum[z];
     double *ux = row.u[x], *uy = row.u[y], *uz = row.u[z];
     float* const step_sizes = row.step_size;
-    const BallRule rule = rule_;
-    const float bound2 = rule.bound * rule.bound;
+    const HeavyBallRule rule = rule_;
+    const float bound2 = rule.move_max * rule.move_max;
     float most = 0.0f;
 #pragma omp simd reduction(max : most)
     for (int i = 0; i < n; ++i) {
@@ -190,19 +190,19 @@ float move(const BallRow& row, const BallRule& rule_, int n) {
             away2 = wx * wx + wy * wy + away2;
         }
         const bool back = along < 0.0f;
-        const float raised = rule.raise * step_sizes[i], cut = rule.cut * step_sizes[i];
-        const float forth = raised < rule.most ? raised : rule.most;
-        const float step_size = back ? cut : forth, keep = back ? 0.0f : rule.keep;
+        const float raised = rule.step_growth * step_sizes[i], cut = rule.step_cut * step_sizes[i];
+        const float forth = raised < rule.step_size_max ? raised : rule.step_size_max;
+        const float step_size = back ? cut : forth, decay = back ? 0.0f : rule.momentum_decay;
         step_sizes[i] = step_size;
         most = away2 > most ? away2 : most;
-        float vz = step_size * wz + keep * mz[i], speed2 = vz * vz;
+        float vz = step_size * wz + decay * mz[i], speed2 = vz * vz;
         float vx = 0.0f, vy = 0.0f;
         if constexpr (components == 3) {
-            vx = step_size * wx + keep * mx[i];
-            vy = step_size * wy + keep * my[i];
+            vx = step_size * wx + decay * mx[i];
+            vy = step_size * wy + decay * my[i];
             speed2 = vx * vx + vy * vy + speed2;
         }
-        const float shorter = rule.bound / std::sqrt(speed2);
+        const float shorter = rule.move_max / std::sqrt(speed2);
         const float q = speed2 > bound2 ? shorter : 1.0f;
         mz[i] = vz = q * vz;
         uz[i] += static_cast<double>(vz);
@@ -216,7 +216,7 @@ float move(const BallRow& row, const BallRule& rule_, int n) {
     return most;
 }
 
-float ball(const BallRow& row, const BallRule& rule, int components, int n) {
+float heavy_ball(const HeavyBallRow& row, const HeavyBallRule& rule, int components, int n) {
     return components == 1 ? move<1>(row, rule, n) : move<3>(row, rule, n);
 }
 
@@ -233,8 +233,8 @@ const RowKernels row_kernels = {dot<double, double>,
                                 multiply<double>,
                                 multiply<float>,
                                 multiply_sites,
-                                longest,
-                                tie,
-                                ball};
+                                longest_squared,
+                                spring_force,
+                                heavy_ball};
 
 } // namespace asperity::ASPERITY_VARIANT

@@ -21,20 +21,20 @@ namespace matrix_entry {
 enum { xx, yy, zz, xy, xz, yz, count };
 }
 
-/// A row of sites that the heavy ball moves (engine/statics/heavy_ball.hpp), by components.
-struct BallRow {
+/// A row of sites that the heavy-ball method moves (engine/statics/heavy_ball.hpp), by components.
+struct HeavyBallRow {
     const float* target[3]; ///< targets of the sites, Å
     double* u[3];           ///< displacements, Å; updated
     float* momentum[3];     ///< last moves of the sites, Å; updated
     float* step_size; ///< fractions of the distance to the target that the sites move; updated
 };
-/// Rules for the momentum and the step size of the heavy ball.
-struct BallRule {
-    float keep; ///< factor of the last move in the next one
-    /// Factors of the step size: if the target lies behind the last move, and otherwise
-    float cut, raise;
-    float most;  ///< largest step size
-    float bound; ///< largest move, Å
+/// Constants of the heavy-ball method.
+struct HeavyBallRule {
+    float momentum_decay; ///< factor of the last move in the next one
+    float step_cut;       ///< factor of the step size if the target lies behind the last move
+    float step_growth;    ///< factor of the step size otherwise
+    float step_size_max;
+    float move_max; ///< largest move of a site, Å
 };
 
 /// A row of symmetric 3 x 3 matrices, one for each site, by entries (matrix_entry); only zz is read
@@ -62,9 +62,9 @@ struct RowKernels {
     Multiply<double> multiply_double;
     Multiply<float> multiply_float;
     void (*multiply_sites)(const SiteMatrices&, float* const*, int, int);
-    float (*longest)(const float* const*, int, int);
-    void (*tie)(double, double, const double*, const double*, float*, int);
-    float (*ball)(const BallRow&, const BallRule&, int, int);
+    float (*longest_squared)(const float* const*, int, int);
+    void (*spring_force)(double, double, const double*, const double*, float*, int);
+    float (*heavy_ball)(const HeavyBallRow&, const HeavyBallRule&, int, int);
 };
 
 /// Returns the kernels for the running processor (processor_level()).
@@ -114,15 +114,19 @@ inline void multiply_sites(const SiteMatrices& m, float* const* v, int component
 
 /// Returns the largest squared length of a row of vectors, given by components.
 inline float longest_squared(const float* const* v, int components, int n) {
-    return row_kernels().longest(v, components, n);
+    return row_kernels().longest_squared(v, components, n);
 }
-/// Sets to <- norm (k u + f), n numbers.
-inline void tie_row(double k, double norm, const double* u, const double* f, float* to, int n) {
-    row_kernels().tie(k, norm, u, f, to, n);
+/// Sets to <- norm (k u + f), n numbers: the force of a spring k that pulls each site from 0 to u,
+/// and f.
+inline void spring_force_row(double k, double norm, const double* u, const double* f, float* to,
+                             int n) {
+    row_kernels().spring_force(k, norm, u, f, to, n);
 }
-/// Moves the sites of a row. Returns the largest squared distance from a target, Å^2.
-inline float move_row(const BallRow& row, const BallRule& rule, int components, int n) {
-    return row_kernels().ball(row, rule, components, n);
+/// Moves the sites of a row by the heavy-ball method. Returns the largest squared distance from a
+/// target, Å^2.
+inline float heavy_ball_row(const HeavyBallRow& row, const HeavyBallRule& rule, int components,
+                            int n) {
+    return row_kernels().heavy_ball(row, rule, components, n);
 }
 
 } // namespace asperity

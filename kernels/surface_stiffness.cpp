@@ -27,7 +27,7 @@ SurfaceMatrix own(const Stencil& s, WavePhase x, WavePhase y) {
     return m;
 }
 
-/// Between a plane (row) and the one above it (column): symmetric but for the couplings with z.
+/// Coupling of a plane (row) with the plane above it (column), symmetric except with z.
 struct Coupling {
     double xx, yy, zz, xy;
     double xz, yz; ///< row x or y, column w; with the other sign for row w, column x or y

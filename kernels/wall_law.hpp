@@ -33,6 +33,8 @@
 #include "kernels/pair_potential.hpp"
 #include "kernels/shaped_wall.hpp"
 
+#include <boost/math/tools/minima.hpp>
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -154,17 +156,13 @@ private:
             (law.slope(middle) > 0.0 ? low : high) = middle;
         }
     }
-    /// Returns the minimum of the stiffness, by golden section beyond the steepest place, where it
-    /// has one minimum.
+    /// Returns the minimum of the stiffness, eV/Å^2: beyond the steepest place it has only one.
     double least_stiffness() const {
         const Terms<double> law(*this);
-        const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-        double low = steepest_, high = 2.0 * steepest_;
-        while (high - low > 1e-9 * steepest_) {
-            const double a = high - golden * (high - low), b = low + golden * (high - low);
-            (law.slope(a) < law.slope(b) ? high : low) = law.slope(a) < law.slope(b) ? b : a;
-        }
-        return law.slope(0.5 * (low + high));
+        return boost::math::tools::brent_find_minima([&](double gap) { return law.slope(gap); },
+                                                     steepest_, 2.0 * steepest_,
+                                                     std::numeric_limits<double>::digits)
+            .second;
     }
 
     P potential_;

@@ -29,7 +29,7 @@ namespace asperity::theory {
 
 namespace {
 
-constexpr double tolerance = 1e-3;   ///< on γ_eff/Δγ and A/A0
+constexpr double tolerance = 1e-3;   ///< largest error of γ_eff/Δγ and A/A0
 constexpr double least_error = 5e-5; ///< two grids may agree by chance
 constexpr int finest = 3;            ///< level of the finest grid that is tried
 constexpr double spacing_of(int level) { return 0.32 / (1 << level); }

@@ -37,8 +37,8 @@ struct AdhesiveContact {
 
 /// State of the contact.
 enum class Status {
-    adhesive,   ///< γ_eff(1) > 0: bound without any load
-    pressed,    ///< in contact, but only because of the load: γ_eff(1) <= 0
+    adhesive,   ///< γ_eff(1) > 0: the surfaces are bound without any load
+    pressed,    ///< γ_eff(1) <= 0: the load alone holds the contact
     no_contact, ///< the surfaces come apart: all results are exactly zero
 };
 

@@ -6,12 +6,10 @@
 //
 //     stripes LOW HIGH PERIOD         half a period of each along x
 //     discs LOW HIGH RADIUS DISTANCE  discs of HIGH on a square lattice, LOW between them
-//     rings MEAN AMPLITUDE PERIOD     MEAN (1 + AMPLITUDE cos(2 pi r / PERIOD)) around the middle
-//     of
-//                                     the box, where the cap of surface.radius has its apex
-//     patches LOW HIGH LENGTH SEED    half of the sites HIGH: those where a Gaussian random field
-//     of
-//                                     the autocorrelation exp(-r^2 / LENGTH^2) is above its median
+//     rings MEAN AMPLITUDE PERIOD     MEAN (1 + AMPLITUDE cos(2 pi r / PERIOD)), r from the middle
+//                                     of the box, where the cap of surface.radius has its apex
+//     patches LOW HIGH LENGTH SEED    HIGH at half of the sites: where a Gaussian random field of
+//                                     autocorrelation exp(-r^2 / LENGTH^2) exceeds its median
 #include "engine/case/resolving.hpp"
 #include "engine/case/site_field.hpp"
 #include "engine/scene/heights.hpp"

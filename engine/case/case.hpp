@@ -46,7 +46,7 @@ struct Case {
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
     std::optional<std::uint32_t> table_digest;    ///< digest of the numbers in these files
     std::optional<std::uint32_t> adhesion_digest; ///< digest of the field of adhesion
-    std::string adhesion_file; ///< file of this field, as found; empty: the scene has none
+    std::string adhesion_file; ///< file of the field of adhesion, as found; empty: none
     /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
     /// over the work of adhesion
     std::optional<double> table_error;
@@ -63,7 +63,8 @@ struct Case {
     /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
     /// too large; 1 if the spacing resolves the attraction beside the edge.
     double edge_pinning = 1.0;
-    /// Longest step of a quasi-static path, Å: half the potential's width
+    /// Longest step of a quasi-static path, Å: half the potential's width; infinite if nothing
+    /// attracts
     double longest_step = HUGE_VAL;
     /// Stability limit 2/omega_max at the bottom of the well, fs; usable_timestep() of it is used.
     double longest_timestep = 0.0;
@@ -95,7 +96,7 @@ struct Case {
     std::optional<double> radius() const {
         return surface.radius > 0.0 ? std::optional(surface.radius) : std::nullopt;
     }
-    /// Returns true if people read forces in nN and lengths in nm: of a sphere, or with free edges.
+    /// Returns true if forces are reported in nN and lengths in nm: of a sphere or with free edges.
     bool in_newtons() const { return effects.free_edges || radius().has_value(); }
     /// Returns a number of sites over that of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }

@@ -411,7 +411,7 @@ std::vector<io::Problem> device_problems(const Case& c) {
     return list;
 }
 
-void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused) {
+void refuse_unsupported(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     const auto refuse = [&](const std::string& key, const std::string& value, std::string instead) {
         refused.add(key, "= " + value + " is not available yet",

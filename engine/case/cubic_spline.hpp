@@ -48,7 +48,7 @@ std::vector<double> spline_error(std::span<const double> x, std::span<const doub
 /// Estimates the noise of each y: the root mean square, over nine points, of what a polynomial
 /// through neighbours misses at a point, for errors that are independent from point to point. Of
 /// four sets of neighbours the one that misses least counts, so that a smooth function has little.
-/// For at least 8 points.
+/// There must be at least 8 points.
 std::vector<double> noise(std::span<const double> x, std::span<const double> y);
 
 } // namespace asperity

@@ -137,17 +137,38 @@ Effects effects_of(const Case& c) {
                         : "output.trajectory = \"none\""};
     e.checkpoints = {s.output.checkpoint > 0.0,
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
-    const bool atoms = s.surface.kind == SurfaceKind::atoms;
-    e.theory = {!atoms && !e.free_edges && !e.adhesion_map && !e.layers && !e.surface_stress,
-                atoms          ? "surface.kind = \"atoms\": the theory is of one layer with heights"
-                : e.free_edges ? "surface.boundary = \"free\": the theory is of an endless surface"
-                : e.adhesion_map
-                    ? "interface.adhesion is a field: the theory is of one work of adhesion"
-                : e.layers         ? "block.layers: the theory is of one modulus"
-                : e.surface_stress ? "block.surface_stress: the theory is of a block without it"
-                                   : "always: Persson's theory of this scene"};
+    const NoTheory none = no_theory(s, e);
+    e.theory = {none.why.empty(),
+                none.why.empty() ? "always: Persson's theory of this scene" : none.why};
     e.device = device_effect(c);
     return e;
+}
+
+NoTheory no_theory(const Scene& scene, const Effects& effects) {
+    if (scene.surface.kind == SurfaceKind::atoms)
+        return {"surface.kind",
+                "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
+                "are of one layer with heights, whose flat reference they divide by",
+                "take a surface with heights: self-affine, flat or file"};
+    if (effects.free_edges)
+        return {"surface.boundary",
+                "the substrate ends at the edges of the box (surface.boundary = \"free\"), and the "
+                "theories are of endless surfaces",
+                "take boundary = \"periodic\""};
+    if (effects.adhesion_map)
+        return {"interface.adhesion",
+                "the work of adhesion differs from site to site (interface.adhesion), and the "
+                "theories are of one",
+                "give interface.adhesion a number, for example the mean"};
+    constexpr const char* of_one = "the theories are of a half-space of one modulus";
+    if (effects.layers)
+        return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),
+                "leave block.layers out, with block.young that of the material that bends most"};
+    if (effects.surface_stress)
+        return {"block.surface_stress",
+                fmt::format("the surface has a tension (block.surface_stress), and {}", of_one),
+                "leave block.surface_stress out"};
+    return {};
 }
 
 } // namespace asperity

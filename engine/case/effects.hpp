@@ -16,6 +16,7 @@
 namespace asperity {
 
 struct Case;
+struct Scene;
 
 /// One effect, on or off.
 struct Effect {
@@ -50,12 +51,20 @@ struct Effects {
         theory,         ///< Persson's theory for the same scene
         device;         ///< time steps on a device in place of the processor
 
+    /// Returns true if the block is a half-space of one modulus, as the theories take it.
+    bool one_modulus() const { return !layers && !surface_stress; }
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
 };
-/// Returns the first of the effects, which the options of the block need: whether the path of a
-/// scene is dynamic.
+/// Returns Effects::dynamic, which the options of the block need before the other effects are
+/// known.
 Effect dynamic_effect(const Case& c);
+/// Reason why no theory applies to a scene, the key that decides, and what to do.
+struct NoTheory {
+    std::string key{}, why{}, fix{};
+};
+/// Returns the reason why no theory applies to a scene with these effects; empty if one does.
+NoTheory no_theory(const Scene& scene, const Effects& effects);
 /// Returns the effects of a case whose scene, path, effects.dynamic and maps are known.
 Effects effects_of(const Case& c);
 

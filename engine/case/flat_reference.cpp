@@ -4,10 +4,12 @@
 
 #include "engine/units.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <stdexcept>
 
@@ -110,16 +112,10 @@ FlatReference flat_reference(const InterfaceOptions& options, double spacing, in
     flat.work_of_adhesion = -units::milli_per_unit * there.energy / area;
     const double h = 1e-4 * r0;
     flat.stiffness = -(force(flat.separation + h) - force(flat.separation - h)) / (2.0 * h * area);
-    // The largest tension: golden-section search outwards of the minimum.
-    const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
-    double left = flat.separation, right = flat.separation + 0.5 * r0;
-    while (right - left > 1e-9 * r0) {
-        const double inner = right - golden * (right - left),
-                     outer = left + golden * (right - left);
-        (force(inner) < force(outer) ? right : left) = force(inner) < force(outer) ? outer : inner;
-    }
-    flat.tension_separation = 0.5 * (left + right);
-    flat.largest_tension = -force(flat.tension_separation) / area / units::gigapascal;
+    const auto [gap, least] = boost::math::tools::brent_find_minima(
+        force, flat.separation, flat.separation + 0.5 * r0, std::numeric_limits<double>::digits);
+    flat.tension_separation = gap;
+    flat.largest_tension = -least / area / units::gigapascal;
     return flat;
 }
 

@@ -61,7 +61,7 @@ private:
     std::vector<double> cubics_, spline_error_, noise_;
     std::size_t rows_ = 0;
     double last_ = 0.0;
-    Tabulated whole_; ///< without a cutoff
+    Tabulated whole_; ///< potential without a cutoff
 };
 
 } // namespace asperity

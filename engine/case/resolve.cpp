@@ -375,7 +375,7 @@ void derive(Case& c, io::Problems& problems) {
     find_adhesion_field(c, problems);
     if (!problems.empty()) return;
     io::Problems refused = c.scene.problems();
-    refuse_what_is_not_there_yet(c, refused);
+    refuse_unsupported(c, refused);
     c.edge_pinning = edge_pinning(c);
     refuse_pinned_edge(c, refused);
     for (std::string& note : notes_on_keys(c))

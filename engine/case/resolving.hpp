@@ -27,7 +27,7 @@ void check_keys(const Case& c, io::Problems& problems);
 /// Returns the problems that keep the scene from a device.
 std::vector<io::Problem> device_problems(const Case& c);
 /// Adds the keys that this release reads but cannot act upon yet, which stop a run.
-void refuse_what_is_not_there_yet(const Case& c, io::Problems& refused);
+void refuse_unsupported(const Case& c, io::Problems& refused);
 /// Refuses values out of proportion with the box, the block or the step.
 void refuse_out_of_proportion(const Case& c, io::Problems& refused);
 /// Returns notes on the keys (a block thinner than wide, keys without effect), one sentence each.

@@ -22,10 +22,12 @@ namespace asperity {
 
 namespace {
 
-constexpr double largest_error = 0.01, worth_a_note = 0.001; ///< over the work of adhesion
+/// Errors of a table over the work of adhesion: the largest accepted, and the least noted.
+constexpr double largest_error = 0.01, worth_a_note = 0.001;
 
+/// Errors of a table over the work of adhesion.
 struct Errors {
-    double spline = 0.0, noise = 0.0; ///< over the work of adhesion
+    double spline = 0.0, noise = 0.0;
     double sum() const { return spline + noise; }
 };
 

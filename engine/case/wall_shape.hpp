@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Shapes of the law of a wall: what a ShapedWall (kernels/shaped_wall.hpp) reads. The force of a
-// shape is taken on its rows, with straight lines between; its energy is the exact integral,
-// brought to a depth of one.
+// Shapes of the law of a wall, which a ShapedWall reads (kernels/shaped_wall.hpp). The force of a
+// shape is tabulated, with straight lines between the rows; its energy is the exact integral, with
+// a depth of one.
 //
-//     dugdale       f = -(1 - x), x from 0 to 1: a constant tension, but that it falls to none
-//     along
-//                   a line from 0.9 to 1.1 (a site that lets go at once holds the edge of a contact
+//     dugdale       f = -(1 - x), x from 0 to 1: a constant tension that falls to zero along a line
+//                   from 0.9 to 1.1 (sites that let go at once would hold the edge of a contact
 //                   back by a row)
 //     power         f = -1 / (1 + x)^n, x >= 0
 //     9-3           f = (x^-9 - 3 x^-3) / 2: the atoms of two half-spaces, Lennard-Jones

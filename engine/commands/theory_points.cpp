@@ -119,7 +119,7 @@ Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
 
 /// Returns the theory of a point beside a run, which goes on without a theory.
 Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
-    std::string why = no_theory(c).why;
+    std::string why = no_theory(c.scene, c.effects).why;
     try {
         if (why.empty()) return point_json(c, surfaces, profile);
     } catch (const io::SceneError& error) {

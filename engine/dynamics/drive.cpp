@@ -29,7 +29,7 @@ double VelocityProfile::end(double ramp) const {
 
 VelocityProfile VelocityProfile::over(double distance, double from, double velocity, double ramp) {
     const double left = distance - 0.5 * from * ramp; // beyond where the first velocity fades out
-    if (left == 0.0) return {from, 0.0, HUGE_VAL};
+    if (left == 0.0) return {from, 0.0, units::forever};
     const double fastest = ramp > 0.0 ? std::min(velocity, std::abs(left) / ramp) : velocity;
     return {from, std::copysign(fastest, left), std::abs(left) / fastest};
 }
@@ -39,8 +39,8 @@ Drive::Drive(const DriveOptions& options) : options_(options) {
     // A path that goes down from beyond the interaction range does so from the first step on.
     const Segment& first = options_.path.front();
     const bool down = first.kind == Segment::approach || first.kind == Segment::load;
-    if (down) normal_ = {-options_.velocity, -options_.velocity, HUGE_VAL};
-    if (first.kind == Segment::pull_off) normal_ = {0.0, options_.velocity, HUGE_VAL};
+    if (down) normal_ = {-options_.velocity, -options_.velocity, units::forever};
+    if (first.kind == Segment::pull_off) normal_ = {0.0, options_.velocity, units::forever};
     begin_rule(0.0);
 }
 
@@ -90,26 +90,26 @@ void Drive::begin(const Observation& step) {
     slide_ = {VelocityProfile{}, VelocityProfile{}};
     switch (next.kind) {
     case Segment::approach:
-        normal_ = {from, -v, HUGE_VAL};
+        normal_ = {from, -v, units::forever};
         break;
     case Segment::pull_off:
-        normal_ = {from, v, HUGE_VAL};
+        normal_ = {from, v, units::forever};
         break;
     case Segment::load:
-        normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, HUGE_VAL};
+        normal_ = {from, step.beyond_range || step.force < next.amount ? -v : v, units::forever};
         break;
     case Segment::height:
         normal_ = VelocityProfile::over(next.amount - step.reference_height - step.at, from, v,
                                         options_.ramp);
         break;
     case Segment::slide:
-        normal_ = {from, 0.0, HUGE_VAL};
+        normal_ = {from, 0.0, units::forever};
         slide_[static_cast<std::size_t>(next.axis)] =
             VelocityProfile::over(next.amount, 0.0, v, options_.ramp);
         break;
     case Segment::hold:
     case Segment::relax:
-        normal_ = {from, 0.0, HUGE_VAL};
+        normal_ = {from, 0.0, units::forever};
         break;
     }
     begin_rule(step.force);

@@ -17,7 +17,8 @@
 
 #include "engine/dynamics/top.hpp"
 #include "engine/options/drive_options.hpp"
-#include "engine/scene/segment_rule.hpp"
+#include "engine/options/segment_rule.hpp"
+#include "engine/units.hpp"
 
 #include <array>
 #include <cmath>
@@ -36,8 +37,8 @@ bool beyond_range(double top, double force, double strongest, double at_start = 
 /// Velocity over time: from one value to another along half a cosine, and, from the time `cruise`,
 /// to rest along another.
 struct VelocityProfile {
-    double from = 0.0, to = 0.0; ///< Å/fs
-    double cruise = HUGE_VAL;    ///< time at which the second ramp begins, fs
+    double from = 0.0, to = 0.0;    ///< Å/fs
+    double cruise = units::forever; ///< time at which the second ramp begins, fs
 
     /// Returns the velocity at time t after the beginning of the profile, Å/fs.
     double at(double t, double ramp) const;

@@ -44,8 +44,8 @@ public:
     /// Begins anew with the undeformed block, its lowest layer at this height (Å), moving along z
     /// at this velocity (Å/fs).
     void start(double height, double velocity);
-    /// Makes one time step, over which the machine moves so, and returns its record. observe: sum
-    /// the energies and contacts too. Collective.
+    /// Makes one time step, during which the machine moves at these velocities, and returns the
+    /// record of the step. observe: true to sum energies and contacts too. Collective.
     const StepRecord& step(const TopMotion& motion, bool observe);
 
     const StepRecord& now() const { return record_; }
@@ -128,8 +128,8 @@ private:
     Interface interface_;
     Top top_;
     TopSpring top_spring_;
-    std::optional<Thermostat> thermostat_; ///< only if the scene has a temperature
-    std::unique_ptr<DeviceBlock> device_;  ///< only if the scene asks for one
+    std::optional<Thermostat> thermostat_; ///< thermostat; empty at zero temperature
+    std::unique_ptr<DeviceBlock> device_;  ///< block on a device; null: none
     mutable bool device_is_newer_ = false;
     bool host_is_newer_ = true;
     Phases phases_;

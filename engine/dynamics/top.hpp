@@ -13,8 +13,8 @@ namespace asperity {
 
 /// Velocity of the machine over a time step, Å/fs.
 struct TopMotion {
-    double z = 0.0;                ///< away from the substrate
-    std::array<double, 2> slide{}; ///< over the substrate
+    double z = 0.0;                ///< component away from the substrate
+    std::array<double, 2> slide{}; ///< components along x and y
 };
 
 /// The spring between the machine and the top plane, and the mass of the plane.
@@ -30,15 +30,16 @@ struct Top {
     double z = 0.0;                ///< displacement along z, Å
     double drive = 0.0;            ///< displacement of the machine along z, Å; rigid: z
     std::array<double, 2> place{}; ///< place of the block over the substrate, Å
-    double velocity = 0.0;         ///< along z, Å/fs
+    double velocity = 0.0;         ///< velocity along z, Å/fs
     TopMotion machine{};           ///< velocity of the machine
 
-    /// Moves with the machine over a step of dt, fs, to the place at the next step.
+    /// Moves the plane with the machine over a step of dt, fs.
     void move(double dt) {
         velocity = machine.z;
         advance(dt);
     }
-    /// Moves likewise as the spring, the block (its force on the plane, eV/Å) and the drag make it.
+    /// Moves the plane over a step of dt, fs, under the spring, the force of the block on the plane
+    /// (eV/Å) and the drag.
     void move(double dt, const TopSpring& spring, double force) {
         const double g = 0.5 * spring.damping * dt;
         const double pull = spring.stiffness * (drive - z) + force;
@@ -48,7 +49,7 @@ struct Top {
     }
     /// Returns the displacement of the plane a step before the present one, Å.
     double z_before(double dt) const { return z - dt * velocity; }
-    /// Returns that of the machine.
+    /// Returns the displacement of the machine a step before the present one, Å.
     double drive_before(double dt) const { return drive - dt * machine.z; }
 
 private:

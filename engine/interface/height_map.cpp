@@ -42,8 +42,9 @@ double HeightMap::between(double x, double y) const {
 }
 
 namespace {
+/// Highest height of a ring without atoms, Å.
 constexpr double nothing_there = -1e30;
-/// By how much ranges are widened so that rounding leaves no atom out, over the spacing.
+/// Widths over the spacing by which ranges are widened, so that rounding leaves no atom out.
 constexpr double slack = 1e-3, slack_of_rings = 1e-9;
 } // namespace
 

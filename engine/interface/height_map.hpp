@@ -38,9 +38,8 @@ public:
     int sites() const { return sites_; }        ///< returns the number of atoms across the box
     double spacing() const { return spacing_; } ///< returns b, Å
     double highest() const { return highest_; } ///< returns the largest height, Å
-    double radius() const {
-        return radius_;
-    } ///< returns that of the cap in the heights, Å; 0: none
+    /// Returns the radius of the spherical cap in the heights, Å; 0: none.
+    double radius() const { return radius_; }
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
     const std::vector<double>& heights() const { return height_; }
 

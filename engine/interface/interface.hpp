@@ -74,7 +74,7 @@ public:
               const InterfaceOptions& options);
 
     /// Computes the forces of the substrate on the tile's sites (overwritten), eV/Å. Returns their
-    /// sums over the tile. how.rough: only if the options have mixed_on_request.
+    /// sums over the tile. how.mixed_precision: only if the options have mixed_on_request.
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
                         const VectorPlane<double>& force, SweepOptions how = {}) const;
 
@@ -136,7 +136,7 @@ private:
     HeightMap map_; ///< heights; for atoms anywhere, those of the topmost atoms
     InterfaceMethod method_;
     Substrate substrate_;
-    /// For the tail: mean heights of the atoms within the cutoff sideways
+    /// Mean heights of the atoms within the cutoff sideways, Å; empty without a tail
     Field<double> mean_height_;
     double reference_height_ = 0.0; ///< Å
 

@@ -23,7 +23,7 @@ double InterfaceStiffness::mean(const Interface& interface, const VectorPlane<co
                                 const VectorPlane<const double>& force, const Communicator& ranks) {
     const double step = difference_;
     interface.sweep(u, force_.plane(0),
-                    {.rough = true, .height = interface.reference_height() + step});
+                    {.mixed_precision = true, .height = interface.reference_height() + step});
     const PlaneView<const double> here = force.z, there = std::as_const(force_).plane(0).z;
     ExactSum sum;
     for (int y = 0; y < here.ny; ++y) {
@@ -45,7 +45,7 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
     };
     // Along z all sites go with the block.
     interface.sweep(u, force_.plane(0),
-                    {.rough = true, .height = interface.reference_height() + step});
+                    {.mixed_precision = true, .height = interface.reference_height() + step});
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.x.ny; ++y)
         for (int x = 0; x < u.x.nx; ++x) {
@@ -67,7 +67,8 @@ void InterfaceStiffness::measure(const Interface& interface, const VectorPlane<c
                 d.y(x, y) = u.y(x, y) + (along_x ? 0.0 : step);
                 d.z(x, y) = u.z(x, y);
             }
-        interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0), {.rough = true});
+        interface.sweep(std::as_const(displaced_).plane(0), force_.plane(0),
+                        {.mixed_precision = true});
 #pragma omp parallel for schedule(static)
         for (int y = 0; y < u.x.ny; ++y)
             for (int x = 0; x < u.x.nx; ++x) {

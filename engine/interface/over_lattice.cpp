@@ -70,7 +70,7 @@ void OverLattice::make_fixed(const Tile& tile) {
 void OverLattice::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                             InterfaceSums& sums) const {
     const InterfaceKernels::LatticeSweeps& kernels = interface_kernels().lattice;
-    const bool mixed = mixed_ || (how.rough && !fixed_.empty());
+    const bool mixed = mixed_ || (how.mixed_precision && !fixed_.empty());
     (mixed ? kernels.mixed : kernels.in_double)[how.observe](sites, view_, potential_, y, y + 1,
                                                              sums);
 }

@@ -33,17 +33,18 @@ std::size_t blocks_of(const Tile& tile) {
 
 /// Halves of halves of the atoms. Heights are over the datum.
 struct SubstrateCells::Tree {
+    static constexpr std::int32_t none = -1;
     struct Node {
         double low[3], high[3];
-        std::int32_t cell = -1;             ///< cell of a leaf
-        std::int32_t left = -1, right = -1; ///< branches of the other nodes
+        std::int32_t cell = none;               ///< cell of a leaf
+        std::int32_t left = none, right = none; ///< branches of the other nodes
     };
     const AtomPositions& atoms;
     double datum;
     std::vector<std::int64_t> order;      ///< atoms, cell by cell
-    std::vector<std::int64_t> cell_begin; ///< in the order
+    std::vector<std::int64_t> cell_begin; ///< first place of each cell in `order`
     std::vector<Node> nodes;
-    std::vector<std::int32_t> roots; ///< root of each type; -1: the type has no atoms
+    std::vector<std::int32_t> roots; ///< root of each type; none: the type has no atoms
 
     Tree(const AtomPositions& of, double over, std::size_t types)
         : atoms(of), datum(over), order(of.size()) {
@@ -62,7 +63,7 @@ struct SubstrateCells::Tree {
         }
         std::int64_t first = 0;
         for (const std::int64_t atoms_of_type : count) {
-            roots.push_back(atoms_of_type > 0 ? halve(first, first + atoms_of_type) : -1);
+            roots.push_back(atoms_of_type > 0 ? halve(first, first + atoms_of_type) : none);
             first += atoms_of_type;
         }
         cell_begin.push_back(first);

@@ -53,7 +53,7 @@ struct InterfaceOptions {
     std::vector<std::shared_ptr<const PotentialTable>> tables = {};
     bool tail = false;             ///< continuum correction beyond the cutoff
     bool mixed = false;            ///< pairs in single precision, in the sweep over a lattice
-    bool mixed_on_request = false; ///< sweeps may be asked for with SweepOptions::rough
+    bool mixed_on_request = false; ///< sweeps may be asked for with SweepOptions::mixed_precision
     bool free_edges = false;       ///< a wall below the first N x N of 2N x 2N sites
     bool slides = false; ///< the block is moved over the substrate (Interface::slide_to())
     InterfaceMethod method = InterfaceMethod::automatic;
@@ -68,8 +68,8 @@ struct InterfaceOptions {
 
 /// Options of one sweep.
 struct SweepOptions {
-    bool observe = false; ///< energies, contacts and nearest distances too
-    bool rough = false;   ///< forces good to some 1e-6 eV/Å are enough
+    bool observe = false;         ///< energies, contacts and nearest distances too
+    bool mixed_precision = false; ///< forces with errors of some 1e-6 eV/Å suffice
     std::optional<double> height =
         {}; ///< reference height for this sweep, Å; none: the interface's own
 };

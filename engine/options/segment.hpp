@@ -20,7 +20,7 @@ struct Segment {
         load,     ///< up or down to a total normal force, eV/Å
         height,   ///< up or down to a height of the lowest layer, Å: its mean height if that is
                   ///< held; otherwise its height in the undeformed block
-        hold,     ///< at rest, for a time, fs
+        hold,     ///< rest for a time, fs
         slide     ///< sideways by a distance, Å, at the same height or under a load
     };
     static constexpr std::size_t kinds = 7;

@@ -41,9 +41,9 @@ StateNumbers read_checkpoint_numbers(const io::FilePlace& place);
 
 /// Returns the displacements and half-step velocities of each level.
 std::vector<StateArray> state_of(const Block& block);
-/// Returns the same to be written to; then call exchange().
+/// Returns the arrays of state_of() to be overwritten; the caller then calls exchange().
 std::vector<RestoredArray> state_to_restore(Block& block);
-/// Returns one list behind another.
+/// Returns two lists as one.
 template <class Array>
 std::vector<Array> joined(std::vector<Array> list, const std::vector<Array>& more) {
     list.insert(list.end(), more.begin(), more.end());

@@ -5,8 +5,8 @@
 // beyond the interaction range, and a pull-off to rest there:
 //
 //     -(work of the drive, approach) = binding energy - lost - kinetic
-//      (work of the drive, pull-off) = binding energy + lost + kinetic there - kinetic of the
-//      approach
+//      (work of the drive, pull-off) = binding energy + lost + kinetic there
+//                                      - kinetic of the approach
 //
 // A segment of a quasi-static path, wherever it starts and ends, satisfies
 //
@@ -80,9 +80,9 @@ private:
 
     const Case& case_;
     PathResults& results_;
-    double lost_since_apart_ = 0.0;    ///< since the last end of a pull-off, or the start, eV
-    double relaxed_since_apart_ = 0.0; ///< since the last end of a pull-off, or the start, eV
-    double moved_apart_ = 0.0;         ///< energy of motion at that time, eV
+    /// Energies since the last end of a pull-off, or since the start, eV.
+    double lost_since_apart_ = 0.0, relaxed_since_apart_ = 0.0;
+    double moved_apart_ = 0.0; ///< energy of motion at that time, eV
 };
 
 } // namespace asperity

@@ -14,9 +14,8 @@
 // advance() has the rule of a path:
 //
 //     beginning, under_way      makes the next step or point of the segment
-//     at_end                    a dynamic path makes the step behind the last one of the segment,
-//     so
-//                               that a guard has seen the energy balance of its end
+//     at_end                    a dynamic path makes the step behind the last one of the
+//                               segment, so that a guard sees the energy balance of its end
 //     behind_end                comes to a relaxation if the segment ends in a state of force
 //                               balance: an approach, or "relax"; otherwise concludes the segment
 //     relaxing                  finds the state
@@ -183,7 +182,7 @@ protected:
     void come_to(Status status) { status_ = status; }
     /// Returns the segment that is under way or at its end.
     const Segment& segment_to_conclude() const { return case_.path()[concluded_]; }
-    bool told(long long iteration, double residual) const {
+    bool stopped_by_watch(long long iteration, double residual) const {
         return watch_ && watch_(iteration, residual);
     }
 

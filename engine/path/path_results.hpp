@@ -20,7 +20,7 @@ namespace asperity {
 
 /// Results of a segment of the path that has ended: works on the way, and the state at its end.
 struct SegmentResults {
-    std::size_t number = 0; ///< in the path
+    std::size_t number = 0; ///< number in the path
     Segment::Kind kind = Segment::approach;
     // Works are done on the solids, meV/Å^2; from rest beyond the interaction range if the path
     // starts there, and to rest there at a pull-off.

@@ -48,8 +48,8 @@ struct SteadySlide {
 
 /// Numbers of a point of a slide.
 struct SlidePoint {
-    double distance = 0.0; ///< since the slide began, Å
-    // Energies since then, eV:
+    double distance = 0.0; ///< distance since the slide began, Å
+    // Energies since the slide began, eV:
     double work = 0.0;    ///< work of what moves the block sideways
     double relaxed = 0.0; ///< dissipated by a viscoelastic block
     double lost = 0.0;    ///< dissipated at instabilities

@@ -21,7 +21,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
 void StaticPath::make_points() {
     points_.emplace(block_, interface_,
                     path_options(case_, interface_, [this](long long iteration, double residual) {
-                        return told(iteration, residual);
+                        return stopped_by_watch(iteration, residual);
                     }));
 }
 
@@ -85,9 +85,11 @@ void StaticPath::look_at_edges() {
 std::optional<LayerAtRest> StaticPath::find_state() {
     const bool held = segment_to_conclude().kind != Segment::relax;
     if (held) points_->put_back(); // the same state as after a resume, bitwise
-    const std::optional<ZeroLoad> found = find_zero_load(
-        block_, interface_, held ? 0.0 : case_.simulation.drive.load_force, case_,
-        [this](long long iteration, double residual) { return told(iteration, residual); });
+    const std::optional<ZeroLoad> found =
+        find_zero_load(block_, interface_, held ? 0.0 : case_.simulation.drive.load_force, case_,
+                       [this](long long iteration, double residual) {
+                           return stopped_by_watch(iteration, residual);
+                       });
     LayerAtRest state;
     if (found) look_at_edges();
     if (found) {

@@ -34,7 +34,7 @@ Path::Wish observed(Path::Wish wish) {
 
 std::optional<Path::Status> TimePath::make_next(const Wish& wish) {
     make_step(drive_.motion(simulation_.middle_of_step()), wish);
-    return tell_drive(now()) ? Status::at_end : Status::under_way;
+    return end_segment_if_met(now()) ? Status::at_end : Status::under_way;
 }
 
 bool TimePath::make_behind_end(const Wish& wish) {
@@ -53,7 +53,7 @@ void TimePath::step(const TopMotion& motion, const Wish& wish) {
 }
 
 void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
-    keep(wish);
+    copy_fields(wish);
     segment_ = drive_.segment();
     const StepRecord& now = simulation_.step(motion, wish.energies);
     if (wish.velocities) {
@@ -82,7 +82,7 @@ void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
 
 /// Copies layers before a step: after it the block is at the next step, while the interface and the
 /// sums are at this one.
-void TimePath::keep(const Wish& wish) {
+void TimePath::copy_fields(const Wish& wish) {
     const Tile tile = grid().tile(0);
     if (wish.layer) {
         if (layer_.empty()) layer_ = VectorField<double>(tile, 1);
@@ -96,7 +96,7 @@ void TimePath::keep(const Wish& wish) {
 }
 
 /// Returns true if the segment has ended with this step.
-bool TimePath::tell_drive(const StepRecord& now) {
+bool TimePath::end_segment_if_met(const StepRecord& now) {
     const Segment& segment = case_.path()[drive_.segment()];
     results_.record_force(segment, now);
     const bool apart =
@@ -126,7 +126,10 @@ std::optional<LayerAtRest> TimePath::state_from_here() {
 std::optional<LayerAtRest> TimePath::state_at(const std::array<double, 2>& place) {
     LayerAtRest found = bring_to_rest(
         std::as_const(simulation_).block(), surface_, simulation_.interface().reference_height(),
-        case_, [this](long long iteration, double residual) { return told(iteration, residual); },
+        case_,
+        [this](long long iteration, double residual) {
+            return stopped_by_watch(iteration, residual);
+        },
         place);
     if (!found.numbers) return std::nullopt;
     return found;

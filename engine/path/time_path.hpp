@@ -78,9 +78,9 @@ private:
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
     void make_step(const TopMotion& motion, const Wish& wish);
-    void keep(const Wish& wish);
+    void copy_fields(const Wish& wish);
     std::optional<LayerAtRest> state_at(const std::array<double, 2>& place);
-    bool tell_drive(const StepRecord& now);
+    bool end_segment_if_met(const StepRecord& now);
     Works so_far() const;
     static Works at_rest_apart(Works works, double bound, double moving);
     double kinetic_as_top(double time) const;
@@ -95,7 +95,7 @@ private:
     double interface_work_ = 0.0;   ///< int F dz up to the end of the last segment, eV
     StepRecord end_;                ///< the step that ended the last segment
     std::optional<double> scatter_; ///< SegmentResults::scatter of the last segment, eV/Å
-    VectorField<double> layer_, velocities_; ///< at now(), if they were wished for
+    VectorField<double> layer_, velocities_; ///< copies of those at now(), if wished for
 };
 
 } // namespace asperity

@@ -24,14 +24,14 @@ namespace asperity {
 
 namespace {
 
-/// For states and paths of pieces, s.
+/// Time that the states and paths of pieces may take, s.
 constexpr double rehearsal_seconds = 1.5;
 /// Sites across the largest piece and the smallest.
 constexpr int widest_piece = 256, least_sites = 16;
 /// A run of no more nodes and sites than these fits anywhere.
 constexpr double small_nodes = 2e5, small_sites = 65536.0;
-/// Typical: highest point of a surface over its rms height; power of the width by which states and
-/// paths take longer, and bounds of a measured one.
+/// Highest point of a typical surface over its rms height; typical power of the width by which
+/// states and paths take longer, and bounds of a measured power.
 constexpr double highest_over_rms = 4.5, power = 2.2, least_power = 2.0, most_power = 3.0;
 
 std::string memory_text(double bytes) {

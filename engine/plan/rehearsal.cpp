@@ -203,11 +203,11 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     done.resting = now() - begun;
     const VectorPlane<const double> layer =
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
-    std::optional<io::PayloadWriter> record;
+    std::optional<io::PayloadWriter> entry;
     if (piece.effects.maps)
         part(Piece::maps,
-             [&] { record = Recorder::record_of_fields("", layer, Communicator(), grid, *below); });
-    done.bytes[Piece::maps] *= 2.0; // and the maps that the record is made of
+             [&] { entry = Recorder::entry_of_fields("", layer, Communicator(), grid, *below); });
+    done.bytes[Piece::maps] *= 2.0; // and the maps that the entry is made of
     return done;
 }
 

@@ -54,7 +54,7 @@ private:
     double attraction_ = 0.0;       ///< eV/Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     bool kept_ = false;             ///< the kept layer is to be written
-    VectorField<double> layer_;     ///< only if the scene asks for these maps
+    VectorField<double> layer_;     ///< the layer; empty unless the scene asks for these maps
 };
 
 } // namespace asperity

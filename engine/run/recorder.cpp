@@ -30,9 +30,9 @@ std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
     return gather_plane(ranks, grid, 0, std::as_const(field).plane(0));
 }
 
-/// Records of the journal: rows of the series, or members of a group of run.h5. A member is a data
+/// Entries of the journal: rows of the series, or members of a group of run.h5. A member is a data
 /// set, an attribute of the group, or a row of a data set that grows.
-enum RecordKind : std::uint64_t { rows_record, group_record };
+enum EntryKind : std::uint64_t { rows_entry, group_entry };
 enum MemberKind : std::uint64_t { data_set, attribute, growing };
 using Types = std::tuple<double, float, std::int64_t, std::uint8_t>;
 
@@ -46,36 +46,36 @@ constexpr std::uint64_t type_number() {
 
 constexpr std::size_t rows_in_memory = 64;
 
-void put_text(io::PayloadWriter& record, const std::string& text) {
-    record.put<std::uint64_t>(text.size());
-    record.put(std::span<const char>(text));
+void put_text(io::PayloadWriter& entry, const std::string& text) {
+    entry.put<std::uint64_t>(text.size());
+    entry.put(std::span<const char>(text));
 }
 
-std::string get_text(io::PayloadReader& record) {
-    const auto text = record.get<char>(record.get<std::uint64_t>());
+std::string get_text(io::PayloadReader& entry) {
+    const auto text = entry.get<char>(entry.get<std::uint64_t>());
     return {text.begin(), text.end()};
 }
 
-/// Adds a group to a record. numbered: the group gets a number if its name exists already.
-void put_group(io::PayloadWriter& record, const std::string& group, bool numbered) {
-    put_text(record, group);
-    record.put<std::uint64_t>(numbered);
+/// Adds a group to an entry. numbered: the group gets a number if its name exists already.
+void put_group(io::PayloadWriter& entry, const std::string& group, bool numbered) {
+    put_text(entry, group);
+    entry.put<std::uint64_t>(numbered);
 }
 
-/// Adds a data set to a record. unit: of a growing one; the others have theirs in
+/// Adds a data set to an entry. unit: of a growing one; the others have theirs in
 /// io/quantities.hpp.
 template <class T>
-void put_member(io::PayloadWriter& record, MemberKind kind, const std::string& name,
+void put_member(io::PayloadWriter& entry, MemberKind kind, const std::string& name,
                 const io::Hdf5File::Shape& shape, std::span<const T> values,
                 const std::string& unit = "") {
-    record.put<std::uint64_t>(kind);
-    put_text(record, name);
-    put_text(record, unit);
-    record.put(type_number<T>());
-    record.put<std::uint64_t>(shape.size());
-    record.put(shape);
-    record.put<std::uint64_t>(values.size());
-    record.put(values);
+    entry.put<std::uint64_t>(kind);
+    put_text(entry, name);
+    put_text(entry, unit);
+    entry.put(type_number<T>());
+    entry.put<std::uint64_t>(shape.size());
+    entry.put(shape);
+    entry.put<std::uint64_t>(values.size());
+    entry.put(values);
 }
 
 template <class T>
@@ -94,22 +94,22 @@ void write_member(io::Hdf5File& file, MemberKind kind, const std::string& group,
     file.append<T>(path, values);
 }
 
-/// Writes the record of a group into run.h5.
-void write_group(io::Hdf5File& file, io::PayloadReader record) {
-    const std::string first = get_text(record);
-    const bool numbered = record.get<std::uint64_t>() != 0;
+/// Writes the entry of a group into run.h5.
+void write_group(io::Hdf5File& file, io::PayloadReader entry) {
+    const std::string first = get_text(entry);
+    const bool numbered = entry.get<std::uint64_t>() != 0;
     std::string group = first; // a path of several cycles comes to a state of this name again
     for (int n = 2; numbered && file.exists(group); ++n)
         group = first + "-" + std::to_string(n);
-    while (!record.at_end()) {
-        const auto kind = static_cast<MemberKind>(record.get<std::uint64_t>());
-        const std::string name = get_text(record), unit = get_text(record);
-        const auto type = record.get<std::uint64_t>();
-        const auto shape = record.get<std::uint64_t>(record.get<std::uint64_t>());
-        const auto size = record.get<std::uint64_t>();
+    while (!entry.at_end()) {
+        const auto kind = static_cast<MemberKind>(entry.get<std::uint64_t>());
+        const std::string name = get_text(entry), unit = get_text(entry);
+        const auto type = entry.get<std::uint64_t>();
+        const auto shape = entry.get<std::uint64_t>(entry.get<std::uint64_t>());
+        const auto size = entry.get<std::uint64_t>();
         const auto write = [&]<class T>(T) {
             if (type == type_number<T>())
-                write_member(file, kind, group, name, unit, shape, record.get<T>(size));
+                write_member(file, kind, group, name, unit, shape, entry.get<T>(size));
         };
         std::apply([&](auto... of_type) { (write(of_type), ...); }, Types{});
     }
@@ -146,7 +146,7 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
 }
 
 /// Adds P(u), normalised to one: 200 bins from the least to the greatest gap. Holes do not count.
-void put_gap_density(io::PayloadWriter& record, std::vector<double> gap) {
+void put_gap_density(io::PayloadWriter& entry, std::vector<double> gap) {
     std::erase_if(gap, [](double u) { return std::isnan(u); });
     const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
     constexpr std::size_t bins = 200;
@@ -159,8 +159,8 @@ void put_gap_density(io::PayloadWriter& record, std::vector<double> gap) {
         const auto bin = static_cast<std::size_t>((u - *least) / width);
         density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
     }
-    put_member<double>(record, data_set, "gap_edges", {bins + 1}, edge);
-    put_member<double>(record, data_set, "gap_density", {bins}, density);
+    put_member<double>(entry, data_set, "gap_edges", {bins + 1}, edge);
+    put_member<double>(entry, data_set, "gap_density", {bins}, density);
 }
 
 } // namespace
@@ -196,31 +196,31 @@ void Recorder::row(const Path& path) {
 
 void Recorder::append_rows() {
     if (waiting_.empty()) return;
-    journal_->append(rows_record, std::as_bytes(std::span(std::as_const(waiting_))));
+    journal_->append(rows_entry, std::as_bytes(std::span(std::as_const(waiting_))));
     waiting_.clear();
 }
 
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface) {
-    const io::PayloadWriter record = record_of_fields(state, layer, communicator_, grid, interface);
-    communicator_.on_root([&] { journal_->append(group_record, record.bytes()); });
+    const io::PayloadWriter entry = entry_of_fields(state, layer, communicator_, grid, interface);
+    communicator_.on_root([&] { journal_->append(group_entry, entry.bytes()); });
 }
 
-io::PayloadWriter Recorder::record_of_fields(const std::string& state,
-                                             const VectorPlane<const double>& layer,
-                                             const Communicator& ranks, const ProcessGrid& grid,
-                                             const Interface& interface) {
+io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
+                                            const VectorPlane<const double>& layer,
+                                            const Communicator& ranks, const ProcessGrid& grid,
+                                            const Interface& interface) {
     const InterfaceMaps maps = interface.maps(layer);
     const int across = grid.tile(0).sites, inner = interface.sites_across();
     const auto n = static_cast<std::uint64_t>(inner);
-    io::PayloadWriter record;
+    io::PayloadWriter entry;
     ranks.on_root([&] {
-        record.reserve(4096 + state.size() + 57 * n * n);
-        put_group(record, "/fields/" + state, true);
+        entry.reserve(4096 + state.size() + 57 * n * n);
+        put_group(entry, "/fields/" + state, true);
     });
     std::vector<double> gap;                                                 // on the root
     const auto put = [&](const char* name, const std::vector<double>& map) { // one at a time
-        ranks.on_root([&] { put_member<double>(record, data_set, name, {n, n}, map); });
+        ranks.on_root([&] { put_member<double>(entry, data_set, name, {n, n}, map); });
     };
     const auto of_box = [&](std::vector<double> map) {
         ranks.on_root([&] { crop_map(map, across, inner); });
@@ -237,19 +237,19 @@ io::PayloadWriter Recorder::record_of_fields(const std::string& state,
     const auto touching = of_box(whole(ranks, grid, {maps.contact.begin(), maps.contact.end()}));
     ranks.on_root([&] {
         const std::vector<std::uint8_t> contact(touching.begin(), touching.end());
-        put_member<std::uint8_t>(record, data_set, "contact", {n, n}, contact);
+        put_member<std::uint8_t>(entry, data_set, "contact", {n, n}, contact);
         const auto [slide_x, slide_y] = interface.place();
         const auto put_number = [&](const char* name, double value) {
-            put_member(record, attribute, name, {}, std::span<const double>(&value, 1));
+            put_member(entry, attribute, name, {}, std::span<const double>(&value, 1));
         };
         put_number("reference_height", interface.reference_height());
         if (slide_x != 0.0 || slide_y != 0.0) {
             put_number("slide_x", slide_x);
             put_number("slide_y", slide_y);
         }
-        put_gap_density(record, std::move(gap));
+        put_gap_density(entry, std::move(gap));
     });
-    return record;
+    return entry;
 }
 
 namespace {
@@ -297,18 +297,18 @@ void Recorder::frame(const Path& path, bool velocities) {
         edges[8] = static_cast<float>(height);
         const std::int64_t step = now.step;
         const double time = now.time * 1e-3; // ps
-        io::PayloadWriter record;
-        put_group(record, io::trajectory, false);
+        io::PayloadWriter entry;
+        put_group(entry, io::trajectory, false);
         const auto put = [&](const std::string& name, const char* unit, io::Hdf5File::Shape shape,
                              std::span<const float> values) {
-            put_member(record, growing, name + "/value", shape, values, unit);
-            put_member(record, growing, name + "/step", {0}, std::span(&step, 1));
-            put_member(record, growing, name + "/time", {0}, std::span(&time, 1), "ps");
+            put_member(entry, growing, name + "/value", shape, values, unit);
+            put_member(entry, growing, name + "/step", {0}, std::span(&step, 1));
+            put_member(entry, growing, name + "/time", {0}, std::span(&time, 1), "ps");
         };
         put("box/edges", "Angstrom", {0, 3, 3}, edges);
         put("position", "Angstrom", {0, sites * sites, 3}, position);
         if (velocities) put("velocity", "Angstrom ps-1", {0, sites * sites, 3}, velocity);
-        journal_->append(group_record, record.bytes());
+        journal_->append(group_entry, entry.bytes());
     });
 }
 
@@ -344,15 +344,15 @@ void Recorder::write_if_cheap() {
     });
 }
 
-/// Writes run.h5 anew, from all records. Root only.
+/// Writes run.h5 anew, from all entries. Root only.
 void Recorder::build() {
     const Clock::time_point start = Clock::now();
     io::Hdf5File file({directory_, io::run_file::series}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
-        io::PayloadReader record(payload);
-        if (kind == group_record) write_group(file, record);
+        io::PayloadReader entry(payload);
+        if (kind == group_entry) write_group(file, entry);
     });
     if (file.exists(io::trajectory)) io::describe_trajectory(file);
     const auto all = series();
@@ -374,10 +374,10 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
     for (const SeriesColumn* c : columns_)
         columns.push_back(&all[c->name()]);
     journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
-        io::PayloadReader record(payload);
-        while (kind == rows_record && !record.at_end())
+        io::PayloadReader entry(payload);
+        while (kind == rows_entry && !entry.at_end())
             for (std::vector<double>* column : columns)
-                column->push_back(record.get<double>());
+                column->push_back(entry.get<double>());
     });
     return all;
 }

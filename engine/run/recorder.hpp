@@ -4,9 +4,9 @@
 // The records of a run: rows of the series, maps of states, frames of the trajectory (collective;
 // the root writes).
 //
-// Records are appended to run.journal (io/journal.hpp), to which a checkpoint refers. run.h5 is
-// made from them: at the start, at the end, and at checkpoints as long as that takes less than a
-// small fraction of the time. It is always whole.
+// They are appended to run.journal as entries (io/journal.hpp), to which a checkpoint refers.
+// run.h5 is made from them: at the start, at the end, and at checkpoints as long as that takes less
+// than a small fraction of the time. It is always whole.
 #pragma once
 
 #include "engine/path/path.hpp"
@@ -31,7 +31,7 @@ public:
     /// Amount recorded at some moment.
     struct Position {
         std::uint64_t rows = 0;
-        io::Journal::Mark mark; ///< on the root
+        io::Journal::Mark mark; ///< mark of the journal; the root's
         template <class Visitor>
         void visit(Visitor& v) {
             v("rows", rows);
@@ -58,11 +58,11 @@ public:
     /// P(u). Must be called once for each name.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface);
-    /// Returns the record that fields() appends to the journal, on the root. Collective.
-    static io::PayloadWriter record_of_fields(const std::string& state,
-                                              const VectorPlane<const double>& layer,
-                                              const Communicator& ranks, const ProcessGrid& grid,
-                                              const Interface& interface);
+    /// Returns the entry that fields() appends to the journal, on the root. Collective.
+    static io::PayloadWriter entry_of_fields(const std::string& state,
+                                             const VectorPlane<const double>& layer,
+                                             const Communicator& ranks, const ProcessGrid& grid,
+                                             const Interface& interface);
     /// Appends a frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities
     /// if they are wanted.
     void frame(const Path& path, bool velocities);

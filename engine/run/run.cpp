@@ -16,7 +16,7 @@ void follow(Path& path, RunSession& session, const Observers& observers) {
     while (path.status() != Path::Status::done && !session.stop_here(path)) {
         if (!session.advance(path, observers.wish(path))) return session.stop_now(path);
         observers.look(path);
-        session.keep(path);
+        session.copy_good_state(path);
     }
 }
 

@@ -33,7 +33,7 @@ void add_surface(const Surface& surface, io::Result& result) {
         result.set("surface.atoms", static_cast<long long>(surface.atoms.size()));
     if (!surface.origin.empty()) result.set("surface.origin", surface.origin);
     if (surface.file_digest)
-        result.set("surface.file_digest", fmt::format("crc32:{:08x}", *surface.file_digest));
+        result.set("surface.file_digest", io::digest_text(*surface.file_digest));
 }
 
 void add_zero_load(const ZeroLoad& z, io::Result& result) {
@@ -85,7 +85,7 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         if (in) result.set("instrument.approach_force", in->attraction / units::nanonewton);
         if (out) result.set("instrument.pull_off_force", out->attraction / units::nanonewton);
     }
-    if (!radius || c.effects.layers || c.effects.surface_stress) return; // no JKR of these
+    if (!radius || !c.effects.one_modulus()) return; // JKR is of one modulus
     if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
@@ -98,14 +98,13 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
 void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
-    const bool one_modulus = !c.effects.layers && !c.effects.surface_stress;
     if (const auto fraction = result.number("contact_fraction"))
         result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
     if (const auto contact = result.number("contact_radius.relaxed"))
         result.set("instrument.contact_radius", 0.1 * *contact);
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
-    if (!binding || pressed || !one_modulus) return;
+    if (!binding || pressed || !c.effects.one_modulus()) return;
     const double energy = *binding / units::milli_per_unit * c.area();
     const double modulus = c.simulation.block.contact_modulus();
     result.set("jkr.relaxed", units::milli_per_unit *
@@ -216,10 +215,9 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (!c.scene.fit.file.empty()) result.set("block.prony_file", c.scene.fit.file);
     if (c.scene.fit.rms_error) result.set("block.prony_error", *c.scene.fit.rms_error);
-    if (c.table_digest)
-        result.set("interface.table_digest", fmt::format("crc32:{:08x}", *c.table_digest));
+    if (c.table_digest) result.set("interface.table_digest", io::digest_text(*c.table_digest));
     if (const auto& field = c.simulation.interface.adhesion) {
-        result.set("interface.adhesion_digest", fmt::format("crc32:{:08x}", *c.adhesion_digest));
+        result.set("interface.adhesion_digest", io::digest_text(*c.adhesion_digest));
         result.set("interface.adhesion_least",
                    *std::min_element(field->work.begin(), field->work.end()));
         result.set("interface.adhesion_largest", field->largest);

@@ -15,7 +15,7 @@ namespace asperity {
 
 /// Returns a result with the scene's name, keys and their units.
 io::Result scene_result(const Scene& scene);
-/// Returns the same with the statistics of the surface.
+/// Returns scene_result() with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
 /// Returns the common part of the results of dynamic and quasi-static runs: the scene, its surface,
 /// its effects, the results, theory, ranks and threads.

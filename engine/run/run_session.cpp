@@ -174,13 +174,13 @@ void RunSession::require_physical(Path& path) {
     if (!wrong) return;
     failed_ = path.now();
     Path::Remedy remedy = path.remedy();
-    if (case_.effects.dynamic) remedy.fix += "; " + put_back(path);
+    if (case_.effects.dynamic) remedy.fix += "; " + restore_last_good_state(path);
     throw io::PhysicsError(*wrong, remedy.why, remedy.fix);
 }
 
-void RunSession::keep(const Path& path) {
-    const bool kept = case_.effects.dynamic && path.has_stepped() && path.now().observed;
-    if (!kept || recorder().rows() % rows_between_snapshots != 1) return;
+void RunSession::copy_good_state(const Path& path) {
+    const bool has_row = case_.effects.dynamic && path.has_stepped() && path.now().observed;
+    if (!has_row || recorder().rows() % rows_between_snapshots != 1) return;
     const auto t = phases_.time(Phase::output);
     last_good_.take(path);
     session_at_last_good_ = {};
@@ -189,7 +189,7 @@ void RunSession::keep(const Path& path) {
 
 /// Puts the path back to its last good state and writes it. Returns a sentence on the state to
 /// resume from.
-std::string RunSession::put_back(Path& path) {
+std::string RunSession::restore_last_good_state(Path& path) {
     if (last_good_.empty()) return "no earlier state was kept";
     last_good_.restore(path);
     const char* name = io::run_file::last_good;
@@ -309,7 +309,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure) {
     add_phases(phases_, result);
     if (stopped_ != Stopped::no) result.set("run.stopped", std::string(name(stopped_)));
     if (const auto digest = io::sealed_digest(storage_.directory(), io::run_file::series))
-        result.set("run.file_digest", fmt::format("crc32:{:08x}", *digest));
+        result.set("run.file_digest", io::digest_text(*digest));
     if (failure) {
         result.set("failure.exit_code", failure->code);
         result.set("failure.reason", failure->reason);

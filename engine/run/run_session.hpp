@@ -53,8 +53,9 @@ public:
     /// step or point is no longer physical (guard.hpp); a dynamic path is then put back to its last
     /// good state, which is written to last-good.h5.
     bool advance(Path& path, const Path::Wish& wish);
-    /// Keeps a copy of the state of a dynamic path now and then, after the observers have looked.
-    void keep(const Path& path);
+    /// Copies the state of a dynamic path every few rows of the series, as the last good one, after
+    /// the observers have looked.
+    void copy_good_state(const Path& path);
 
     // Reasons to stop.
 
@@ -76,7 +77,7 @@ private:
     void save(const Path& path);
     void save_if_on(const Path& path);
     void require_physical(Path& path);
-    std::string put_back(Path& path);
+    std::string restore_last_good_state(Path& path);
     void collect(CollectNumbers& numbers);
     void write_state(const io::FilePlace& place, const Path& path,
                      const CollectNumbers& of_session) const;

@@ -111,7 +111,7 @@ std::optional<io::FilePlace> RunStorage::newest_whole() {
     return std::nullopt;
 }
 
-/// Returns the named checkpoint; one of another directory brings its records along.
+/// Returns the named checkpoint; one of another directory brings its journal along.
 std::optional<io::FilePlace> RunStorage::named() {
     const io::FilePlace place(options_.resume);
     const Recorder::Position position = position_in(read_checkpoint_numbers(place));

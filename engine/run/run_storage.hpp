@@ -4,7 +4,7 @@
 // The result directory of a run: who owns it, and its checkpoints.
 //
 //     run.lock               while a run uses the directory (io/result_directory.hpp)
-//     run.journal            records; until the run is over
+//     run.journal            entries of the recorder; until the run is over
 //     run.h5                 the same as HDF5 (recorder.hpp)
 //     checkpoint.h5          the newest state, and the one before; until the run is over
 //     checkpoint-before.h5
@@ -42,7 +42,7 @@ public:
     /// Returns notes for the user and forgets them.
     std::vector<std::string> take_notes();
 
-    /// Returns the newest checkpoint that is whole and whose records the journal holds, if the run
+    /// Returns the newest checkpoint that is whole and whose entries the journal holds, if the run
     /// was asked to resume and there is one. A damaged one is set aside (checkpoint-damaged.h5) and
     /// noted. An empty result on other ranks means the same as on the root. Collective. Throws
     /// io::FileError if all checkpoints are damaged.

@@ -99,8 +99,8 @@ public:
     double top_position() const { return simulation().top().z; }
     void set_top_position(double z);
     double top_velocity() const;
-    /// Leads the top plane by hand, at this velocity, m/s: nothing slides, and no segment ends.
-    /// Without a value the scene's drive resumes: a height, a hold or a slide ends at its planned
+    /// Leads the top plane by hand, at this velocity, m/s: nothing slides, and no segment ends. The
+    /// scene's drive resumes if no value is given: a height, a hold or a slide ends at its planned
     /// time, wherever the top plane is.
     void set_top_velocity(std::optional<double> v);
 

@@ -17,13 +17,13 @@ HeavyBall::HeavyBall(Response& block)
         std::fill(step_size.line(y), step_size.line(y) + step_size.nx, 1.0f);
 }
 
-double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
+double HeavyBall::move(const Preconditioner& preconditioner, double move_max) {
     using Constants = RelaxationConstants;
-    const BallRule rule{.keep = Constants::keep,
-                        .cut = Constants::cut,
-                        .raise = Constants::raise,
-                        .most = Constants::largest_step_size,
-                        .bound = static_cast<float>(bound)};
+    const HeavyBallRule rule{.momentum_decay = Constants::momentum_decay,
+                             .step_cut = Constants::step_cut,
+                             .step_growth = Constants::step_growth,
+                             .step_size_max = Constants::step_size_max,
+                             .move_max = static_cast<float>(move_max)};
     const int components = block_.components();
     const PlaneView<float> step_size = step_sizes_.plane(0);
     std::vector<float> of_row(static_cast<std::size_t>(step_size.ny));
@@ -31,14 +31,14 @@ double HeavyBall::move(const Preconditioner& preconditioner, double bound) {
 #pragma omp parallel for schedule(static) num_threads(targets.threads())
     for (int y = 0; y < step_size.ny; ++y) {
         const float* const* target = targets.get(y);
-        BallRow row{};
+        HeavyBallRow row{};
         for (int c = 0; c < components; ++c) {
             row.target[c] = target[c];
             row.momentum[c] = momentum_[static_cast<std::size_t>(c)].plane(0).line(y);
             row.u[c] = block_.moving_layer(c).line(y);
         }
         row.step_size = step_size.line(y);
-        of_row[static_cast<std::size_t>(y)] = move_row(row, rule, components, step_size.nx);
+        of_row[static_cast<std::size_t>(y)] = heavy_ball_row(row, rule, components, step_size.nx);
     }
     const double longest = *std::max_element(of_row.begin(), of_row.end());
     block_.restore_mean_height();

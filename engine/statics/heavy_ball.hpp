@@ -12,7 +12,7 @@
 // one transform there and one back for each component; target - u is the negative gradient in the
 // metric S + k, in which long and short waves relax alike. A site moves by
 //
-//     m <- step_size (target - u) + keep m,      |m| at most bound.
+//     m <- step_size (target - u) + momentum_decay m,      |m| at most move_max.
 //
 // While contact spreads, some site jumps into contact in nearly every iteration. A common momentum,
 // set to zero whenever the energy rises, would always be near zero; so each site has its own. Where
@@ -29,12 +29,12 @@ class HeavyBall {
 public:
     explicit HeavyBall(Response& block);
 
-    /// Moves the sites, interface_force() being up to date, none further than bound (Å) but for
-    /// the shift that keeps a prescribed mean height; their waves do not follow
-    /// (Response::apply_constraint()). Returns the largest distance to a target, Å.
+    /// Moves the sites, none further than move_max (Å), and then all of them to a held mean height.
+    /// interface_force() must be up to date. The waves of the displacements stay as they are until
+    /// Response::apply_constraint(). Returns the largest distance of a site to its target, Å.
     /// Collective.
-    double move(const Preconditioner& preconditioner, double bound);
-    /// Sets all momenta to zero and keeps the step sizes.
+    double move(const Preconditioner& preconditioner, double move_max);
+    /// Sets all momenta to zero; the step sizes stay.
     void stop();
 
 private:

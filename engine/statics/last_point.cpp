@@ -29,7 +29,7 @@ void LastPoint::place_block(double at) {
 void LastPoint::accept(double at) {
     state_.take(state_of(block_));
     block_.end_step();
-    last_dt_ = dt_ > 0.0 ? dt_ : HUGE_VAL;
+    last_dt_ = dt_ > 0.0 ? dt_ : units::forever;
     at_ = at;
     if (along_ == Along::z) normal_ = at;
     if (along_ == Along::time) clock_ = at;
@@ -54,7 +54,7 @@ RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
     // A wall takes the displacements along.
     const std::array<double, 2>& place = interface_.place();
     if (interface_.wall() && place != place_)
-        block_.carry(place[0] - place_[0], place[1] - place_[1]);
+        block_.shift_displacements(place[0] - place_[0], place[1] - place_[1]);
     RelaxOptions options;
     options.start = Start::near;
     options.tolerance = options_.tolerance;

@@ -9,10 +9,11 @@
 #include "decomposition/global_largest.hpp"
 #include "engine/statics/relaxation.hpp"
 #include "engine/statics/state_array.hpp"
+#include "engine/units.hpp"
 
 #include <array>
-#include <cmath>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -36,8 +37,8 @@ public:
     /// Selects the coordinate that changes from now on. Returns its value.
     double lead(Along along);
     double at() const { return at_; }
-    /// Holds a load, eV/Å, in place of the prescribed quantity along z; nothing: that quantity,
-    /// where it is. Only with the place or time as the coordinate.
+    /// Holds a load along z, eV/Å, from now on; empty: holds the prescribed quantity at its present
+    /// value. Only if the coordinate is the place or time.
     void press(std::optional<double> load) { load_ = load; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
@@ -62,7 +63,7 @@ public:
 
     /// Notes that the next step in time does not continue the last one, as the displacements have
     /// changed their course.
-    void turn() { last_dt_ = HUGE_VAL; }
+    void turn() { last_dt_ = units::forever; }
     /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
     double last_dt() const { return last_dt_; }
 
@@ -108,14 +109,14 @@ private:
     StateCopy state_;
     double at_ = 0.0;
     Along along_ = Along::z;
-    double balance_ = HUGE_VAL;     ///< eV/Å
-    double normal_ = 0.0;           ///< prescribed value along z, Å
-    std::optional<double> load_;    ///< held in place of normal_, eV/Å
+    double balance_ = std::numeric_limits<double>::infinity(); ///< eV/Å
+    double normal_ = 0.0;                                      ///< prescribed value along z, Å
+    std::optional<double> load_;    ///< load held instead of normal_, eV/Å
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
     long long iterations_ = 0;
-    double dt_ = HUGE_VAL;      ///< length of the step under way, fs
-    double last_dt_ = HUGE_VAL; ///< length of the step that this one continues, fs
+    double dt_ = units::forever;      ///< length of the step under way, fs
+    double last_dt_ = units::forever; ///< length of the step that this one continues, fs
 };
 
 } // namespace asperity

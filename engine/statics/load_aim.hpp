@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -36,7 +37,7 @@ public:
         const std::vector<ForceAt>& points = trail.points();
         const std::size_t n = points.size();
         const ForceAt& last = points[n - 1];
-        double to_load = HUGE_VAL;
+        std::optional<double> to_load;
         if (!beyond_.empty()) {
             constexpr int patience = 4;
             const double way = std::abs(beyond_[0].x - last.x);
@@ -45,16 +46,16 @@ public:
                                                       : nullptr;
             const double x = place_of(load, last, beyond_[0], third, 0.0, 1.0);
             to_load = tries_ > patience ? 0.5 * way : std::abs(x - last.x);
-            to_load = std::clamp(to_load, 0.001 * way, 0.999 * way);
+            to_load = std::clamp(*to_load, 0.001 * way, 0.999 * way);
         } else if (smooth && n > 1) {
             const ForceAt* third = n > 2 ? &points[n - 3] : nullptr;
             const double x = place_of(load, last, points[n - 2], third, -HUGE_VAL, 0.0);
             to_load = direction * (x - last.x);
         }
-        if (!(to_load > 0.0 && to_load <= length)) return length;
+        if (!to_load || !(*to_load > 0.0 && *to_load <= length)) return length;
         uncut_ = std::max(uncut_, length);
         beside_ = true;
-        return to_load;
+        return *to_load;
     }
     /// Returns true once after a step that was cut: such a step passes no load unseen.
     bool take_beside() { return std::exchange(beside_, false); }
@@ -87,8 +88,8 @@ private:
     }
 
     std::vector<ForceAt> beyond_; ///< nearest known places beyond the load, the nearest first
-    int tries_ = 0;               ///< since the way to it was halved
-    double uncut_ = 0.0;          ///< Å
+    int tries_ = 0;               ///< number of steps since the way to the load was halved
+    double uncut_ = 0.0;          ///< largest length of a step before it was cut, Å
     bool beside_ = false;
 };
 

@@ -10,8 +10,8 @@ namespace asperity {
 
 Newton::Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales)
     : block_(block), preconditioner_(preconditioner),
-      stiffness_(block.tile(), block.components(), RelaxationConstants::difference * scales.length,
-                 block.workspace()),
+      stiffness_(block.tile(), block.components(),
+                 RelaxationConstants::stiffness_displacement * scales.length, block.workspace()),
       r_(block.new_waves<float>()), p_(block.new_waves<float>()), q_(block.new_waves<float>()) {}
 
 bool Newton::direction(const Interface& interface, double forcing, const Waves<double>& g,
@@ -22,7 +22,7 @@ bool Newton::direction(const Interface& interface, double forcing, const Waves<d
     double rz = advance(0.0, d);
     double fraction = 0.0;
     const double enough = forcing * forcing * rz;
-    for (int i = 0; i < RelaxationConstants::most_products && rz > enough; ++i) {
+    for (int i = 0; i < RelaxationConstants::products_max && rz > enough; ++i) {
         const double curvature = multiply(fraction);
         if (!(curvature > 0.0)) return false;
         const double next = advance(rz / curvature, d);

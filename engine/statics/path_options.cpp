@@ -22,7 +22,7 @@ PathOptions path_options(const Case& c, const Interface& interface,
     o.over_wall = interface.wall() != nullptr;
     o.report = std::move(report);
     const double flat = c.flat.work_of_adhesion / units::milli_per_unit;
-    if (flat > 0.0) o.depth = flat * c.area();
+    if (flat > 0.0) o.binding_energy = flat * c.area();
     return o;
 }
 

@@ -9,8 +9,8 @@
 #include "engine/options/scales.hpp"
 #include "engine/waves/constraint.hpp"
 
-#include <cmath>
 #include <functional>
+#include <optional>
 
 namespace asperity {
 
@@ -21,13 +21,13 @@ struct PathOptions {
     Scales scales;
     double load = 0.0;     ///< force at which the approach ends, eV/Å
     double velocity = 0.0; ///< velocity of the drive if the block is viscoelastic, Å/fs
-    /// Energy that flat surfaces of this area bind with, eV; infinite if they do not.
-    double depth = HUGE_VAL;
+    /// Energy that flat surfaces of this area bind with, eV; empty if they do not attract.
+    std::optional<double> binding_energy = {};
     bool over_wall = false;
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
     std::function<bool(long long, double)> report;
 
-    bool attracts() const { return depth < HUGE_VAL; }
+    bool attracts() const { return binding_energy.has_value(); }
     /// Returns true if there is one state at each position, whichever way the path has come: the
     /// energy of an elastic block over a wall that only repels is convex.
     bool reversible() const { return over_wall && !attracts() && !(velocity > 0.0); }

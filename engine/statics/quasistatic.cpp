@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/statics/quasistatic.hpp"
 
+#include "engine/units.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +16,7 @@ constexpr double short_time = 0.02;
 
 /// Returns the time of a step, fs; infinite if the block does not relax in time.
 double QuasistaticPath::time_of(double step) const {
-    return options_.velocity > 0.0 ? step / options_.velocity : HUGE_VAL;
+    return options_.velocity > 0.0 ? step / options_.velocity : units::forever;
 }
 
 /// Returns true if the step is so short that the block hardly relaxes.
@@ -168,7 +170,7 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
 /// work.
 QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
     const long long iterations = last_.iterations();
-    RelaxedState state = last_.relax_at(at(), HUGE_VAL, options_.report);
+    RelaxedState state = last_.relax_at(at(), units::forever, options_.report);
     if (state.interrupted) {
         put_back();
         last_.set_iterations(iterations);

@@ -45,7 +45,7 @@
 // hundredths of an angstrom.)
 #pragma once
 
-#include "engine/scene/segment_rule.hpp"
+#include "engine/options/segment_rule.hpp"
 #include "engine/statics/dissipation.hpp"
 #include "engine/statics/last_point.hpp"
 #include "engine/statics/load_aim.hpp"
@@ -129,11 +129,11 @@ private:
     /// Numbers of the segment under way.
     struct Course {
         Segment::Kind kind = Segment::approach;
-        std::size_t number = 0;       ///< in the path
+        std::size_t number = 0;       ///< number in the path
         Along along = Along::z;       ///< coordinate that the segment leads
         double direction = -1.0;      ///< sign of the motion; 0: none
         std::optional<double> end;    ///< end, Å; none: at a load, or apart
-        std::optional<double> load;   ///< eV/Å; none: an approach's, or apart
+        std::optional<double> load;   ///< load at its end, eV/Å; none: drive.load, or apart
         SegmentRule rule;             ///< rule of a segment that a force ends
         LoadAim aim;                  ///< way to a load
         bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
@@ -167,10 +167,10 @@ private:
     /// A step that is tried.
     struct Try {
         double there = 0.0, way = 0.0; ///< Å
-        double length = 0.0;           ///< Å, but for the end of the segment
-        bool arrives = false;          ///< at the end of the segment
-        bool all_the_way = false;      ///< to the far end of the bracket
-        bool last = false;             ///< no shorter one is made
+        double length = 0.0;           ///< length before the segment's end cuts it, Å
+        bool arrives = false;          ///< the step leads to the end of the segment
+        bool all_the_way = false;      ///< the step leads to the far end of the bracket
+        bool last = false;             ///< no shorter step is tried
         double tolerance = 0.0;        ///< eV/Å
     };
     Try plan();
@@ -228,8 +228,8 @@ private:
     double tolerance_to(double at) const;
     double energy_error() const;
     double allowed_missing(double way, double tolerance) const;
-    /// Returns the same of a step in which a viscoelastic block may go on without the drive, eV.
-    /// Collective.
+    /// Returns allowed_missing() of a step during which a viscoelastic block may move without the
+    /// drive, eV. Collective.
     double allowed_missing_in_time(double way, double tolerance) const;
     /// Sets the displacements to change their course in time: the next step continues none, and is
     /// short.
@@ -254,10 +254,10 @@ private:
     /// unstable, or the force is not smooth enough to tell.
     std::optional<ForceAt> bracket_;
     Dissipation dissipation_;
-    double strongest_ = 0.0;       ///< attraction so far, eV/Å
+    double strongest_ = 0.0;       ///< strongest attraction so far, eV/Å
     double energy_at_start_ = 0.0; ///< energy from which works are counted, eV
     double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
-    double way_ = 0.0;             ///< so far, in and out, Å
+    double way_ = 0.0;             ///< length of the path so far, in and out, Å
 };
 
 template <class Visitor>

@@ -94,8 +94,8 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     // The balance says nothing of small energies: those below an eightieth of the work of the scale
     // of forces on the way so far and a step more, or below a twentieth of flat surfaces'. Neither
     // depends on the tolerance.
-    const double least = std::min(options_.scales.force * sites_ * (way_ + options_.step) / 80.0,
-                                  0.05 * options_.depth);
+    double least = options_.scales.force * sites_ * (way_ + options_.step) / 80.0;
+    if (options_.binding_energy) least = std::min(least, 0.05 * *options_.binding_energy);
     const double scale = std::max(scale_, least);
     const double spent = record_.damped + record_.relaxed;
     record_.residual = scale > 0.0 ? (record_.work - gained - spent) / scale : 0.0;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -42,7 +43,7 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
     }
     const double gap = height - mean;
     const bool inside = !interface.wall() && gap <= 0.0;
-    double pressure = inside ? HUGE_VAL : 0.0;
+    double pressure = 0.0;
     // Between the atoms of a flat layer the force falls again: the largest from here outwards.
     for (int i = 0; i < 10 && !inside; ++i)
         pressure = std::max(pressure, flat_pair_sum(interface.options(), options.spacing,
@@ -54,7 +55,7 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
     for (const Material& material : options.materials())
         young = std::max(young, material.young);
     const double most = std::max(young, 10.0 * scales.force / area);
-    if (!(pressure > most)) return;
+    if (!inside && !(pressure > most)) return;
     throw io::PhysicsError(
         fmt::format("a mean height of {:.4g} Å lies too far inside the substrate", height),
         inside ? std::string("it is below the mean plane of the atoms")
@@ -84,7 +85,7 @@ void QuasistaticPath::start_here(Here here) {
 }
 
 void QuasistaticPath::first_point(double top, Here here) {
-    const double dt = here.remembers ? 0.0 : HUGE_VAL;
+    const double dt = here.remembers ? 0.0 : units::forever;
     block_.begin_step(dt);
     last_.accept(top);
     const RelaxedState state = last_.relax_at(top, dt, {});
@@ -180,7 +181,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
     // on the top plane that is none of the contact's.
-    double balance = HUGE_VAL;
+    double balance = std::numeric_limits<double>::infinity();
     if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
     if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);

@@ -32,7 +32,7 @@ public:
             smallest_ = residual;
             found_at_ = iteration;
         }
-        return iteration > found_at_ + Constants::stagnation;
+        return iteration > found_at_ + Constants::stagnation_period;
     }
 
 private:
@@ -55,7 +55,7 @@ double largest(const Communicator& ranks, SiteField<float>& field) {
     return std::sqrt(ranks.max(longest));
 }
 
-/// The relaxation: where it is, what is left, and how it goes on.
+/// A relaxation over atoms under way.
 class Minimiser {
 public:
     Minimiser(Response& block, const Interface& interface, const RelaxOptions& options,
@@ -66,8 +66,8 @@ public:
           d_(block.new_waves<float>()), at_sites_(block.new_field<float>()) {
         find_forces();
         tune();
-        const double close =
-            options.start == Start::anywhere ? Constants::close_by : Constants::close_enough;
+        const double close = options.start == Start::anywhere ? Constants::newton_below_anywhere
+                                                              : Constants::newton_below_near;
         spreading_ = !(rms_ < close * options.scales.interface_force());
         distance_ = rms_ / preconditioner_.k();
     }
@@ -78,14 +78,15 @@ public:
         if (!spreading_) measure();
     }
     /// Returns the mean residual or, if that is below the tolerance, the largest of a site, eV/Å.
-    /// In the first stage only the distances of the sites from their targets are known.
+    /// During the first stage, for which no residual is computed, the largest distance of a site to
+    /// its target stands for it.
     double residual() {
         if (spreading_) return options_.scales.stiffness * distance_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
     /// Computes the residual of the state as it is reported, eV/Å, and the energies in sums().
     double conclude() {
-        rough_ = false;
+        mixed_precision_ = false;
         block_.apply_constraint();
         sweep(true);
         measure();
@@ -102,14 +103,16 @@ public:
 private:
     void sweep(bool observe) {
         const auto t = phases_.time(Phase::interface);
-        sums_ = interface_.sweep(block_.lowest_layer(), block_.interface_force(),
-                                 {.observe = observe, .rough = rough_ && !observe});
+        sums_ =
+            interface_.sweep(block_.lowest_layer(), block_.interface_force(),
+                             {.observe = observe, .mixed_precision = mixed_precision_ && !observe});
     }
     void measure() {
         const auto t = phases_.time(Phase::sums);
         block_.gradient(g_);
         rms_ = std::sqrt(dot(g_, g_)) / block_.slab().sites;
-        rough_ = rough_ && rms_ > Constants::rough_enough * options_.scales.interface_force();
+        mixed_precision_ = mixed_precision_ && rms_ > Constants::mixed_precision_above *
+                                                          options_.scales.interface_force();
     }
     double largest_residual() {
         const auto t = phases_.time(Phase::sums);
@@ -118,25 +121,25 @@ private:
     }
     void tune() {
         const auto t = phases_.time(Phase::interface);
-        const double k = std::max(Constants::least_stiffness * options_.scales.stiffness,
-                                  Constants::softer * newton_.mean_stiffness(interface_));
-        if (std::abs(k - preconditioner_.k()) > Constants::changed * preconditioner_.k())
+        const double k = std::max(Constants::stiffness_share_min * options_.scales.stiffness,
+                                  Constants::stiffness_share * newton_.mean_stiffness(interface_));
+        if (std::abs(k - preconditioner_.k()) > Constants::stiffness_change * preconditioner_.k())
             preconditioner_.tune(block_, k);
     }
 
     void move_sites() {
         if (!spreading_) iterations_ = 0;
         spreading_ = true;
-        if (++iterations_ % Constants::tuned_every == 0) tune();
+        if (++iterations_ % Constants::tuning_period == 0) tune();
         {
             const auto t = phases_.time(Phase::advance);
-            distance_ = ball_.move(preconditioner_, max_move_);
+            distance_ = ball_.move(preconditioner_, move_max_);
         }
-        if (distance_ > Constants::near * options_.scales.length ||
-            iterations_ < Constants::patience)
+        if (distance_ > Constants::newton_distance * options_.scales.length ||
+            iterations_ < Constants::heavy_balls_min)
             return;
         spreading_ = false;
-        forcing_ = Constants::loose;
+        forcing_ = Constants::forcing_loose;
         expected_ = std::numeric_limits<double>::infinity();
         ball_.stop();
         block_.apply_constraint();
@@ -144,18 +147,19 @@ private:
     /// Makes a step of Newton's method. Returns false, without a step, if the method does not help:
     /// its last step, solved closely, has reduced the residual by less than half of the expected
     /// reduction, the curvature is negative, or a site would move too far. Near an equilibrium a
-    /// step is shortened instead, so that no site moves further than max_move.
+    /// step is shortened instead, so that no site moves further than move_max.
     bool newton_step() {
         const auto t = phases_.time(Phase::relax);
         if (!(rms_ < expected_)) {
-            if (forcing_ == Constants::tight) return false;
-            forcing_ = Constants::tight;
+            if (forcing_ == Constants::forcing_tight) return false;
+            forcing_ = Constants::forcing_tight;
         }
         if (!newton_.direction(interface_, forcing_, g_, d_)) return false;
         to_sites(d_, block_.transform<float>(), at_sites_);
         const double most = largest(block_.communicator(), at_sites_);
-        const double shortest = options_.start == Start::anywhere ? 1.0 : Constants::shortest;
-        const double fraction = most > max_move_ ? max_move_ / most : 1.0;
+        const double shortest =
+            options_.start == Start::anywhere ? 1.0 : Constants::step_fraction_min;
+        const double fraction = most > move_max_ ? move_max_ / most : 1.0;
         if (!(fraction >= shortest)) return false;
         expected_ = (1.0 - 0.5 * fraction) * rms_;
         block_.displace(fraction, d_, at_sites_);
@@ -179,9 +183,9 @@ private:
     double rms_ = 0.0;         ///< mean residual, eV/Å
     /// Newton's last step should have left less than this, eV/Å.
     double expected_ = std::numeric_limits<double>::infinity();
-    double forcing_ = Constants::loose;
-    bool rough_ = true;
-    double max_move_ = Constants::max_move * options_.scales.length; ///< Å
+    double forcing_ = Constants::forcing_loose;
+    bool mixed_precision_ = true;
+    double move_max_ = Constants::move_max * options_.scales.length; ///< Å
 };
 
 /// Returns true if `force`, the sum of the forces on the sites, is that of the constraint, but for
@@ -230,8 +234,8 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
             if (over || state.interrupted || state.converged) break;
         }
         minimiser.step();
-        if (!std::isfinite(window.furthest) || state.iterations < Constants::first_look ||
-            state.iterations % Constants::look != 0)
+        if (!std::isfinite(window.furthest) || state.iterations < Constants::first_force_check ||
+            state.iterations % Constants::force_check_period != 0)
             continue;
         state.force = global_sum(block.communicator(), minimiser.sums().force_z);
         const bool still = outside;
@@ -291,7 +295,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, const Const
     long long products = 0;
     if (interface.options().wall && options.start == Start::near)
         products = follow_tangent(block, interface, constraint,
-                                  Constants::max_move * options.scales.length);
+                                  Constants::move_max * options.scales.length);
     else
         block.hold(constraint);
     const double height = std::abs(interface.reference_height()) + std::abs(block.mean_height()) +

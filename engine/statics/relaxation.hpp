@@ -21,12 +21,12 @@
 // Newton's method; steps that would move a site further than it may, but no further than ten times
 // that, are then shortened.
 //
-// Sweeps are rough (SweepOptions: in mixed precision over a lattice) until the forces are near
-// their error; the last ones, and the state that is reported, are not.
+// Over a lattice, sweeps are in mixed precision (SweepOptions) until the forces are near their
+// error; the last ones, and the state that is reported, are in double precision.
 //
 // Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
 //
-// The minimum that is found is the one downhill: no site moves further than max_move in an
+// The minimum that is found is the one downhill: no site moves further than move_max in an
 // iteration, and one that has passed its target stops. A state whose forces cannot be brought below
 // the tolerance is reported as not converged, and so is one whose sum of forces is not the load:
 // forces below the tolerance that all point one way add up.
@@ -79,43 +79,50 @@ inline constexpr double load_accuracy = 1e-3;
 /// its length, forces in Scales::interface_force(). The states that they end in do not depend on
 /// these, as far as was measured; iterations do.
 struct RelaxationConstants {
-    // The loop: over when the residual has not halved in so many iterations.
-    static constexpr long long stagnation = 3000;
-    // The force is compared with its window after so many iterations, and every so many.
-    static constexpr long long first_look = 20, look = 5;
+    /// A relaxation ends if the residual has not halved in this many iterations.
+    static constexpr long long stagnation_period = 3000;
+    /// The force is compared with its window after this many iterations, and then every so many.
+    static constexpr long long first_force_check = 20, force_check_period = 5;
 
-    // Heavy balls (heavy_ball.hpp): of the momentum kept; a step size is cut where a site has
-    // passed its target, and is raised elsewhere, to this at most.
-    static constexpr float keep = 0.7f, cut = 0.7f, raise = 1.12f, largest_step_size = 2.0f;
-    /// In an iteration: well below the range of the potential, so that no site passes a barrier.
-    static constexpr double max_move = 0.17;
-    /// k of the preconditioner over the interface's mean stiffness; measured anew every so many
-    /// iterations, taken over where it has changed by this fraction.
-    static constexpr double softer = 0.35, changed = 0.2;
-    static constexpr long long tuned_every = 8;
-    /// Least stiffness of the preconditioner over the interface's, for hardly a site in contact.
-    static constexpr double least_stiffness = 1e-4;
+    // The heavy-ball method (heavy_ball.hpp): see HeavyBallRule.
+    static constexpr float momentum_decay = 0.7f, step_cut = 0.7f, step_growth = 1.12f;
+    static constexpr float step_size_max = 2.0f;
+    /// Largest move of a site in an iteration: well below the range of the potential, so that no
+    /// site passes a barrier.
+    static constexpr double move_max = 0.17;
+    /// Stiffness k of the preconditioner over the interface's mean stiffness, and the least one
+    /// over Scales::stiffness, for few sites in contact.
+    static constexpr double stiffness_share = 0.35, stiffness_share_min = 1e-4;
+    /// The interface's mean stiffness is measured with this period (iterations); k follows if it
+    /// has changed by more than this fraction.
+    static constexpr long long tuning_period = 8;
+    static constexpr double stiffness_change = 0.2;
 
     // Newton's method (newton.hpp).
-    static constexpr double close_by = 8e-4;     ///< mean force, to try it at once
-    static constexpr double close_enough = 0.08; ///< the same from near an equilibrium
-    static constexpr double near = 4e-3;         ///< the largest distance to a target, to try it
-    static constexpr long long patience = 20;    ///< iterations of heavy balls before that
+    /// A relaxation begins with Newton's method if the mean force is below this, for each Start.
+    static constexpr double newton_below_anywhere = 8e-4, newton_below_near = 0.08;
+    /// Newton's method follows the heavy balls if the largest distance to a target is below this...
+    static constexpr double newton_distance = 4e-3;
+    /// ... after at least this many iterations of theirs.
+    static constexpr long long heavy_balls_min = 20;
     /// Share of the residual that conjugate gradients leave: at first, and after a step that has
     /// not halved the residual.
-    static constexpr double loose = 0.3, tight = 0.1;
-    static constexpr int most_products = 100; ///< limit of conjugate gradients
-    static constexpr double shortest = 0.1;   ///< fraction of a step near an equilibrium
-    /// Sweeps are in mixed precision down to a mean residual ten times their error.
-    static constexpr double rough_enough = 2.6e-6;
-    /// The displacement by which the interface's stiffness is measured.
-    static constexpr double difference = 6e-4;
+    static constexpr double forcing_loose = 0.3, forcing_tight = 0.1;
+    static constexpr int products_max = 100; ///< limit of the iterations of conjugate gradients
+    /// Least fraction of Newton's step that is made near an equilibrium.
+    static constexpr double step_fraction_min = 0.1;
+    /// Sweeps are in mixed precision if the mean residual is above this, ten times their error.
+    static constexpr double mixed_precision_above = 2.6e-6;
+    /// Displacement over which the interface's stiffness is measured.
+    static constexpr double stiffness_displacement = 6e-4;
 
-    // Over a wall (wall_minimiser.hpp): what may be left of the mean force, in tolerances (steps of
-    // the secant more than this asks for are few: it converges faster than linearly), and how much
-    // elastic forces of single precision let sites rest off, in the largest displacement of a site
-    // from the mean.
-    static constexpr double closure = 1e-3, rounding = 4e-6;
+    // The minimiser over a wall (wall_minimiser.hpp).
+    /// Largest mean force left, in tolerances. The secant converges faster than linearly, so that a
+    /// smaller number costs few steps.
+    static constexpr double mean_force_share = 1e-3;
+    /// Error of the places of rest with elastic forces in single precision, in the largest
+    /// displacement of a site from the mean.
+    static constexpr double single_precision_error = 4e-6;
 };
 
 struct RelaxedState : ContactCount {

@@ -33,7 +33,7 @@ void add_arrays(int level, const char* what, VectorField<double>& field, int pla
 
 /// Returns the displacements of a block's lowest layer: its whole state.
 std::vector<StateArray> state_of(const SpectralBlock& block);
-/// Returns the same to be written to; then call apply_constraint().
+/// Returns these displacements to be overwritten; the caller then calls apply_constraint().
 std::vector<RestoredArray> state_to_restore(SpectralBlock& block);
 
 /// A copy of all arrays of a list, to go back to.
@@ -45,7 +45,7 @@ public:
     void restore(const std::vector<RestoredArray>& arrays) const;
     /// Returns the copies as a list like the copied one, to be written to a checkpoint.
     std::vector<StateArray> arrays(const std::vector<StateArray>& like) const;
-    /// Returns the same to be read from a checkpoint; halos are then not current.
+    /// Returns the copies as a list to be read from a checkpoint; their halos are then not current.
     std::vector<RestoredArray> arrays_to_restore(const std::vector<StateArray>& like);
     bool empty() const { return copies_.empty(); }
     const Field<double>& operator[](std::size_t i) const { return copies_[i]; }

@@ -40,8 +40,8 @@ struct StepDecision {
     double gap = 0.0;        ///< work less energy gained and dissipated, eV
     double uncertain = 0.0;  ///< uncertainty of the work if energy is missing, eV
     bool smooth = true;      ///< the force did not jump
-    bool excess = false;     ///< more energy gained than the work can have brought
-    bool coarse = false;     ///< halved for its error in time, not for an instability
+    bool excess = false;     ///< the energy gained exceeds the work and its uncertainty
+    bool coarse = false;     ///< the step is halved for its error in time
     double growth = 1.0;     ///< factor of the length of the next step
 };
 

@@ -32,7 +32,7 @@ WallMinimiser::WallMinimiser(Response& block, const Interface& interface,
 
 void WallMinimiser::step() {
     const auto t = phases_.time(Phase::advance);
-    single_ = single_ && estimate_ > Constants::rounding * spring_ * widest_;
+    single_ = single_ && estimate_ > Constants::single_precision_error * spring_ * widest_;
     double reversal = 0.0;
     if (single_) { // single precision while it is good enough
         elastic_forces(single_field_);
@@ -67,7 +67,7 @@ double WallMinimiser::conclude() {
     largest = block_.communicator().max(largest);
     // Steps do not show this residual: forces of single precision, or sites that still jump.
     single_ = false;
-    doubt_ *= largest > options_.tolerance ? 0.5 : 1.0;
+    residual_factor_ *= largest > options_.tolerance ? 2.0 : 1.0;
     return largest;
 }
 
@@ -128,7 +128,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
         return holder_(mean) - spring_ * (mean - mean_) - force;
     };
     // A mean height to its rounding, a load well enough for load_accuracy.
-    double enough = Constants::closure * options_.tolerance;
+    double enough = Constants::mean_force_share * options_.tolerance;
     if (constraint.is_mean_height())
         enough = 1e-14 * spring_ * std::max(std::abs(constraint.value), widest_);
     else if (load != 0.0)

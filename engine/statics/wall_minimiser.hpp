@@ -44,7 +44,7 @@ public:
                   Phases& phases);
 
     /// Returns the residual after the last step, eV/Å: the largest L |z - u|.
-    double residual() const { return estimate_ / doubt_; }
+    double residual() const { return residual_factor_ * estimate_; }
     /// Computes the residual of the state as it is reported, eV/Å, and the energies in sums().
     /// Collective.
     double conclude();
@@ -75,7 +75,7 @@ private:
     double widest_ = 0.0;        ///< the largest |z - mean|, Å
     double uniform_force_ = 0.0; ///< force on each site that balances the uniform wave, eV/Å
     double estimate_;
-    double doubt_ = 1.0; ///< halved if the estimate is below the tolerance but not the residual
+    double residual_factor_ = 1.0; ///< doubled if the estimate was below the tolerance too early
     bool single_ = true;
     Waves<double> waves_;
     SiteField<double> field_;

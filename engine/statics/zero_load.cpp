@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -23,7 +22,7 @@ double height_of_strongest_attraction(SpectralBlock& block, const Interface& int
     const double stride = 0.057 * range;
     for (double height = best_height;; height -= stride) {
         const InterfaceSums sums = interface.sweep(block.lowest_layer(), block.interface_force(),
-                                                   {.rough = true, .height = height});
+                                                   {.mixed_precision = true, .height = height});
         const double force = global_sum(block.communicator(), sums.force_z);
         if (force < strongest) strongest = force, best_height = height;
         if (force > negligible || height < lowest_atom) return best_height;
@@ -55,8 +54,8 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     options.tolerance = c.tolerance * std::max(1.0, load / (c.sites() * c.scales.force));
     options.scales = c.scales;
     options.report = stop;
-    Phases own;                                                // apart from the lines of the step
-    block.begin_step(std::numeric_limits<double>::infinity()); // branches have relaxed at the end
+    Phases own;                       // apart from the lines of the step
+    block.begin_step(units::forever); // branches have relaxed at the end
     const RelaxedState s = relax(block, interface, Constraint::load(load), options, own);
     if (s.interrupted) return std::nullopt;
     if (!s.converged)

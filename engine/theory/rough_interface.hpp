@@ -28,7 +28,7 @@ theory::FlatInterface flat_interface(const Case& c);
 ///                      (separations that matter); the pair energy V as a table: at (r), energy,
 ///                      first (V'/r), second ((V'/r)'/r), zero beyond; of a wall at (separation)
 ///                      and energy per area
-/// If the renormalised theory does not apply: note, the reason, in place of the last three.
+/// The last three are replaced by a note with the reason if the renormalised theory does not apply.
 nlohmann::ordered_json renormalised_inputs(const Case& c, const theory::Spectrum& spectrum,
                                            bool realised);
 

@@ -117,35 +117,8 @@ bool theory_needs_surface(const Case& c) {
                                            c.theory.spectrum == TheorySpectrum::realised);
 }
 
-NoTheory no_theory(const Case& c) {
-    if (c.surface.kind == SurfaceKind::atoms)
-        return {"surface.kind",
-                "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
-                "are of one layer with heights, whose flat reference they divide by",
-                "take a surface with heights: self-affine, flat or file"};
-    if (c.effects.free_edges)
-        return {"surface.boundary",
-                "the substrate ends at the edges of the box (surface.boundary = \"free\"), and the "
-                "theories are of endless surfaces",
-                "take boundary = \"periodic\""};
-    if (c.effects.adhesion_map)
-        return {"interface.adhesion",
-                "the work of adhesion differs from site to site (interface.adhesion), and the "
-                "theories are of one",
-                "give interface.adhesion a number, for example the mean"};
-    constexpr const char* of_one = "the theories are of a half-space of one modulus";
-    if (c.effects.layers)
-        return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),
-                "leave block.layers out, with block.young that of the material that bends most"};
-    if (c.effects.surface_stress)
-        return {"block.surface_stress",
-                fmt::format("the surface has a tension (block.surface_stress), and {}", of_one),
-                "leave block.surface_stress out"};
-    return {};
-}
-
 TheoryCase theory_case(const Case& c, const Surface* surface) {
-    if (const NoTheory none = no_theory(c); !none.why.empty())
+    if (const NoTheory none = no_theory(c.scene, c.effects); !none.why.empty())
         throw io::SceneError(io::Problem{c.scene.positions.where(none.key),
                                          "no theory applies to this scene", none.why, none.fix});
     TheoryCase out;
@@ -202,7 +175,7 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
 }
 
 void add_theory(const Case& c, const Surface& surface, io::Result& result) {
-    if (const std::string why = no_theory(c).why; !why.empty()) {
+    if (const std::string why = no_theory(c.scene, c.effects).why; !why.empty()) {
         result.set("theory.persson.note", why);
         return;
     }

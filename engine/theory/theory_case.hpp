@@ -39,13 +39,6 @@ struct TheoryCase {
 /// Returns true if the theory of this scene uses the surface itself, not the target spectrum.
 bool theory_needs_surface(const Case& c);
 
-/// Reason why no theory applies to a scene, the key that decides, and what to do.
-struct NoTheory {
-    std::string key{}, why{}, fix{};
-};
-/// Returns the reason why no theory applies to the scene; empty if one does.
-NoTheory no_theory(const Case& c);
-
 /// Returns the contact of a scene. surface: the case's, if it has been made already (at any rms:
 /// its spectrum is scaled to that of the scene). Throws io::SceneError, also if no theory applies.
 TheoryCase theory_case(const Case& c, const Surface* surface = nullptr);

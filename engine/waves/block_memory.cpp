@@ -127,7 +127,7 @@ BlockMemory::BlockMemory(const std::vector<Branch>& branches, const Slab& slab, 
 void BlockMemory::begin(SiteField<double> w, double dt, double last) {
     w_ = std::move(w);
     dt_ = dt;
-    last_ = std::isinf(dt) ? HUGE_VAL : last;
+    last_ = std::isinf(dt) ? units::forever : last;
 }
 
 double BlockMemory::weight() const {
@@ -143,7 +143,7 @@ double BlockMemory::stiffening() const {
     return sum;
 }
 
-SiteField<double> BlockMemory::known() const {
+SiteField<double> BlockMemory::known_force() const {
     SiteField<double> sum = new_field();
     combine(-stiffening(), w_, 0.0, w_, sum);
     double of_last = 0.0;

@@ -30,9 +30,9 @@
 
 #include "decomposition/surface_transform.hpp"
 #include "engine/options/block_options.hpp"
+#include "engine/units.hpp"
 
 #include <functional>
-#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -40,7 +40,7 @@ namespace asperity {
 /// Energies of the branches, eV.
 struct BranchEnergies {
     double stored = 0.0;
-    double dissipated = 0.0; ///< in the step under way
+    double dissipated = 0.0; ///< energy dissipated in the step under way
     double error = 0.0;      ///< error of the step in time
 };
 
@@ -50,19 +50,19 @@ public:
     BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components,
                 Workspace& workspace);
 
-    /// Begins a step of dt (fs) from the displacements w. An infinite dt leaves nothing of what is
-    /// remembered. last: length of the step that this one continues, fs; infinite: it continues
+    /// Begins a step of dt (fs) from the displacements w. The branches relax completely in an
+    /// infinite one. last: length of the step that this one continues, fs; infinite: it continues
     /// none.
     void begin(SiteField<double> w, double dt, double last);
     /// Returns sum r (b + p g), by which the stiffness grows.
     double stiffening() const;
     /// Returns sum r (e h - (b + p g) w - p rho g d0), Å, which stands for the known force.
-    SiteField<double> known() const;
-    /// Returns the energies of the step if it ends at w' = `to`; square: returns u.(S u) of a
-    /// field, S the relaxed stiffness.
+    SiteField<double> known_force() const;
+    /// Function that returns u.(S u) of a field u, S the relaxed stiffness.
     using Square = std::function<double(const SiteField<double>&)>;
-    /// product: returns the sum over the sites of |a.(S b)|.
+    /// Function that returns the sum over the sites of |a.(S b)| of two fields a and b.
     using Product = std::function<double(const SiteField<double>&, const SiteField<double>&)>;
+    /// Returns the energies of the step if it ends at w' = `to`.
     BranchEnergies energies(const SiteField<double>& to, const Square& square,
                             const Product& product) const;
     /// Ends the step at w' = `to`.
@@ -94,8 +94,8 @@ private:
     std::vector<SiteField<double>> h_;
     std::vector<SiteField<double>> history_; ///< d0, c0
     SiteField<double> w_;
-    double dt_ = std::numeric_limits<double>::infinity();
-    double last_ = std::numeric_limits<double>::infinity(); ///< dt0, fs
+    double dt_ = units::forever;
+    double last_ = units::forever; ///< dt0, fs
 };
 
 } // namespace asperity

@@ -21,7 +21,7 @@ Response::Response(const BlockOptions& options, const Communicator& communicator
       waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
     if (options.branches.empty()) return;
     memory_.emplace(options.branches, slab_, components_, *workspace_);
-    known_.emplace(slab_, components_);
+    memory_force_.emplace(slab_, components_);
 }
 
 void Response::gradient(Waves<double>& g) const {
@@ -30,8 +30,9 @@ void Response::gradient(Waves<double>& g) const {
 #pragma omp parallel for schedule(static) num_threads(forces.threads())
     for (int b = 0; b < g.blocks(); ++b) {
         stiffen<double>(b, waves_.block(b), -norm, forces.get(b), g.block(b));
-        if (known_)
-            combine_row(1.0, known_->block(b), 1.0, g.block(b), static_cast<int>(g.length()));
+        if (memory_force_)
+            combine_row(1.0, memory_force_->block(b), 1.0, g.block(b),
+                        static_cast<int>(g.length()));
     }
     if (!slab_.holds_uniform()) return;
     double& mean = g.uniform(components_ - 1);
@@ -49,8 +50,8 @@ SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
 #pragma omp parallel for schedule(static) num_threads(rows.threads())
     for (int y = 0; y < slab_.rows; ++y) {
         for (int c = 0; c < components_; ++c)
-            tie_row(k, norm, moving(layer_.plane(0), c).line(y), moving(force_.plane(0), c).line(y),
-                    rows.own()[c], slab_.sites);
+            spring_force_row(k, norm, moving(layer_.plane(0), c).line(y),
+                             moving(force_.plane(0), c).line(y), rows.own()[c], slab_.sites);
         rows.put(y);
     }
     WaveBlocks<float> blocks = std::move(rows).to_blocks();
@@ -59,8 +60,9 @@ SiteRows<float> Response::respond(const Preconditioner& preconditioner) const {
         float* const waves = blocks.get(b);
         const bool uniform = b == 0 && slab_.holds_uniform();
         if (uniform) waves[normal] += static_cast<float>(mean);
-        if (known_)
-            combine_row(-1.0, known_->block(b), 1.0, waves, static_cast<int>(known_->length()));
+        if (memory_force_)
+            combine_row(-1.0, memory_force_->block(b), 1.0, waves,
+                        static_cast<int>(memory_force_->length()));
         preconditioner.apply(b, waves, 0.0, waves);
         if (uniform && constraint_.is_mean_height())
             waves[normal] = static_cast<float>(constraint_.value);
@@ -118,9 +120,9 @@ void Response::shape_forces(SiteField<T>& displacement) const {
     const std::size_t normal = slab_.block_length(components_ - 1);
     change_waves(displacement, [&](int b, T* waves) {
         stiffen<T>(b, waves, 0.0, nullptr, waves);
-        if (known_)
-            combine_row(sites * sites, known_->block(b), 1.0, waves,
-                        static_cast<int>(known_->length()));
+        if (memory_force_)
+            combine_row(sites * sites, memory_force_->block(b), 1.0, waves,
+                        static_cast<int>(memory_force_->length()));
         if (b == 0 && slab_.holds_uniform()) waves[normal] = T(0);
     });
 }
@@ -131,8 +133,8 @@ Holder Response::holder() const {
     const double sites = slab_.sites;
     if (!constraint_.is_top()) return {.force = constraint_.load() / (sites * sites)};
     Holder held{.stiffness = held_stiffness(), .at = constraint_.value};
-    if (!known_) return held;
-    if (slab_.holds_uniform()) held.force = known_->uniform(components_ - 1);
+    if (!memory_force_) return held;
+    if (slab_.holds_uniform()) held.force = memory_force_->uniform(components_ - 1);
     slab_.ranks.broadcast(std::span(&held.force, 1)); // the root holds it
     return held;
 }
@@ -225,7 +227,7 @@ double Response::twice_energy(const SiteField<double>& u) const {
     return dot(waves, su) / (sites * sites);
 }
 
-void Response::carry(double x, double y) {
+void Response::shift_displacements(double x, double y) {
     SiteField<double> field = new_field<double>();
     for (int c = 0; c < components_; ++c) {
         const PlaneView<const double> from = moving(layer_.plane(0), c);

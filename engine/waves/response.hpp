@@ -156,7 +156,7 @@ public:
     /// Replaces the displacements by those at (x, y) from each site, Å, by a Fourier shift: they
     /// then stand as they did over a substrate under which the block was moved by this. The waves
     /// follow in apply_constraint(). Collective.
-    void carry(double x, double y);
+    void shift_displacements(double x, double y);
     /// Shifts the sites along z, after they were moved through moving_layer(), to a held mean
     /// height. Collective.
     void restore_mean_height();
@@ -203,9 +203,10 @@ protected:
     Constraint constraint_;
     VectorField<double> layer_, force_;
     Waves<double> waves_;
-    std::optional<BlockMemory> memory_;  ///< with branches
-    std::optional<Waves<double>> known_; ///< with branches: their known force, sign reversed, eV/Å
-    double factor_ = 1.0;                ///< factor of branches on S
+    std::optional<BlockMemory> memory_; ///< memory of the branches; empty: an elastic block
+    /// Force of the branches at the start of the step, with its sign reversed, eV/Å; empty: none
+    std::optional<Waves<double>> memory_force_;
+    double factor_ = 1.0;           ///< factor of branches on S
     std::optional<double> machine_; ///< stiffness of the spring that holds the top plane, eV/Å^2
 
 private:

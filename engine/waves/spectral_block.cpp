@@ -19,15 +19,15 @@ void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
     memory_->begin(from_top(), dt, last);
     const double sites = slab_.sites;
-    to_waves(memory_->known(), transform<double>(), *known_);
-    combine(0.0, *known_, 1.0 / (sites * sites), *known_);
-    stiffen_relaxed(*known_);
+    to_waves(memory_->known_force(), transform<double>(), *memory_force_);
+    combine(0.0, *memory_force_, 1.0 / (sites * sites), *memory_force_);
+    stiffen_relaxed(*memory_force_);
     factor_ = 1.0 + memory_->stiffening();
 }
 
 std::size_t SpectralBlock::bytes() const {
     std::size_t sum = table_bytes() + layer_.bytes() + force_.bytes() + waves_.bytes();
-    if (memory_) sum += memory_->bytes() + known_->bytes();
+    if (memory_) sum += memory_->bytes() + memory_force_->bytes();
     return sum;
 }
 

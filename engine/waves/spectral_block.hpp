@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 //
 // The elastic block at rest as a path leads it: what is held, where the block stands, and the steps
-// in time of a viscoelastic one. How it answers, its base class says (response.hpp).
+// in time of a viscoelastic one. response.hpp describes how the block responds to forces.
 #pragma once
 
+#include "engine/units.hpp"
 #include "engine/waves/response.hpp"
 
-#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -41,7 +41,7 @@ public:
     /// are; an infinite step leaves the block relaxed, without memory. last: length of the step
     /// that this one continues, fs; infinite: it continues none. Does nothing without branches.
     /// Collective.
-    void begin_step(double dt, double last = std::numeric_limits<double>::infinity());
+    void begin_step(double dt, double last = units::forever);
     /// Ends the step of the branches at the current displacements.
     void end_step() {
         if (memory_) memory_->end(from_top());

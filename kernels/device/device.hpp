@@ -25,6 +25,7 @@
 #include "kernels/thermal_noise.hpp"
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace asperity {
@@ -76,7 +77,7 @@ struct AdvanceSum {
 
 /// Arguments of every launch, passed by value.
 struct DeviceStep {
-    const DeviceLevel* levels = nullptr; ///< in device memory
+    const DeviceLevel* levels = nullptr; ///< levels, in device memory
     const LevelKicks* kicks = nullptr;   ///< kicks of each level, in device memory
     NodeRanges moving;                   ///< nodes that move
     NodeRanges faces;                    ///< nodes of upper planes and one beyond
@@ -137,8 +138,8 @@ struct EmulatedSettings {
     /// Order of the nodes of a launch, which run one after the other: their own (0), or one of many
     /// others. If a result depends on the order, two threads access the same number.
     unsigned order = 0;
-    std::size_t memory = 0;    ///< memory of the device, bytes; 0: that of the machine
-    long long lost_after = -1; ///< number of launches after which calls fail; negative: none
+    std::size_t memory = 0; ///< memory of the device, bytes; 0: that of the machine
+    std::optional<long long> lost_after = {}; ///< number of launches after which calls fail
 };
 EmulatedSettings& emulated_settings();
 

@@ -64,7 +64,7 @@ void open_memory(bool open) {
 }
 
 const char* count_launch() {
-    if (settings.lost_after > 0) --settings.lost_after;
+    if (settings.lost_after > 0) --*settings.lost_after;
     return loss();
 }
 

@@ -96,7 +96,7 @@ struct Forces {
     DeviceStep s;
     PairTerms<Scalar, double, P> pair;
     Offsets<double> offsets;
-    Pair<P> reference; ///< for sites that the tables do not cover
+    Pair<P> reference; ///< formulas for sites that the tables do not cover
     Tail<P> tail;
 
     Forces(const DeviceStep& step, const P& potential)
@@ -126,7 +126,7 @@ private:
                                            (s.sites.y0 + y + 0.5) * s.sites.spacing + u.y(x, y),
                                            s.sites.reference_height + u.z(x, y));
             total = {{p.force[0], p.force[1], p.force[2]}, p.energy, p.nearest_r2};
-        } else if (reach.from_rest > 0.0) {
+        } else if (reach.any()) {
             total = sum_pairs(x, y, site, reach);
         }
         SiteForce& force = total.force;

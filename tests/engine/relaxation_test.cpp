@@ -99,7 +99,7 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
     const auto energy = [&](bool rough) {
         return interface
             .sweep(block.lowest_layer(), block.interface_force(),
-                   {.observe = true, .rough = rough})
+                   {.observe = true, .mixed_precision = rough})
             .energy.value();
     };
     Phases phases;

@@ -134,20 +134,24 @@ TEST(SurfaceRows, TiesAreSpringsAndForces) {
     std::mt19937_64 random(8);
     const auto u = numbers<double>(n, random), f = numbers<double>(n, random);
     std::vector<float> to(static_cast<std::size_t>(n));
-    tie_row(0.7, 0.25, u.data(), f.data(), to.data(), n);
+    spring_force_row(0.7, 0.25, u.data(), f.data(), to.data(), n);
     for (std::size_t i = 0; i < to.size(); ++i)
         EXPECT_NEAR(to[i], 0.25 * (0.7 * u[i] + f[i]), 1e-7);
 }
 
 /// Sites that know their targets, moved by the kernel, against one site written out.
 TEST(SurfaceRows, EverySiteKeepsItsOwnMomentumAndGain) {
-    const BallRule rule{.keep = 0.7f, .cut = 0.5f, .raise = 1.25f, .most = 2.0f, .bound = 0.5f};
+    const HeavyBallRule rule{.momentum_decay = 0.7f,
+                             .step_cut = 0.5f,
+                             .step_growth = 1.25f,
+                             .step_size_max = 2.0f,
+                             .move_max = 0.5f};
     const int n = 67; // with a rest
     std::mt19937_64 random(10);
     for (int components : {1, 3}) {
         std::vector<float> target[3], momentum[3], step_size(n);
         std::vector<double> u[3];
-        BallRow row{};
+        HeavyBallRow row{};
         for (int c = 0; c < components; ++c) {
             target[c] = numbers<float>(n, random);
             momentum[c] = numbers<float>(n, random);
@@ -163,7 +167,7 @@ TEST(SurfaceRows, EverySiteKeepsItsOwnMomentumAndGain) {
         const auto m_before = std::to_array({momentum[0], momentum[1], momentum[2]});
         const auto u_before = std::to_array({u[0], u[1], u[2]});
         const auto step_size_before = step_size;
-        const float longest = move_row(row, rule, components, n);
+        const float longest = heavy_ball_row(row, rule, components, n);
 
         double longest_way2 = 0.0;
         int backwards = 0, capped = 0, clipped = 0;

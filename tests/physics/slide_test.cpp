@@ -49,10 +49,9 @@ struct Slider {
         p.scales = test::paper_scales();
         p.velocity = velocity;
         p.over_wall = true;
-        p.depth =
-            std::visit([](const auto& law) { return law.reach(); }, *interface.options().wall) > 0.0
-                ? 1.0
-                : HUGE_VAL;
+        if (std::visit([](const auto& law) { return law.reach(); }, *interface.options().wall) >
+            0.0)
+            p.binding_energy = 1.0;
         return {block, interface, p};
     }
     double edge() const { return options.edge(); }

@@ -70,7 +70,7 @@ def test_a_flat_layer_is_the_flat_surface(place):
 
 def test_the_scene_that_comes_with_asperity(stepped, data):
     command("check", stepped, says="a unit of measure")
-    command("plan", stepped, says="the theory is of one layer with heights")
+    command("plan", stepped, says="the theories are of one layer with heights")
     Path("stepped.data").write_text(data)
     command("convert", "stepped.data", "again.h5")
     command("surface", stepped, "--out", "again", "--set", "surface.file=again.h5")

@@ -16,6 +16,9 @@ REFUSED = ("of whether what where below from under as told both like likewise no
            "it its this that these those they which who why when how").split()
 # Words with which no paragraph at the head of a file begins.
 HEADLESS = "of whether what where below from under as whose which why how when".split()
+# Prepositions and the like with which no documentation begins: its noun would be another comment's.
+DANGLING = ("above after at because before behind beside between beyond by during except for if in instead less more on only otherwise over "
+            "per since so to towards until with within without").split()
 VERBS = set("""
 adds allocates allows appends asks begins brings builds calls catches checks claims clears closes collects combines compares computes
 continues converts copies counts creates cuts deletes derives displaces draws drifts ends estimates exchanges explains
@@ -24,9 +27,11 @@ parses passes places plans prints puts reads records refuses relaxes removes ren
 resumes returns rounds runs saves searches selects sends sets shifts shows simulates solves starts stops stores sums sweeps takes tells throws
 transfers transforms unrolls updates waits writes
 advances binds carries completes concludes follows goes indents integrates limits notes prepares spells
-averages chooses escapes exports folds rehearses separates splits subtracts yields
+averages chooses escapes exports folds rehearses releases separates splits subtracts yields
 """.split())
 
+# A verb whose object is in another comment.
+POINTING = re.compile(r"\w+ (that|those|it|them|likewise|the same)( (of|to|with|as|be|for)\b|[.,;]|$)")
 COMMENT = re.compile(r"^\s*//(/?<?)(?!/)\s?(.*)$")
 
 
@@ -97,8 +102,10 @@ def problems_of(text, name):
         if not first or "SPDX" in words:
             first = None
         word = first[1].lower() if first else ""
-        if word in REFUSED:
+        if word in REFUSED or documents and word in DANGLING:
             yield f"{name}:{line}: begins with '{first[1]}': {words[:70]}"
+        elif documents and word in VERBS and POINTING.match(words):
+            yield f"{name}:{line}: points to another comment: {words[:70]}"
         elif documents and declaration and is_function(declaration) and word not in VERBS:
             yield f"{name}:{line}: begins with no verb: {words[:70]} | {declaration[:60]}"
 
@@ -120,6 +127,9 @@ def test_comments_of_headers_and_sources_are_sentences():
     "struct A {\n    double edge; ///< of the box, Å\n};",
     "/// A row of forces.\ntemplate <class T>\nASPERITY_INLINE void row(const T* from, std::array<double, 2> to) {",
     "/// Force on rows.\nvoid (*forces)(const Level& level, int y0);",
+    "struct A {\n    bool made; ///< by this object\n};",
+    "/// Returns the same to be written to.\nint* arrays();",
+    "/// For a base unit, a value of it.\nconstexpr int examples[] = {};",
     "// Below the floor.\nint x = 0;"])
 def test_a_comment_that_is_no_sentence_is_refused(text):
     assert list(problems_of(text, "planted.hpp"))

@@ -8,11 +8,13 @@
 #include "engine/statics/quasistatic.hpp"
 #include "support/cases.hpp"
 
+#include <boost/math/tools/minima.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -192,12 +194,10 @@ struct OneDimension {
         double best = from;
         for (double z = from; z < to; z += 1e-3)
             if (sign * top(z) < sign * top(best)) best = z;
-        double a = best - 1e-3, b = best + 1e-3;
-        for (int i = 0; i < 60; ++i) {
-            const double g = (std::sqrt(5.0) - 1.0) / 2.0, x = b - g * (b - a), y = a + g * (b - a);
-            (sign * top(x) < sign * top(y) ? b : a) = sign * top(x) < sign * top(y) ? y : x;
-        }
-        return 0.5 * (a + b);
+        return boost::math::tools::brent_find_minima([&](double z) { return sign * top(z); },
+                                                     best - 1e-3, best + 1e-3,
+                                                     std::numeric_limits<double>::digits)
+            .first;
     }
     /// The equilibrium at this top between from and to.
     double other(double top_at, double from, double to) const {

@@ -88,12 +88,28 @@ UNFINISHED = "unfinished"
 Inputs = Iterable["str | os.PathLike"]
 
 
+# The digest of the program (io/files.hpp), which files of the program and of Python end in: zlib's CRC-32. It is computed here
+# too, because files are read without the compiled module.
+
+
+def _crc(file: IO[bytes], length: int | None = None) -> int:
+    """Computes the CRC-32 of the first `length` bytes of an open file; None: of all."""
+    file.seek(0)
+    value, left = 0, length
+    while part := file.read(1 << 20 if left is None else min(left, 1 << 20)):
+        value = zlib.crc32(part, value)
+        left = None if left is None else left - len(part)
+    return value
+
+
+def digest_text(value: int) -> str:
+    """Returns a digest as texts of JSON have it: "crc32:" and eight hexadecimal digits."""
+    return f"crc32:{value:08x}"
+
+
 def _digest_of(path: Path) -> str:
     with open(path, "rb") as file:
-        value = 0
-        while part := file.read(1 << 20):
-            value = zlib.crc32(part, value)
-    return f"crc32:{value:08x}"
+        return digest_text(_crc(file))
 
 
 def _record(place: Path) -> dict[str, str] | None:
@@ -466,7 +482,7 @@ _HDF5_END = b"asperity digest\n"
 def sealed_json(members: dict[str, Any]) -> str:
     """Returns an object as text, with its digest."""
     text = json.dumps(members, indent=2, ensure_ascii=False).removesuffix("\n}")
-    return f'{text},\n  "digest": "crc32:{zlib.crc32(text.encode()):08x}"\n}}\n'
+    return f'{text},\n  "digest": "{digest_text(zlib.crc32(text.encode()))}"\n}}\n'
 
 
 def json_is_whole(content: bytes) -> bool | None:
@@ -483,14 +499,9 @@ def hdf5_digest(path: Path) -> int | None:
         return int.from_bytes(end[24:], "little") if end.startswith(_HDF5_END) else None
 
 
-def _digest(file, length: int) -> bytes:
+def _digest(file: IO[bytes], length: int) -> bytes:
     """Computes the digest of the first bytes of a file: their number and their CRC-32."""
-    file.seek(0)
-    value, left = 0, length
-    while left and (part := file.read(min(left, 1 << 20))):
-        value = zlib.crc32(part, value)
-        left -= len(part)
-    return length.to_bytes(8, "little") + value.to_bytes(8, "little")
+    return length.to_bytes(8, "little") + _crc(file, length).to_bytes(8, "little")
 
 
 def seal_hdf5(path: Path) -> None:

@@ -429,7 +429,7 @@ class Result(Values, Numbers):
         known, path = self.text("run.file_digest"), self.directory / "run.h5"
         with contextlib.suppress(OSError):
             there = store.hdf5_digest(path)
-            return bool(known) and there is not None and known != f"crc32:{there:08x}"
+            return bool(known) and there is not None and known != store.digest_text(there)
         return False
 
     def _open(self, name: str, unread: str = "") -> None:

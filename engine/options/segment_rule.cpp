@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/scene/segment_rule.hpp"
+#include "engine/options/segment_rule.hpp"
 
 #include "engine/units.hpp"
 #include "io/error.hpp"
