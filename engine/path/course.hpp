@@ -52,8 +52,8 @@ private:
     std::size_t segment_ = 0;     ///< number of the segment under way
     bool begun_ = false;
     double start_time_ = 0.0;    ///< simulated time when the path was first seen, fs
-    StepRecord first_{};         ///< at the beginning of the segment
-    double first_seconds_ = 0.0; ///< then
+    StepRecord first_{};         ///< record at the beginning of the segment
+    double first_seconds_ = 0.0; ///< wall time of the path at first_, s
     bool whole_ = false;         ///< the segment was seen from its beginning
     double strongest_ = 0.0;     ///< largest attraction of an approach so far, eV/Å
     double part_ = 0.0;          ///< part of the segment that is done; it never falls
