@@ -107,7 +107,8 @@ TEST(Units, MistakesAreExplained) {
 }
 
 TEST(Units, NoUnits) {
-    for (const char* text : {"m^", "m^x", "m/", "/s", "m//s", "m⁻", "kÅ", "mm m x", "m^0", "m0", "m12", "m--1", "-2", "2"})
+    for (const char* text : {"m^", "m^x", "m/", "/s", "m//s", "m⁻", "kÅ", "mm m x", "m^0", "m0",
+                             "m12", "m--1", "-2", "2"})
         EXPECT_FALSE(parse_unit(text).has_value()) << text;
     EXPECT_EQ(parse_unit("kg m^-1 s^-2")->dimension, parse_unit("Pa")->dimension);
     EXPECT_EQ(parse_unit("kg·m²/s²")->dimension, parse_unit("eV")->dimension);
