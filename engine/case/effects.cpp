@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace asperity {
 
@@ -138,36 +139,36 @@ Effects effects_of(const Case& c) {
     e.checkpoints = {s.output.checkpoint > 0.0,
                      fmt::format("output.checkpoint = {:.4g} s of wall time", s.output.checkpoint)};
     const NoTheory none = no_theory(s, e);
-    e.theory = {none.why.empty(),
-                none.why.empty() ? "always: Persson's theory of this scene" : none.why};
+    e.theory = {none.why.empty(), none.why.empty() ? "always: Persson's theory of this scene"
+                                                   : none.key + ": the theories are " + none.limit};
     e.device = device_effect(c);
     return e;
 }
 
 NoTheory no_theory(const Scene& scene, const Effects& effects) {
+    const auto none = [](std::string key, std::string what, std::string limit, std::string fix) {
+        std::string why = fmt::format("{} ({}), and the theories are {}", what, key, limit);
+        return NoTheory{std::move(key), std::move(why), std::move(limit), std::move(fix)};
+    };
+    constexpr const char* one_modulus = "of a half-space of one modulus";
     if (scene.surface.kind == SurfaceKind::atoms)
-        return {"surface.kind",
-                "the substrate's atoms stand anywhere (surface.kind = \"atoms\"), and the theories "
-                "are of one layer with heights, whose flat reference they divide by",
-                "take a surface with heights: self-affine, flat or file"};
+        return none("surface.kind", "the substrate's atoms stand anywhere",
+                    "of one layer with heights",
+                    "take a surface with heights: self-affine, flat or file");
     if (effects.free_edges)
-        return {"surface.boundary",
-                "the substrate ends at the edges of the box (surface.boundary = \"free\"), and the "
-                "theories are of endless surfaces",
-                "take boundary = \"periodic\""};
+        return none("surface.boundary", "the substrate ends at the edges of the box",
+                    "of endless surfaces", "take boundary = \"periodic\"");
     if (effects.adhesion_map)
-        return {"interface.adhesion",
-                "the work of adhesion differs from site to site (interface.adhesion), and the "
-                "theories are of one",
-                "give interface.adhesion a number, for example the mean"};
-    constexpr const char* of_one = "the theories are of a half-space of one modulus";
+        return none("interface.adhesion", "the work of adhesion differs from site to site",
+                    "of one work of adhesion",
+                    "give interface.adhesion a number, for example the mean");
     if (effects.layers)
-        return {"block.layers", fmt::format("the block has layers (block.layers), and {}", of_one),
-                "leave block.layers out, with block.young that of the material that bends most"};
+        return none(
+            "block.layers", "the block has layers", one_modulus,
+            "leave block.layers out, with block.young that of the material that bends most");
     if (effects.surface_stress)
-        return {"block.surface_stress",
-                fmt::format("the surface has a tension (block.surface_stress), and {}", of_one),
-                "leave block.surface_stress out"};
+        return none("block.surface_stress", "the surface has a tension", one_modulus,
+                    "leave block.surface_stress out");
     return {};
 }
 

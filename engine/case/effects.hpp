@@ -59,9 +59,11 @@ struct Effects {
 /// Returns Effects::dynamic, which the options of the block need before the other effects are
 /// known.
 Effect dynamic_effect(const Case& c);
-/// Reason why no theory applies to a scene, the key that decides, and what to do.
+/// Reason why no theory applies to a scene, with the key that decides and what to do.
 struct NoTheory {
-    std::string key{}, why{}, fix{};
+    std::string key{}, why{};
+    std::string limit{}; ///< contacts that the theories are of: "of endless surfaces"
+    std::string fix{};
 };
 /// Returns the reason why no theory applies to a scene with these effects; empty if one does.
 NoTheory no_theory(const Scene& scene, const Effects& effects);
