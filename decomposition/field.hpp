@@ -28,7 +28,8 @@ inline void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
     const auto at = reinterpret_cast<std::uintptr_t>(data);
     const auto begin = (at + page - 1) / page * page, end = (at + bytes) / page * page;
-    if (begin < end) madvise(reinterpret_cast<void*>(begin), end - begin, MADV_HUGEPAGE);
+    if (begin < end)
+        madvise(static_cast<std::byte*>(data) + (begin - at), end - begin, MADV_HUGEPAGE);
 #endif
 }
 

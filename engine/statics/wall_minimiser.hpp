@@ -63,7 +63,6 @@ private:
 
     Response& block_;
     const Interface& interface_;
-    double height_;
     const RelaxOptions& options_;
     Phases& phases_;
     double spring_ = 0.0;        ///< L, eV/Å^2

@@ -190,6 +190,7 @@ protected:
     }
     std::vector<PlaneView<const double>> moving_planes(const VectorField<double>& field) const {
         std::vector<PlaneView<const double>> planes;
+        planes.reserve(static_cast<std::size_t>(components_));
         for (int c = 0; c < components_; ++c)
             planes.push_back(moving(field.plane(0), c));
         return planes;
