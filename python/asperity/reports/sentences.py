@@ -213,6 +213,14 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if contact is not None:
             add(percent(contact), "", f"of the sites in contact {at}",
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
+        slide = next((s for s in reversed(run.listed("segments", dict)) if {"friction_coefficient", "steady_contact_fraction"} <= set(s)), None)
+        if slide is not None:
+            theories = [run.number(f"theory.sliding.{name}") for name in ("friction_coefficient", "contact_fraction")]
+            error = slide.get("friction_coefficient_error")
+            add(f"{slide['friction_coefficient']:.3g}" + (f" ± {error:.1g}" if error else ""), "", "friction coefficient of the slide",
+                f"Persson’s theory of rubber friction: {theories[0]:.3g}" if theories[0] is not None else "")
+            add(percent(slide["steady_contact_fraction"]), "", "of the sites in contact while it slides",
+                f"Persson’s theory of rubber friction: {percent(theories[1])}" if theories[1] is not None else "")
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
