@@ -44,6 +44,9 @@ EXPORTS = {
                        "scale": (1 / (2 * math.pi), 1e-3)},
     "decimal commas between blanks": {"names": "omega (rad/s)  E' / MPa  E'' / MPa", "separator": "  ",
                                       "decimal": ","},
+    "units behind a stroke": {"names": "#f_red/Hz;E'/MPa;E''/MPa;tan(d)", "separator": ";", "scale": (1 / (2 * math.pi), 1.0), "extra": (0.5,)},
+    "quotes": {"names": '"Frequency (rad/s)","Storage Modulus - E\' (MPa)",E" (MPa)', "separator": ","},
+    "a unit behind each name": {"names": "w (rad/s) E' (MPa) E'' (MPa)", "separator": " "},
     "a comment": {"names": "# T = 20 °C\n# omega (rad/s)   E' (kPa)   E\" (kPa)", "separator": " ", "scale": (1.0, 1e3)},
     "shift factors": {"names": "Temp. (°C); Frequency (rad/s); E' (MPa); E'' (MPa); aT", "extra": ()},
 }

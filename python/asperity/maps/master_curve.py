@@ -93,7 +93,7 @@ def _cells(line: str, separator: str | None) -> list[str]:
     else:
         found = line.split(separator) if separator else re.split(r"\s{2,}", line.strip())
         if separator is None and len(found) < 3:
-            found = line.split()
+            found = re.split(r"\s+(?![\[(])", line.strip())  # a unit in brackets belongs to the name before it
     return [re.sub(r'^"(.*)"$', r"\1", cell.strip()).strip() for cell in found]
 
 
@@ -126,9 +126,10 @@ def _unit(text: str) -> str:
 def _column(cell: str, below: str) -> _Column:
     """Returns the meaning of a column. below: the cell of the next line, which may be the unit."""
     text = _plain(cell)
-    written = re.search(r"[\[(]([^\])]*)[\])]\s*$", text) or re.search(r"(?:/|,|\bin\b)\s+(\S.*)$|\s/\s*(\S+)$", text)
-    unit = next((u for part in (written.groups() if written else ()) if part and (u := _unit(part))), "")
-    name = text[:written.start()] if written and (unit or text.endswith((")", "]"))) else text
+    written = [*re.finditer(r"[\[(]([^\])]*)[\])]\s*$", text), *re.finditer(r"(?:/|,|\bin\b)\s*(?=(\S.*)$)", text)]
+    named = next((one for one in written if _unit(one[1])), None)
+    unit = _unit(named[1]) if named else ""
+    name = text[:named.start()] if named else text[:written[0].start()] if written and text.endswith((")", "]")) else text
     if not unit and (last := text.rsplit(None, 1))[1:] and _unit(last[1]):
         name, unit = last[0], _unit(last[1])
     unit = unit or _unit(re.sub(r"^[\[(](.*)[\])]$", r"\1", below.strip()))
@@ -137,14 +138,14 @@ def _column(cell: str, below: str) -> _Column:
     low = name.lower().strip(" ()_:")
     letter = re.search(r"(?<![a-z])([eg])'", low)
     kind = letter[1].upper() if letter else "G" if "shear" in low else "E" if re.search(r"young|tensile", low) else ""
-    frequency = re.search(r"freq|omega|ω|^[fw]$", low)
+    frequency = re.search(r"freq|omega|ω|^[fw](_?red)?$", low)
     if "tan" in low:
         role = "tan"
     elif re.search(r"''|loss|verlust", low):
         role = "loss"
     elif re.search(r"'|storage|speicher", low):
         role = "storage"
-    elif frequency and re.search(r"reduc|shifted|a_?t\b", low):
+    elif frequency and re.search(r"red|shifted|a_?t\b", low):
         role = "reduced"
     elif frequency:
         role = "angular" if re.search(r"omega|ω|angular|kreis", low) else "frequency"
