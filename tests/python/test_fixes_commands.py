@@ -20,6 +20,7 @@ import pytest
 import asperity
 import asperity.terminal
 import test_fixes_files
+import test_fixes_rubber
 import test_fixes_scene
 from asperity.files import store
 from asperity.results import result
@@ -28,7 +29,7 @@ from asperity.studies import grid, states
 from conftest import unsealed
 from following import ask, followed, not_followed
 
-OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES
+OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES + test_fixes_rubber.SOURCES
 EXCUSED = {
     "MPI connects none of them": "a launcher of another MPI",
     "MB of device memory": "a device that fails",

@@ -16,7 +16,8 @@ from asperity.maps.convert import convert, read_heights
 from asperity.studies import map_scene
 from following import ask, followed, messages_in, not_followed
 
-SOURCES = ("io/map_", "io/height_map", "io/atoms_file", "io/scene_file", "io/hdf5_numbers", "asperity/maps/", "map_scene.py")
+SOURCES = ("io/map_", "io/height_map", "io/atoms_file", "io/scene_file", "io/hdf5_numbers", *(f"asperity/maps/{name}.py" for name in (
+    "arrays", "atoms", "channels", "convert", "height_map", "missing_waves", "text")), "map_scene.py")
 EXCUSED = {
     "is larger than the memory": "a machine's memory",
     "free memory, or raise ulimit -u": "a machine's memory",

@@ -16,6 +16,8 @@ from following import ask, followed, not_followed
 SOURCES = ("engine/scene/", "engine/options/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
            "io/scene_reader", "io/scene_toml", "io/table_file", "io/units")
 EXCUSED = {
+    "give the path of a file that `asperity prony` made": "followed in test_fixes_rubber.py",
+    "make the file anew by `asperity prony`": "followed in test_fixes_rubber.py",
     "the attraction did not reach the pull": "followed in test_fixes_commands.py",
     "its surface does not fit into memory": "a machine's memory",
     "has what is no number": "the reader of tables refuses it before",
