@@ -172,7 +172,7 @@ void Communicator::barrier() const {
     if (mpi_) MPI_Barrier(mpi_->all);
 }
 
-bool Communicator::all_come(double seconds) const {
+bool Communicator::all_arrive(double seconds) const {
     if (!mpi_) return true;
     using Clock = std::chrono::steady_clock;
     const Clock::time_point start = Clock::now();

@@ -78,7 +78,7 @@ public:
     /// Returns true if all ranks call this function within so many seconds. It has messages of its
     /// own, so other ranks may be in another of these functions meanwhile. After false only abort()
     /// may be called.
-    bool all_come(double seconds) const;
+    bool all_arrive(double seconds) const;
     /// Returns the ranks that give the same colour, in the same order. The result lasts until MPI
     /// ends.
     Communicator split(int colour) const;
@@ -91,7 +91,7 @@ public:
 
 private:
     friend class ParallelSession;
-    /// MPI's communicators: of all ranks, of those of this machine, of all_come().
+    /// MPI's communicators: of all ranks, of those of this machine, of all_arrive().
     struct Mpi;
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
     void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,

@@ -26,13 +26,13 @@ struct SubstrateAccess<CellSubstrate> {
     double datum() const { return from.datum; }
     double margin() const { return from.offset_margin; }
     const SubstrateAtoms& exact() const { return from.atoms; }
-    struct Some {
+    struct CellReach {
         double from_rest; ///< distance within which atoms may matter, Å
         bool close;       ///< a pair may be nearer than it can be
         bool any() const { return from_rest > 0.0; }
     };
-    ASPERITY_INLINE Some reach(int x, int y, const BlockOfSites& site,
-                               const PairTable& pairs) const {
+    ASPERITY_INLINE CellReach reach(int x, int y, const BlockOfSites& site,
+                                    const PairTable& pairs) const {
         const double highest =
             from.highest[static_cast<std::ptrdiff_t>(y) * from.blocks + x / interface_block];
         const double gap = site.lowest_z - highest;

@@ -75,7 +75,7 @@ int report(const std::exception& error, bool json, const Communicator& world) {
 /// Ends the program by an error that every rank meets alike, or the root for all of them: they
 /// agree on the code. If not all ranks come, the others wait for this one elsewhere.
 int end_alike(const std::string& what, int code, const Communicator& world) {
-    if (!world.all_come(patience)) {
+    if (!world.all_arrive(patience)) {
         fmt::print(stderr,
                    "rank {}: {}\n    why: other ranks do not meet this, and wait for it: are the "
                    "scene and its files on every machine?\n",

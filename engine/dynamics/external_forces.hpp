@@ -26,7 +26,7 @@ public:
     /// Adds the forces to those of the interface on the block, before the kick of a step.
     void add_to(Block& block);
     /// Notes the power after the kick.
-    void look_after_kick(const Block& block) { after_ = power(block); }
+    void measure_power_after_kick(const Block& block) { after_ = power(block); }
     /// Returns the work between the step before and this one, eV. Collective.
     double work_of_step(const Communicator& ranks, double dt);
 

@@ -72,7 +72,7 @@ void Simulation::step_on_processor(bool observe) {
     phases_.during(Phase::observe, [&] { collect(observe); });
     phases_.during(Phase::advance, [&] { advance_block(observe); });
     if (thermostat_) phases_.during(Phase::thermostat, [&] { add_noise(); });
-    if (external_ && external_->act()) external_->look_after_kick(block_);
+    if (external_ && external_->act()) external_->measure_power_after_kick(block_);
     phases_.during(Phase::exchange, [&] { block_.exchange(); });
 }
 
@@ -130,9 +130,9 @@ ThermalNoise Simulation::noise(long long step) const {
     return thermostat_->noise(options_.dt, step, top_.machine.z);
 }
 
-void Simulation::take_to_step(const VectorPlane<double>& v) const {
+void Simulation::set_velocities_at_step(const VectorPlane<double>& v) const {
     if (thermostat_)
-        thermostat_->take_to_step(block_, noise(record_.step), options_.damping_from, v);
+        thermostat_->set_velocities_at_step(block_, noise(record_.step), options_.damping_from, v);
 }
 
 void Simulation::advance_block(bool observe) {

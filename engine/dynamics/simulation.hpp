@@ -52,7 +52,7 @@ public:
     /// Replaces v, the mean of the lowest layer's velocities half a step before and after now(), by
     /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
     /// noise have acted (thermostat.hpp).
-    void take_to_step(const VectorPlane<double>& v) const;
+    void set_velocities_at_step(const VectorPlane<double>& v) const;
     const EnergyBalance& balance() const { return ledger_.balance(); }
     const SimulationOptions& options() const { return options_; }
     /// Returns the top plane at the next step.

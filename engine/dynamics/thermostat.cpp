@@ -82,8 +82,8 @@ NoiseSums Thermostat::kick(Block& block, const ThermalNoise& noise, double dampi
 }
 
 /// Computes p = w + g (w - V) from v = w + add/2, with w of push() (node_noise.hpp).
-void Thermostat::take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
-                              const VectorPlane<double>& v) const {
+void Thermostat::set_velocities_at_step(const Block& block, const ThermalNoise& noise,
+                                        double damping_from, const VectorPlane<double>& v) const {
     const Block::Level& level = block.levels().front();
     if (level.first_plane_from(damping_from, block.options().thickness) > 0) return;
     const double half = 0.5 * noise_speed(noise, level.mass(0)), g = noise.drag - 1.0;

@@ -48,8 +48,8 @@ public:
     /// nodes and of the kinetic energy at the whole step, eV.
     NoiseSums kick(Block& block, const ThermalNoise& noise, double damping_from) const;
     /// Replaces v, the mean of v(n-1/2) and v(n+1/2) of the lowest layer, by p(n), Å/fs.
-    void take_to_step(const Block& block, const ThermalNoise& noise, double damping_from,
-                      const VectorPlane<double>& v) const;
+    void set_velocities_at_step(const Block& block, const ThermalNoise& noise, double damping_from,
+                                const VectorPlane<double>& v) const;
 
 private:
     double temperature_, damping_;

@@ -122,7 +122,7 @@ public:
     virtual VectorPlane<const double> layer() const = 0;
     /// Returns the velocities of the lowest layer at now(), Å/fs: the mean of those half a step
     /// before and after; at a temperature those before friction and noise act
-    /// (Simulation::take_to_step()). Dynamic paths only.
+    /// (Simulation::set_velocities_at_step()). Dynamic paths only.
     virtual VectorPlane<const double> velocities() const { return {}; }
     /// Returns the interface as it was at now().
     virtual const Interface& interface() const = 0;

@@ -15,7 +15,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
       interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, !c.effects.lateral) {
     if (c.effects.spring) block_.set_machine(c.simulation.drive.stiffness);
-    nowhere_.mean_height = interface_.reference_height();
+    before_first_.mean_height = interface_.reference_height();
 }
 
 void StaticPath::make_points() {

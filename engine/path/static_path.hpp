@@ -19,7 +19,7 @@ public:
     /// Places the block beyond the interaction range. Collective.
     StaticPath(const Case& c, const Surface& surface, const Communicator& ranks);
 
-    const StepRecord& now() const override { return points_ ? points_->now() : nowhere_; }
+    const StepRecord& now() const override { return points_ ? points_->now() : before_first_; }
     long long steps() const override { return now().step; }
     std::size_t segment() const override { return concluded(); }
     VectorPlane<const double> layer() const override { return block_.lowest_layer(); }
@@ -74,7 +74,7 @@ private:
     Interface interface_;
     SpectralBlock block_;
     std::optional<QuasistaticPath> points_;
-    StepRecord nowhere_; ///< record before the first point
+    StepRecord before_first_; ///< record before the first point
     double top_restored_ = 0.0;
 };
 

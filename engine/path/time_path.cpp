@@ -65,7 +65,7 @@ void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
             for (int y = 0; y < to->ny; ++y)
                 for (int x = 0; x < to->nx; ++x)
                     (*to)(x, y) = 0.5 * ((*to)(x, y) + (*from)(x, y));
-        simulation_.take_to_step(v);
+        simulation_.set_velocities_at_step(v);
     }
     if (now.step == 0) {
         const double v = case_.simulation.drive.velocity;

@@ -24,19 +24,19 @@ Interruption Interruptions::now() const {
     return static_cast<Interruption>(std::lround(ranks_.max(static_cast<double>(here()))));
 }
 
-bool Interruptions::look_is_due() {
-    if (--steps_to_look_ > 0) return false;
+bool Interruptions::check_is_due() {
+    if (--steps_to_check_ > 0) return false;
     // The root's clock decides how many steps are about half a second.
     constexpr double most = 1000.0;
     std::array<double, 1> stride = {1.0};
     if (ranks_.root()) {
-        const double each = (seconds() - last_look_) / static_cast<double>(looked_every_);
+        const double each = (seconds() - last_check_) / static_cast<double>(check_period_);
         stride[0] = std::clamp(
             std::floor(std::min(0.5, checkpoint_.value_or(0.5)) / std::max(each, 1e-9)), 1.0, most);
     }
     ranks_.broadcast(std::span<double>(stride));
-    steps_to_look_ = looked_every_ = static_cast<long long>(stride[0]);
-    looked();
+    steps_to_check_ = check_period_ = static_cast<long long>(stride[0]);
+    checked();
     return true;
 }
 

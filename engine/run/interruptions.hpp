@@ -28,8 +28,8 @@ public:
     Interruption now() const;
     /// Returns true about every half second (more often with frequent checkpoints), when it is time
     /// to call now(), for steps too short to call it at each. Collective.
-    bool look_is_due();
-    void looked() { last_look_ = seconds(); }
+    bool check_is_due();
+    void checked() { last_check_ = seconds(); }
     void checkpoint_written() { last_checkpoint_ = seconds(); }
     /// Returns the seconds since the start.
     double seconds() const {
@@ -44,8 +44,8 @@ private:
     const std::optional<double> checkpoint_; ///< s
     const Communicator ranks_;
     const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-    double last_checkpoint_ = 0.0, last_look_ = 0.0; ///< s
-    long long steps_to_look_ = 1, looked_every_ = 1;
+    double last_checkpoint_ = 0.0, last_check_ = 0.0; ///< s
+    long long steps_to_check_ = 1, check_period_ = 1;
 };
 
 } // namespace asperity

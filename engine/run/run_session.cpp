@@ -129,14 +129,14 @@ bool RunSession::stop_here(const Path& path) {
         save_if_on(path);
         return true;
     }
-    if (case_.effects.dynamic && !interruptions_.look_is_due()) return false; // steps are short
+    if (case_.effects.dynamic && !interruptions_.check_is_due()) return false; // steps are short
     const Interruption now = ask();
     if (now > Interruption::checkpoint) {
         stop_now(path);
         return true;
     }
     if (now == Interruption::checkpoint) save(path);
-    interruptions_.looked();
+    interruptions_.checked();
     return false;
 }
 

@@ -39,7 +39,7 @@ public:
     /// Starts the trail with a first point.
     void begin(double x, double f) { points_.assign(1, {x, f}); }
     /// Resets the slope of the branch, because another coordinate is led from here.
-    void forget_slope() { branch_slope_ = 0.0; }
+    void reset_slope() { branch_slope_ = 0.0; }
     void add(double x, double f) {
         branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
         if (points_.size() == longest) points_.erase(points_.begin());

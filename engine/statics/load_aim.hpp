@@ -54,11 +54,11 @@ public:
         }
         if (!to_load || !(*to_load > 0.0 && *to_load <= length)) return length;
         uncut_ = std::max(uncut_, length);
-        beside_ = true;
+        was_cut_ = true;
         return *to_load;
     }
     /// Returns true once after a step that was cut: such a step passes no load unseen.
-    bool take_beside() { return std::exchange(beside_, false); }
+    bool take_was_cut() { return std::exchange(was_cut_, false); }
     /// Returns the longest step that was cut, Å.
     double uncut() const { return uncut_; }
 
@@ -67,7 +67,7 @@ public:
         v("beyond", beyond_);
         v("tries", tries_);
         v("uncut", uncut_);
-        v("beside", beside_);
+        v("beside", was_cut_);
     }
 
 private:
@@ -90,7 +90,7 @@ private:
     std::vector<ForceAt> beyond_; ///< nearest known places beyond the load, the nearest first
     int tries_ = 0;               ///< number of steps since the way to the load was halved
     double uncut_ = 0.0;          ///< largest length of a step before it was cut, Å
-    bool beside_ = false;
+    bool was_cut_ = false;
 };
 
 } // namespace asperity

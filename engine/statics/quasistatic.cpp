@@ -153,7 +153,7 @@ QuasistaticPath::Outcome QuasistaticPath::outcome() {
     const bool apart = interface_.reference_height() + record_.top >= interface_.start_height() &&
                        std::abs(record_.force) <= 1e-6 * strongest_;
     switch (course_.rule.look(record_.force, apart, slack(record_.in_contact),
-                              course_.aim.take_beside())) {
+                              course_.aim.take_was_cut())) {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:

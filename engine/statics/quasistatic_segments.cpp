@@ -171,7 +171,7 @@ void QuasistaticPath::hold_load(std::optional<double> load) {
 void QuasistaticPath::begin(Along along, double direction) {
     if (along != course_.along || direction != course_.direction) {
         // No points of the segment before for the integral.
-        if (along != course_.along) trail_.forget_slope();
+        if (along != course_.along) trail_.reset_slope();
         course_.along = along;
         course_.direction = direction;
         trail_.begin(at(), force());

@@ -147,7 +147,7 @@ int steps_to(const std::vector<double>& loads, const std::function<double(double
                 aim.pass({x, f}, from);
                 continue;
             }
-            there = aim.take_beside() && f >= load * (1.0 - 1e-5);
+            there = aim.take_was_cut() && f >= load * (1.0 - 1e-5);
             trail.add(x, f);
             length = there ? std::max(length, aim.uncut()) : std::min(0.25, 2.0 * length);
         }

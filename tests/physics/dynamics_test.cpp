@@ -222,7 +222,7 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
         const StepRecord& now = simulation.step(true);
         if (step < warm_up) continue;
         layer([](double& kept, double v) { kept = 0.5 * (kept + v); });
-        simulation.take_to_step(velocities.plane(0));
+        simulation.set_velocities_at_step(velocities.plane(0));
         double squares = 0.0;
         layer([&](double& v, double) { squares += v * v; });
         at_step.push_back(squares * levels[0].mass(0) / (3.0 * 64.0 * kt));
