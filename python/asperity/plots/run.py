@@ -318,8 +318,8 @@ def roughness(run: Result, ax: Axes) -> bool:
         curve(ax, x, y, words + pressed, colour=GREY, line=line, behind=True)
     names = (("jkr.approach_averaged", "approach, by JKR", BLUE, "o"), ("jkr.pull_off", "pull-off, by JKR", RED, "s")) \
         if run.curved else (("work_of_interface.approach", "work of the interface, approach", BLUE, "o"),
-                            ("-work_of_interface.pull_off", "work of the interface, pull-off", RED, "s"),
-                            ("-work_of_drive.approach", "work of the drive, approach", SKY, "<"),
+                            ("-work_of_interface.pull_off", "−work of the interface, pull-off", RED, "s"),
+                            ("-work_of_drive.approach", "−work of the drive, approach", SKY, "<"),
                             ("work_of_drive.pull_off", "work of the drive, pull-off", YELLOW, ">"),
                             ("binding_energy", f"binding energy {at}", GREEN, "^"))
     for key, label, colour, marker in names:

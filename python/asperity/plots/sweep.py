@@ -108,9 +108,9 @@ SIMULATED: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, SPHERE], [
         Trace("work of the interface, approach", "work_of_interface.approach_ratio", BLUE, "", "o",
               uncertainty="work_of_interface.uncertainty.approach"),
-        Trace("work of the interface, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False,
+        Trace("−work of the interface, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False,
               uncertainty="work_of_interface.uncertainty.pull_off"),
-        Trace("work of the drive, approach", "-work_of_drive.approach_ratio", SKY, "", "<",
+        Trace("−work of the drive, approach", "-work_of_drive.approach_ratio", SKY, "", "<",
               uncertainty="work_of_drive.uncertainty.approach"),
         Trace("work of the drive, pull-off", "work_of_drive.pull_off_ratio", YELLOW, "", ">", False,
               uncertainty="work_of_drive.uncertainty.pull_off"),
@@ -121,7 +121,7 @@ SIMULATED: dict[str, Spec] = {
         Trace("by JKR, energy at zero load", "jkr.relaxed_ratio", PINK, "", "^")]),
     "works": (GAMMA, [THEORY, RENORMALISED], [
         Trace("∫F dz, approach", "work_of_interface.approach_ratio", BLUE, "", "o"),
-        Trace("∫F dz, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False),
+        Trace("−∫F dz, pull-off", "-work_of_interface.pull_off_ratio", RED, "", "s", False),
         Trace("atom by atom, both ways", "pair_binding_energy_ratio", YELLOW, "", "D", False),
         Trace("state {at}", "binding_energy_ratio", GREEN, "", "^")]),
     "area": (CONTACT, AREA, [Trace("state {at}", "contact_fraction", GREEN, "", "^")]),

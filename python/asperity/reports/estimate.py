@@ -50,6 +50,11 @@ def lines_of(numbers: list[Number]) -> list[str]:
     return lines
 
 
+def names_of(estimate: Estimate) -> list[str]:
+    """Explains the symbols of an estimate; each number has the sign that it has in result.json."""
+    return [f"{n.symbol}: {n.name}" for n in estimate.numbers.values()]
+
+
 def two_digits(value: float) -> str:
     """Spells a number with two digits."""
     return f"{float(f'{value:.2g}'):g}"
@@ -113,6 +118,7 @@ def text_of(estimate: Estimate) -> str:
     for columns in tables_of(estimate):
         parts += [terminal.tables(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2), again=(1,)), ""]
     parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
+    parts.append("Names: " + "; ".join(names_of(estimate)) + ".")
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
     parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed,
               *(f"note: {note}" for note in estimate.notes)]
@@ -179,6 +185,7 @@ def page_of(estimate: Estimate, out: Path | None = None) -> Page:
     page.section("numbers", "Numbers")
     for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):
         page.add("paragraph", _set(line) + ".")
+    page.add("paragraph", _set("; ".join(names_of(estimate))) + ".")
     page.section("budget", "Budget")
     for columns in tables_of(estimate):
         page.table([*map(_set, heads_of(columns))], [row for row in rows_of(estimate, columns) if row])

@@ -27,11 +27,11 @@ class Quantity(NamedTuple):
 FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("binding_energy_ratio", "γ_eff/Δγ", "the same over that of flat surfaces", 2),
         Quantity("contact_fraction", "A/A₀", "contact area fraction", 1),
-        Quantity("work_of_drive.approach", "w_in", "work of the drive, approach", 2),
-        Quantity("work_of_drive.pull_off", "w_out", "work of the drive, pull-off", 2),
+        Quantity("work_of_drive.approach", "w_in", "work of the drive on the solids on the approach (negative: they pull it)", 2),
+        Quantity("work_of_drive.pull_off", "w_out", "work of the drive on the solids on the pull-off", 2),
         Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
         Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
-        Quantity("pull_off_stress", "σ_off", "pull-off stress", 1))
+        Quantity("pull_off_stress", "σ_off", "pull-off stress: the largest attraction over the area", 1))
 CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
 

@@ -198,8 +198,8 @@ class Table(Columns):
 BOTH = ", meV/Å² (mJ/m²)"
 # The table as text: head, column and digits; columns without numbers are left out.
 OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_of_interface.approach_ratio", 4),
-                 ("interface, out", "-work_of_interface.pull_off_ratio", 4),
-                 ("drive, in", "-work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
+                 ("interface, out", "work_of_interface.pull_off_ratio", 4),
+                 ("drive, in", "work_of_drive.approach_ratio", 4), ("drive, out", "work_of_drive.pull_off_ratio", 4),
                  ("JKR in", "jkr.approach_ratio", 4), ("JKR out", "jkr.pull_off_ratio", 4), ("contact", "contact_fraction", 4),
                  ("radius, Å", "contact_radius.relaxed", 1), ("friction μ", "slide.friction_coefficient", 4),
                  ("±", "slide.friction_coefficient_error", 4), ("sliding A/A0", "slide.steady_contact_fraction", 4),
@@ -253,8 +253,8 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
                        (f" ± {number(float(deviation[group]), digits)}" if seen else "") +
                        (f" ({millijoules(float(mean[group]))})" if head.endswith(BOTH) and count[group] else ""))
         rows.append([*row, _status([table.status[i] for i in places])])
-    meaning = ("binding energy of the state, and works of approach (in) and pull-off (out), as energies that separate the "
-               "solids over Δγ") if table.simulated else ""
+    meaning = ("binding energy of the state, and works of interface and drive on the solids in approach (in) and pull-off (out), "
+               "over Δγ; the drive's is negative where it is pulled, the interface's where it pulls") if table.simulated else ""
     if meaning and len(axes) < len(table.axes):
         meaning += ", mean ± standard deviation over the seeds"
     return [*axes, *(c[0] for c in cells), ""], rows, meaning
