@@ -166,6 +166,10 @@ public:
     }
 
     void text(std::string_view text) {
+        if (text.find('\0') != text.npos)
+            return add({file_, 1, 1}, "this is no scene", "it is a binary file; a scene is text",
+                       "of a map of heights: asperity adhesion MAP --young 100GPa --poisson 0.25 "
+                       "--adhesion 200mJ/m2, or name the map in a scene (surface.file)");
         if (const int line = line_of_deep_key(text))
             return add({file_, line, 1}, "this is no scene",
                        fmt::format("a key has more than {} parts", deepest_key),

@@ -8,6 +8,7 @@
 #include "io/error.hpp"
 #include "io/machine.hpp"
 #include "io/scene_reader.hpp"
+#include "io/units.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -39,6 +40,10 @@ std::string scene_file(const Arguments& given, std::vector<std::string>& overrid
                                           "for example: asperity run scenes/first-contact.toml"});
     };
     if (files.empty()) throw refuse("no scene is given", "the command needs one");
+    if (files.size() > 1 && !std::filesystem::exists(files[1]) && io::parse_unit(files[1]))
+        throw io::SceneError(io::Problem{"command line", fmt::format("'{}' stands alone", files[1]),
+                                         "a blank ends a word of the command line",
+                                         "write the unit behind the number: 3nm"});
     if (files.size() > 1)
         throw refuse("more than one scene is given", fmt::format("{} and {}", files[0], files[1]));
     return files.front();
@@ -182,9 +187,12 @@ namespace {
 
 /// Returns true for a call of --help or -h, of the program or of a command.
 bool asks_for_help(int argc, char** argv) {
-    return std::any_of(argv + std::min(1, argc), argv + argc, [](const char* word) {
-        return std::string_view(word) == "--help" || std::string_view(word) == "-h";
-    });
+    return std::any_of(argv + std::min(1, argc), argv + argc,
+                       [](const char* word) {
+                           return std::string_view(word) == "--help" ||
+                                  std::string_view(word) == "-h";
+                       }) ||
+           (argc > 1 && std::string_view(argv[1]) == "help");
 }
 
 /// Returns the error of a command line that the library does not understand, with the option that
@@ -203,6 +211,13 @@ io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Co
     std::string fix = fmt::format("asperity {} --help", command);
     for (int i = 2; i < argc; ++i) {
         const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
+        if (word == "-j")
+            return io::SceneError(io::Problem{
+                "command line", fmt::format("-j is no option of {}", command),
+                "it is of commands that make several runs; threads are those of the environment, "
+                "ranks those of mpirun",
+                fmt::format("OMP_NUM_THREADS=2 asperity {0} ..., or mpirun -n 2 asperity {0} ...",
+                            command)});
         if (!word.starts_with("--") || std::ranges::find(names, word) != names.end()) continue;
         std::vector<std::string> words; // without dashes, which all have
         for (const std::string& name : names)

@@ -23,6 +23,7 @@ from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .running import program
 from .running.scene import STANDARD_INPUT, scene_file
 from .terminal import Voice, launched
+from .units import is_unit
 
 
 def _is_override(word: str) -> bool:
@@ -52,6 +53,9 @@ def _scenes(given: argparse.Namespace) -> list[str]:
 
 def _one_scene(given: argparse.Namespace) -> str:
     scenes = _scenes(given)
+    if len(scenes) > 1 and not os.path.exists(scenes[1]) and is_unit(scenes[1]):
+        raise SceneError("command line", f"'{scenes[1]}' stands alone", "a blank ends a word of the command line",
+                         "write the unit behind the number: 3nm")
     if len(scenes) > 1:
         raise SceneError("command line", "more than one scene is given", f"{scenes[0]} and {scenes[1]}",
                          f"for example: asperity {given.command} scenes/first-contact.toml")

@@ -86,6 +86,11 @@ def conversion(unit: object, base: str) -> float | None:
     return ratio * 10.0**shift if shift >= 0 else ratio / 10.0**-shift
 
 
+def is_unit(text: str) -> bool:
+    """Returns True for a unit of any dimension."""
+    return bool(text.strip()) and _parsed(text) is not None
+
+
 def is_length(unit: object) -> bool:
     """Returns True for a unit of length."""
     return conversion(unit, "Å") is not None

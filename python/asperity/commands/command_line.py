@@ -13,6 +13,7 @@ import textwrap
 
 from ..arguments import options
 from ..errors import SceneError
+from ..units import is_unit
 
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early"
 WIDTH, INDENT = 80, 26
@@ -30,7 +31,21 @@ class Parser(argparse.ArgumentParser):
             near = difflib.get_close_matches(unknown[1].strip("-"), [name.strip("-") for name in names], 1, 0.7)
             message = f"{unknown[1]} is no option of {self.prog.split()[-1]}"
             why, fix = "its options are " + ", ".join(names), f"did you mean --{near[0]}?" if near else fix
+        elif alone := re.match(r"unrecognized arguments: ([^\s-]\S*)", message):
+            message, why = f"'{alone[1]}' stands alone", "a blank ends a word of the command line"
+            fix = "write the unit behind the number, 100GPa, or put both into quotation marks" if is_unit(alone[1]) else fix
+        elif message.startswith("the following arguments are required"):
+            why = "the command cannot be carried out without"
+            fix = " ".join(self.usage_line().split())
         raise SceneError("command line", message[0].lower() + message[1:], why, fix)
+
+    def usage_line(self) -> str:
+        """Returns what the command needs, as the help has it: "usage: asperity report DIR [options]"."""
+        words = [action for action in self._actions if not action.option_strings]
+        needed = [action for action in self._actions if action.option_strings and action.required]
+        usage = " ".join([self.prog, *(f"[{a.metavar}]" if a.nargs == "?" else str(a.metavar) for a in words),
+                          *(f"{a.option_strings[0]} {a.metavar}" for a in needed), "[options]"])
+        return textwrap.fill(f"usage: {usage}", WIDTH, subsequent_indent=" " * 7, break_on_hyphens=False, break_long_words=False)
 
     def refuse_unknown(self, words: list[str]) -> None:
         """Checks the options of a call before argparse does, which names those that are missing first. Raises SceneError."""
@@ -45,11 +60,7 @@ class Parser(argparse.ArgumentParser):
         """Returns the help."""
         of_command = [action for action in self._actions if action.help is not argparse.SUPPRESS]
         words = [action for action in of_command if not action.option_strings]
-        needed = [action for action in of_command if action.option_strings and action.required]
-        usage = " ".join([self.prog, *(f"{a.metavar}{'...' * (a.nargs == '*' and 'several' in (a.help or ''))}" for a in words),
-                          *(f"{a.option_strings[0]} {a.metavar}" for a in needed), "[options]"])
-        usage = textwrap.fill(f"usage: {usage}", WIDTH, subsequent_indent=" " * 7, break_on_hyphens=False, break_long_words=False)
-        parts = [usage, textwrap.fill(self.description or "", WIDTH)]
+        parts = [self.usage_line(), textwrap.fill(self.description or "", WIDTH)]
         parts += [textwrap.fill(part, WIDTH, break_on_hyphens=False) for part in (self.epilog or "").split("\n") if part]
         parts += [_listed("arguments", [(str(a.metavar), a) for a in words])] * bool(words)
         parts.append(_listed("options", [(_spelt(a), a) for a in of_command if a.option_strings]))

@@ -94,6 +94,8 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
                 channels, own = map_arrays.of_numpy(path)
             else:
                 content, own = _text_in(path.read_bytes()), False
+                if path.suffix.lower() == ".toml":
+                    raise refuse(path, "is a scene, not a map of heights", "its name ends in .toml", "name the map that the scene names: surface.file")
                 if re.search(r"^\s*(\d+\s+atoms|Atoms\s*(#.*)?)\s*$", content[:1 << 16], re.M) or content.startswith("ITEM:"):
                     return folded(path, lammps(path, content))
                 if path.suffix.lower() in (".xyz", ".extxyz") and re.match(r"\s*\d+\s*\n", content):
@@ -205,8 +207,8 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
     if target.suffix.lower() not in (".h5", ".hdf5"):
         raise refuse(target, "is no name of an HDF5 file", "what is written is HDF5",
                       f"for example {target.with_suffix('.h5')}")
-    store.require_new(target)
     found = read_heights(source, channel) if ":/" in source else _found(source, channel, None, False)
+    store.require_new(target)
     if channel is not None and "heights" not in found:
         raise refuse(source, f"has no channel '{channel}'", "it holds atoms", "leave --channel out")
     with store.new(target) as beside:

@@ -163,6 +163,9 @@ def _file_of(scene: SceneLike, folder: str) -> Iterator[str]:
         name, text = scene.get("name", "scene"), toml_of({key: value for key, value in scene.items() if key != "name"})
     elif piped:  # once: the commands start the program several times
         name, text = "stdin", sys.stdin.read()
+    elif not isinstance(scene, (str, os.PathLike)):
+        raise SceneError("scene", f"is {scene!r:.60}", f"it is of type {type(scene).__name__}",
+                         'give a file, "scene.toml", or a dictionary: {"surface": {"sites": 64}}')
     else:
         yield str(scene)
         return

@@ -12,12 +12,13 @@ import re
 import tempfile
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..errors import BY_CODE, Error, InternalError, Named, SceneError, Stopped, UnknownName
+from ..errors import BY_CODE, Error, InputOutputError, InternalError, Named, SceneError, Stopped, UnknownName
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
@@ -135,6 +136,9 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
     InputOutputError
         The directory has no estimate, or it cannot be read.
     """
+    if not (Path(directory) / RESULT).exists():
+        raise InputOutputError(str(directory), "holds no estimate", f"{RESULT} is not in it" if Path(directory).is_dir() else
+                               "there is no such directory", "name a directory that asperity estimate or adhesion has written")
     found = read_json(Path(directory) / RESULT)
     numbers = {}
     for path, n in found.part("numbers").items():
@@ -361,8 +365,8 @@ class Estimating(Study):
         if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
                              "and no pull-off", 'for example --set drive.path=relax')
-        if seeds is not None and not 2 <= seeds <= 1000:
-            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "")
+        if seeds is not None and not (isinstance(seeds, Integral) and 2 <= seeds <= 1000):
+            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "leave it out for 8, or 4 with a path")
         self.withheld, self.condition = withheld, condition
         pinning = self.answer.get("edge_pinning", 1.0)
         if varied.moves and pinning > PINNED and not withheld:
