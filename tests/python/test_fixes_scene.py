@@ -343,7 +343,7 @@ CASES = [
     ('write, for example, "(.*)"', {"block.young": "true"}, {"block.young": "{0}"}, STILL),
     (r"write, for example, (\d+) \(", {"surface.seed": "1.5"}, {"surface.seed": "{0}"}, STILL),
     (r"write, for example, (true)", {"interface.tail": "perhaps"}, {"interface.tail": "{0}"}, STILL),
-    (r"write, for example, (\[.*\])", {"block.prony": '"soft"'}, {"block.prony": "{0}"}, QUASI),
+    (r"write, for example, (\[.*\])", {"block.prony": "9.0"}, {"block.prony": "{0}"}, QUASI),
     (r'"(none)" is allowed too', {"drive.max_steps": "-1"}, {"drive.max_steps": "{0}"}, MOVING),
     (r"for example, (512) \(no quotes\)", {"surface.sites": "3 kg"}, {"surface.sites": "{0}"}, {**STILL, "block.thickness": "4"}),
     (r'or "(133 nm)"', {"surface.sites": "-1 nm"}, {"surface.sites": "{0}"}, {**STILL, "block.thickness": "4"}),
