@@ -95,7 +95,8 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
             else:
                 content, own = _text_in(path.read_bytes()), False
                 if path.suffix.lower() == ".toml":
-                    raise refuse(path, "is a scene, not a map of heights", "its name ends in .toml", "name the map that the scene names: surface.file")
+                    raise refuse(path, "is a scene, not a map of heights", "its name ends in .toml",
+                                 "name the map that the scene names: surface.file")
                 if re.search(r"^\s*(\d+\s+atoms|Atoms\s*(#.*)?)\s*$", content[:1 << 16], re.M) or content.startswith("ITEM:"):
                     return folded(path, lammps(path, content))
                 if path.suffix.lower() in (".xyz", ".extxyz") and re.match(r"\s*\d+\s*\n", content):

@@ -366,7 +366,8 @@ class Estimating(Study):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
                              "and no pull-off", 'for example --set drive.path=relax')
         if seeds is not None and not (isinstance(seeds, Integral) and 2 <= seeds <= 1000):
-            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000", "leave it out for 8, or 4 with a path")
+            raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000",
+                             "leave it out for 8, or 4 with a path")
         self.withheld, self.condition = withheld, condition
         pinning = self.answer.get("edge_pinning", 1.0)
         if varied.moves and pinning > PINNED and not withheld:
