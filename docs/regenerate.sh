@@ -37,6 +37,9 @@ made $gallery/theory-fig2a.svg $gallery/theory-fig2b.svg $gallery/theory-fig3.sv
 "$python" $gallery/plot.py $place/first-contact $gallery/first-contact.png
 made $gallery/first-contact.png
 
+"$python" $gallery/tip.py $place/tip $gallery/tip.png
+made $gallery/tip.png
+
 "$python" $gallery/examples.py
 made $gallery/examples-*.svg
 

@@ -129,6 +129,7 @@ std::vector<Command> all_commands() {
          "the numbers of a scene with their errors, from runs with one setting varied at a time",
          {}},
         {"adhesion", "from a measured map of heights to its adhesion with an error", {}},
+        {"tip", "the force curve of a tip on a sample, with an error", {}},
         {"states", "the stable states of a contact under its load", {}},
         {"report", "a run or a sweep as one self-contained HTML page", {}},
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         Estimate as Estimate,
         Result as Result,
         Sweep as Sweep,
+        Tip as Tip,
         adhesion as adhesion,
         estimate as estimate,
         load as load,
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         prony as prony,
         run as run,
         sweep as sweep,
+        tip as tip,
     )
     from .functions import (
         check as check,
@@ -52,7 +54,7 @@ if TYPE_CHECKING:
     from .studies.states import states as states
 
 _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
-                          "load_sweep", "prony", "run", "sweep"), ".forms"),
+                          "load_sweep", "prony", "run", "sweep", "Tip", "tip"), ".forms"),
          **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-theory, sweep, cost, estimate, adhesion, states, report, export and convert are carried out here; the program hands them over. Every other
+theory, sweep, cost, estimate, adhesion, tip, states, report, export and convert are carried out here; the program hands them over. Every other
 command is handed to the program.
 """
 
@@ -129,6 +129,11 @@ def _carry_out(given: argparse.Namespace) -> int:
         return adhesion_command(given.map, given.young, given.poisson, given.adhesion, given.out, options, voice,
                                 reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites,
                                 line_noise=given.line_noise)
+    if given.command == "tip":
+        from .commands.tip import tip_command
+
+        return tip_command(given.map, given.out, options, voice, **{name: getattr(given, name) for name in (
+            "radius", "young", "poisson", "adhesion", "stiffness", "load", "range", "size", "unit", "channel", "sites")})
     from .commands.studies import cost_command, estimate_command, sweep_command
 
     if given.command == "estimate":

@@ -12,6 +12,7 @@ import os
 from pathlib import Path
 
 from .commands.adhesion import Adhesion, adhesion
+from .commands.tip import Tip, tip
 from .files import store
 from .results.frames import Frames
 from .results.result import Group, Result, Values, load
@@ -24,8 +25,8 @@ from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
 from .terminal import html_table
 
-__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
-           "sweep"]
+__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
+           "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:

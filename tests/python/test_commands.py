@@ -23,11 +23,14 @@ COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]
 HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
 FOR_PROGRAMS = {"theory-points", "hold"}
 WRITES_NOTHING = {"check", "plan", "defaults", "info"}
-RUNS_SEVERAL = {"sweep", "cost", "estimate", "adhesion"}
+RUNS_SEVERAL = {"sweep", "cost", "estimate", "adhesion", "tip"}
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
 SCENE = '[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 16\n[drive]\npath = ["relax"]\n'
 PATH = SCENE.replace('["relax"]', '["approach", "pull-off"]\nmode = "quasistatic"')
 GIVEN = ["--young", "5 GPa", "--poisson", "0.3", "--adhesion", "200 mJ/m2", "--unit", "nm", "--size", "16 nm"]
+
+
+TIP = ["--radius", "20 nm", "--young", "3 GPa", "--poisson", "0.3", "--adhesion", "50 mJ/m2", "--stiffness", "20 N/m"]
 
 
 def words_of(name):
@@ -42,7 +45,7 @@ def words_of(name):
             "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
             "prony": (["curve.csv"], "out.toml", ""),
             "defaults": ([], "", ""), "info": ([], "", ""),
-            "tip": (None, "", "")}[name]
+            "tip": ([*TIP, "--sites", "16"], "out", "tip.json")}[name]
 
 
 @pytest.fixture(scope="module")
@@ -123,7 +126,7 @@ def test_json_quiet_and_out(work, light, name):
                    for path in before), before
     code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
     assert code == 0 and other == "" and "note:" not in said, said + other
-    if said and name in ("run", "sweep", "cost", "estimate", "adhesion", "states", "theory"):
+    if said and name in ("run", "sweep", "cost", "estimate", "adhesion", "tip", "states", "theory"):
         assert not re.search("written:|going on|begins|points in|runs, about", said), said
 
 

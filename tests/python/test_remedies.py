@@ -109,12 +109,12 @@ def test_a_line_of_names_above_columns(place):
                                        ("size", "surface.file_size")])
 def test_a_number_without_a_unit_is_asked_for_with_each(place, name, key):
     with pytest.raises(asperity.SceneError, match="has no unit") as error:
-        asperity.studies.map_scene._with_unit(name, 0.05)
+        asperity.studies.map_scene.with_unit(name, 0.05)
     offered = re.findall(r'"(0\.05 [^"]+)"', str(error.value))
     assert len(offered) == 2
     found = set()
     for text in offered:
-        assert asperity.studies.map_scene._with_unit(name, text) == text
+        assert asperity.studies.map_scene.with_unit(name, text) == text
         found.add(text)
         command("check", "-", "--set", f"{key}={text}", "interface.kind=wall", given=SMALL, expect=0)
     assert len(found) == 2

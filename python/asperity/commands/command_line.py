@@ -191,6 +191,24 @@ def parsers() -> dict[str, Parser]:
     _out(adhesion, "results/<map>-adhesion")
     _jobs(adhesion)
     _voice(adhesion)
+    tip = add("tip", "the force curve of a tip on a sample, with an error",
+              "A rigid sphere on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without "
+              "periodic images: force curve, pull-off and jump-in with their errors, JKR's fit. The same command goes on where it stopped.")
+    tip.add_argument("map", nargs="?", metavar="MAP", help="heights of the sample, any map that convert reads (default: smooth)")
+    tip.add_argument(*options("radius"), required=True, metavar="20nm", help="of the tip")
+    tip.add_argument(*options("young"), required=True, metavar="3GPa", help="Young's modulus of the sample")
+    tip.add_argument(*options("poisson"), required=True, type=_number, metavar="0.3", help="its Poisson's ratio")
+    tip.add_argument(*options("adhesion"), required=True, metavar="50mJ/m2", help="work of adhesion of flat surfaces")
+    tip.add_argument(*options("stiffness"), required=True, metavar="0.2N/m", help="of the cantilever")
+    tip.add_argument(*options("load"), metavar="5nN", help="the largest force (default: 1.5πwR)")
+    tip.add_argument(*options("range"), metavar="3Å", help="of the attraction (default: 3 Å, or what the spacing resolves)")
+    tip.add_argument(*options("size"), metavar="100nm", help="the map's shorter edge; holds over what the file says")
+    tip.add_argument(*options("unit"), metavar="nm", help="of the heights; holds over what the file says")
+    tip.add_argument(*options("channel"), metavar="NAME", help="of a file with several maps: this one, by name or number")
+    tip.add_argument(*options("sites"), type=_sites, metavar="N", help="along an edge of the box (default: 64 to 256, as needed)")
+    _out(tip, "results/<map>-tip")
+    _jobs(tip)
+    _voice(tip)
     states = add("states", "the stable states of a contact under its load",
                  "A path at a held mean height goes inwards and back; the states are told with the pressures between them. The same "
                  "command goes on where it was stopped.")

@@ -34,23 +34,54 @@ SITE_BYTES = 1200
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""
-UNITS = {"young": ("GPa", "MPa"), "adhesion": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm")}
+UNITS = {"young": ("GPa", "MPa"), "adhesion": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm"),
+         "radius": ("nm", "µm"), "stiffness": ("N/m", "mN/m")}
 
 
 ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhesion": "adhesion", "interface.range": "range",
+             "surface.radius": "radius", "drive.stiffness": "stiffness",
              "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
 
 
-def _named(text: str) -> str:
-    """Returns a text with the names of arguments for the keys of the scene, which nobody has seen."""
+def named(text: str) -> str:
+    """Returns a text in which the keys of the scene, which nobody has seen, have the names of arguments.
+
+    Parameters
+    ----------
+    text : str
+        Message of the program.
+
+    Returns
+    -------
+    str
+        Message of a study.
+    """
     for key, name in ARGUMENTS.items():
         text = text.replace(key, name)
     return text
 
 
-def _with_unit(name: str, value: object) -> str:
-    """Returns the text of a quantity with its unit, as scenes have it."""
+def with_unit(name: str, value: object) -> str:
+    """Returns the text of a quantity with its unit, as scenes have it.
+
+    Parameters
+    ----------
+    name : str
+        Name of the argument.
+    value : object
+        Its value.
+
+    Returns
+    -------
+    str
+        The text.
+
+    Raises
+    ------
+    SceneError
+        The value has no unit.
+    """
     text = str(value).strip()
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
@@ -58,9 +89,30 @@ def _with_unit(name: str, value: object) -> str:
     return text
 
 
-def _read(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
-    """Reads a square map: heights (Å, NaN at missing points), edge (Å), notes. Raises SceneError if adhesion cannot be
-    computed of the map."""
+def read_square(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
+    """Reads a square map of which a contact can be computed.
+
+    Parameters
+    ----------
+    file : str
+        Map of heights.
+    unit : str, optional
+        Unit of the heights; None: as the file says.
+    size : float, optional
+        Shorter edge, Å; None: as the file says.
+    channel : str, optional
+        Name or number of the map in a file with several.
+
+    Returns
+    -------
+    tuple[numpy.ndarray, float, list[str]]
+        Heights (Å, NaN at missing points), edge (Å), and notes on what was made of the map.
+
+    Raises
+    ------
+    SceneError
+        The map is refused.
+    """
     found = height_map.read_map(file, unit, size or None, channel)
     heights, notes = found.heights, list(found.notes)
 
@@ -166,20 +218,20 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
     SceneError
         No scene can be made of the map or an argument; nothing is written.
     """
-    sections: dict[str, dict[str, Any]] = {"block": {"young": _with_unit("young", young), "poisson": poisson},
+    sections: dict[str, dict[str, Any]] = {"block": {"young": with_unit("young", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
-                "interface": {"kind": "wall", "adhesion": _with_unit("adhesion", adhesion),
-                              "range": _with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
+                "interface": {"kind": "wall", "adhesion": with_unit("adhesion", adhesion),
+                              "range": with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
     if size is not None:
-        sections["surface"]["file_size"] = _with_unit("size", size)
+        sections["surface"]["file_size"] = with_unit("size", size)
     try:
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
-        raise SceneError.of([{**one, "where": "", "what": _named(one["what"])} for one in error.listed]) from None
+        raise SceneError.of([{**one, "where": "", "what": named(one["what"])} for one in error.listed]) from None
     if not keys.needed("interface.adhesion") > 0.0:
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
-    heights, edge, notes = _read(file, unit, keys.number("surface.file_size"), channel)
+    heights, edge, notes = read_square(file, unit, keys.number("surface.file_size"), channel)
     points = len(heights)
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))

@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""`asperity tip`: the force curve of a tip on a cantilever, pressed onto a sample and pulled off, in one call."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from ..arguments import chosen
+from ..errors import BY_CODE, InternalError, Stopped
+from ..files import store
+from ..reports import tip as report_tip
+from ..results.result import Result
+from ..running import lock, program
+from ..running.pool import DONE, STOPPED, PoolOptions, refuse_jobs
+from ..studies.tip import Plan, Tip, files_of, plan_of, tip_of
+from ..studies.variations import Runs, Variation
+from ..terminal import Voice
+
+
+def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: str | None = None, poisson: float | None = None,
+        adhesion: str | None = None, stiffness: str | None = None, load: str | None = None, out: str | os.PathLike | None = None,
+        range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
+        sites: int | None = None, jobs: int = 1, *, E: str | None = None, nu: float | None = None, work: str | None = None,
+        w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
+    """Computes the force curve of a spherical tip on an elastic sample, with its numbers and their errors.
+
+        found = asperity.tip("scan.gwy", radius="20 nm", E="3 GPa", nu=0.3, work="50 mJ/m2", stiffness="0.2 N/m")
+        found.number("pull_off_force"), found.drive, found.force
+
+    Parameters
+    ----------
+    map : str or os.PathLike, optional
+        File of the sample's heights: HDF5, .npy, or any that `convert` reads; None: a smooth sample.
+    radius : str
+        Radius of the tip with its unit.
+    young : str
+        Young's modulus of the sample with its unit.
+    poisson : float
+        Poisson's ratio of the sample.
+    adhesion : str
+        Work of adhesion of flat surfaces with its unit.
+    stiffness : str
+        Stiffness of the cantilever with its unit, "0.2 N/m".
+    load : str, optional
+        Largest force with its unit; None: 1.5πwR, the pull-off force of JKR.
+    out : str or os.PathLike, optional
+        Directory; None: results/<map>-tip, or results/tip. Runs that are there are not run again.
+    range : str, optional
+        Range of the exponential attraction with its unit; None: 3 Å, or the range that the spacing resolves.
+    size, unit : str, optional
+        Shorter edge of the map, with its unit, and unit of the heights; they hold over the file, and a note names both.
+    channel : str, optional
+        Name or number of the map in a file with several.
+    sites : int, optional
+        Sites along an edge of the box; None: 64 to 256, as the contact needs.
+    jobs : int
+        Runs side by side; they share the processors.
+    E, nu, work, w, file_size, file_unit : optional
+        Other names of young, poisson, adhesion (work and w), size and unit.
+
+    Returns
+    -------
+    Tip
+        Numbers with their errors, the force curve, and the fit of JKR.
+
+    Raises
+    ------
+    SceneError
+        The map or an argument is refused, or files are in the way.
+    Stopped
+        The runs stopped early; the same call continues.
+    Error
+        A run failed.
+    """
+    program.refuse_ranks()
+    refuse_jobs(jobs)
+    given = {"radius": chosen("radius", 'radius="20 nm"', radius=radius), "young": chosen("young", 'young="3 GPa"', young=young, E=E),
+             "poisson": chosen("poisson", "poisson=0.3", poisson=poisson, nu=nu),
+             "adhesion": chosen("adhesion", 'adhesion="50 mJ/m2"', adhesion=adhesion, work=work, w=w),
+             "stiffness": chosen("stiffness", 'stiffness="0.2 N/m"', stiffness=stiffness), "load": load, "range": range,
+             "size": chosen("size", size=size, file_size=file_size), "unit": chosen("unit", unit=unit, file_unit=file_unit),
+             "channel": channel, "sites": sites}
+    file = None if map is None else str(map)
+    place = store.chosen(None if out is None else str(out), _place(file))
+    made = _planned(file, place, given)
+    found = _carried_out(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
+    if found is None:
+        raise Stopped(str(place), "the runs stopped early", "", "the same call goes on from here")
+    return found
+
+
+def _place(file: str | None) -> str:
+    return f"results/{Path(file.partition(':/')[0]).stem}-tip" if file else "results/tip"
+
+
+def _planned(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
+    store.require_free({place: [*files_of(file is not None), *report_tip.FILES]}, inputs=[file] if file else [])
+    return plan_of(file, place, given)
+
+
+def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Tip | None:
+    """Carries out the runs and writes the page. None: stopped before the end. Raises Error for a run that failed."""
+    own = str(made.scenes[""])
+    rows = {part: Variation(part, part, [], scene=str(file)) for part, file in made.scenes.items()}
+    rows["step"] = Variation("step", "step", [made.longer_step], scene=own)
+    with lock.in_use(place):
+        complete = Runs(own, [], place, options, say).run(list(rows.values()))
+        if not complete:
+            return None
+        for row in rows.values():
+            if row.outcome.status != DONE:
+                raise BY_CODE.get(row.outcome.exit_code, InternalError)(str(place), f"the run {row.label or 'of the tip'} failed",
+                                                                        row.outcome.reason, f"look at {place}")
+        found = tip_of(made, {part: Result(_directory(place, row)) for part, row in rows.items()}, place)
+        report_tip.write(found)
+    return found
+
+
+def _directory(place: Path, row: Variation) -> Path:
+    """Returns the directory of a run (variations.Runs)."""
+    return place / ",".join([Path(row.scene).stem, *(one.partition(".")[2] for one in sorted(row.setting))])
+
+
+def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: Voice, **given: Any) -> int:
+    """Carries out `asperity tip`.
+
+    Parameters
+    ----------
+    file : str | None
+        Map of heights; None: a smooth sample.
+    out : str | None
+        Result directory; None: the default one.
+    options : PoolOptions
+        Options of the runs.
+    voice : Voice
+        What is printed, and how.
+    **given : Any
+        radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, as of tip().
+
+    Returns
+    -------
+    int
+        The exit code.
+    """
+    place = store.chosen(out, _place(file))
+    made = _planned(file, place, given)
+    for note in made.notes:
+        voice.say(f"note: {note}")
+    found = _carried_out(made, place, options, voice.say)
+    if found is None:
+        voice.show("Stopped early: the same command goes on from here.")
+        return STOPPED
+    voice.tell({**report_tip.answer_of(found), "directory": place})
+    voice.show(report_tip.text_of(found))
+    voice.say(f"\nwritten: {place}: report.html, tip.json, curve.csv; the runs in tip, coarse, wide, ...")
+    return 0

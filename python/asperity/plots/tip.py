@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""The force curve of a tip, as an instrument shows it."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from ..studies.tip import Tip
+from ..theories.sphere import jkr
+from .style import BLUE, GREY, RED, curve, finish
+
+
+def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
+    """Draws the force over the displacement, in and out.
+
+    Parameters
+    ----------
+    found : Tip
+        Contact of a tip.
+    ax : Axes
+        Axes to draw into.
+    over : str
+        "drive": the displacement of the drive (the piezo), as measured. "tip": that of the tip, with JKR's fit.
+
+    Returns
+    -------
+    bool
+        True: there is always something to draw.
+    """
+    place = found.drive if over == "drive" else found.tip
+    for words, part, colour in (("approach", ~found.retracting, BLUE), ("retraction", found.retracting, RED)):
+        shown = part & (np.abs(place) < _extent(found, place))
+        curve(ax, place[shown], found.force[shown], words, colour=colour, marker="")
+    if over == "tip" and not found.fit.failed:
+        a = np.linspace(0.5, 4, 400)
+        force, _, approach = jkr(a)
+        stiffness, unit = 4 / 3 * found.fit.modulus, np.pi * found.fit.work * found.contact.radius
+        length = np.cbrt(unit * found.contact.radius / stiffness)
+        height, force = found.fit.zero - approach * length**2 / found.contact.radius, unit * force
+        shown = (force < found.force.max()) & (np.arange(len(a)) >= np.argmin(approach))
+        curve(ax, height[shown], force[shown], "JKR, fitted", colour=GREY, line="--", marker="")
+    return finish(ax, f"separation by the {over} (nm)", "force on the sample (nN)")
+
+
+def _extent(found: Tip, place: np.ndarray) -> float:
+    """Returns the largest separation to be drawn, nm: a little more than the contact reaches."""
+    touching = np.abs(found.force) > 0.002 * np.abs(found.force).max()
+    return 1.15 * float(np.abs(place[touching]).max())

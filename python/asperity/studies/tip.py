@@ -1,0 +1,429 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""A spherical tip on a cantilever, pressed onto an elastic sample and pulled off: scenes, force curve, and JKR's fit to it.
+
+Tip and roughness are one rigid surface that faces a flat elastic half-space, without periodic images. The scene is run as it is, and
+with a coarser spacing, a wider box and longer steps; the differences are the parts of the errors. Lengths are in nm, forces in
+nN, moduli in GPa, works in N/m, unless a name says otherwise.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import numpy as np
+from scipy.interpolate import RectBivariateSpline
+from scipy.ndimage import uniform_filter
+from scipy.optimize import least_squares
+
+from ..errors import Named, SceneError
+from ..files import store
+from ..maps import height_map
+from ..results.result import Result, Values
+from ..running import program
+from ..running.scene import scene_file, toml_of
+from ..theories.sphere import RATIOS, jkr, maugis
+from ..units import ELECTRONVOLT, MILLIJOULE, conversion
+from .map_scene import named, read_square, with_unit
+from .stated_number import NAN, Found, Number
+
+FEWEST, MOST = 64, 256
+"""Sites along an edge of the box unless others are asked for."""
+RANGE = "3 Å"
+ROOM = 1.3
+"""Width of the box over the diameter of the contact."""
+COARSER, WIDER, LONGER = 1.5, 1.3, 2.0
+"""Factors of spacing, width and step of the variations."""
+PARTS = {"spacing": 1 / (COARSER - 1), "width": 1.0, "step": 1 / (LONGER - 1)}
+"""Errors over the differences of a variation: an error of first order in spacing and step."""
+JKR_FROM, DMT_BELOW = 5.0, 0.1
+"""Maugis' parameter."""
+
+
+class Contact(NamedTuple):
+    """A sphere on a half-space: radius, E*, work of adhesion, range of the attraction, stiffness of the cantilever."""
+
+    radius: float
+    modulus: float
+    work: float
+    range: float
+    stiffness: float
+
+    @property
+    def stiffness_of_contact(self) -> float:
+        """K = 4 E*/3, GPa."""
+        return 4 * self.modulus / 3
+
+    @property
+    def unit(self) -> float:
+        """Force πwR, nN."""
+        return math.pi * self.work * self.radius
+
+    @property
+    def parameter(self) -> float:
+        """Maugis' λ for the largest stress w/range of the exponential attraction."""
+        return 2 * self.work / self.range * float(np.cbrt(self.radius / (math.pi * self.work * self.stiffness_of_contact**2)))
+
+    @property
+    def tabor(self) -> float:
+        """Tabor's number (R w²/E*²)^(1/3) over the range."""
+        return float(np.cbrt(self.radius * self.work**2 / self.modulus**2)) / self.range
+
+    @property
+    def model(self) -> str:
+        """The theory of the smooth sphere that holds: JKR, DMT or Maugis."""
+        return "JKR" if self.parameter > JKR_FROM else "DMT" if self.parameter < DMT_BELOW else "Maugis"
+
+    def pull_off(self) -> float:
+        """Returns the pull-off force of the smooth sphere by Maugis and Dugdale, nN."""
+        return -self.unit * float(np.nanmin(maugis(self.parameter, RATIOS)[0]))
+
+    def radius_at(self, force: float) -> float:
+        """Returns JKR's contact radius under a force, nm."""
+        f = 3 * self.unit
+        return float(np.cbrt(self.radius / self.stiffness_of_contact * (force + f + math.sqrt(2 * f * force + f * f))))
+
+
+class Fit(NamedTuple):
+    """JKR fitted to the retraction: work of adhesion and E* with their standard errors, the zero of separations, nm, and the rms
+    misfit, nN. failed: why there is no fit."""
+
+    work: float = NAN
+    work_error: float = NAN
+    modulus: float = NAN
+    modulus_error: float = NAN
+    zero: float = NAN
+    misfit: float = NAN
+    failed: str = ""
+
+
+@dataclass
+class Plan:
+    """Runs of a tip: the scenes by part ("" is the scene itself), the contact, and notes. asked_range: before it was made longer, nm;
+    longer_step: setting of the variation of the step."""
+
+    scenes: dict[str, Path]
+    contact: Contact
+    load: float
+    asked_range: float
+    notes: list[str]
+    longer_step: str
+
+
+@dataclass
+class Tip(Named):
+    """Contact of a tip: numbers with their errors, the force curve, the fit of JKR, the smooth sphere's theory.
+
+    drive, tip, force, retracting   the curve: separation of the undeformed surfaces by the drive (the piezo) and by the tip,
+                                    nm; force on the sample, nN, pressing is positive; True on the way out
+    """
+
+    numbers: list[Number]
+    drive: np.ndarray
+    tip: np.ndarray
+    force: np.ndarray
+    retracting: np.ndarray
+    contact: Contact
+    fit: Fit
+    result: Result
+    notes: list[str]
+    directory: Path
+
+    def number(self, path: str) -> Number:
+        """Returns a number by its name.
+
+        Parameters
+        ----------
+        path : str
+            "pull_off_force", "jump_in_distance", "contact_radius" or "lost".
+
+        Returns
+        -------
+        Number
+            The number with its error.
+
+        Raises
+        ------
+        SceneError
+            There is no number of this name.
+        """
+        for one in self.numbers:
+            if one.path == path:
+                return one
+        raise SceneError(f"number {path}", "is none of a tip", "they are " + ", ".join(n.path for n in self.numbers), "name one of them")
+
+    def __repr__(self) -> str:
+        return f"<Tip {self.directory}: {self.numbers[0]}>"
+
+
+def _checked(given: dict[str, Any], channel_keys: dict[str, Any]) -> Values:
+    """Returns the keys of a scene with these quantities, in the scene's units. Raises SceneError in the words of the arguments."""
+    sections = {"surface": {"kind": "flat", "sites": 32, "radius": with_unit("radius", given["radius"]), **channel_keys},
+                "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
+                "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
+                              "range": with_unit("range", given["range"] or RANGE)},
+                "drive": {"path": ["relax"], "mode": "quasistatic", "stiffness": with_unit("stiffness", given["stiffness"])}}
+    try:
+        with scene_file(sections) as file:
+            return Values(program.check(file)["scene"])
+    except SceneError as error:
+        raise SceneError.of([{**one, "where": "", "what": named(one["what"]), "fix": one["fix"].replace('; "none" is allowed too', "")}
+                             for one in error.listed]) from None
+
+
+def _force(text: object) -> float:
+    """Returns a force with its unit, nN. Raises SceneError."""
+    parts = re.fullmatch(r"\s*([-+\d.eE]+)\s*(\D.*?)\s*", str(text))
+    factor = parts and conversion(parts[2], "nN")
+    try:
+        value = float(parts[1]) * factor if parts and factor else NAN
+    except ValueError:
+        value = NAN
+    if not (math.isfinite(value) and value > 0):
+        raise SceneError(f"load = {text}", "is no force that presses", "a tip is pressed onto the sample by a force above zero",
+                         'for example "5 nN"')
+    return value
+
+
+class _Sample(NamedTuple):
+    """Heights of a map, nm, its pixel, nm, and rms height of the part below the contact."""
+
+    heights: np.ndarray
+    pixel: float
+
+    def below(self, width: float, sites: int) -> np.ndarray:
+        """Returns the heights at the sites of a box in the middle of the map, without their mean plane, nm."""
+        spacing, points = width / sites, len(self.heights)
+        smooth = uniform_filter(self.heights, max(1, round(spacing / self.pixel)), mode="nearest")
+        at = (np.arange(points) + 0.5 - 0.5 * points) * self.pixel
+        there = (np.arange(sites) + 0.5 - 0.5 * sites) * spacing
+        return height_map.without_plane(RectBivariateSpline(at, at, smooth)(there, there))
+
+
+def _written(place: Path, name: str, keys: dict[str, dict[str, Any]], sample: _Sample | None, width: float, sites: int) -> Path:
+    """Writes a scene of a box, and its map beside it."""
+    surface: dict[str, Any] = {"kind": "flat"}
+    files = [f"{name}.toml"] + [f"{name}.npy"] * (sample is not None)
+    if sample is not None:
+        surface = {"kind": "file", "file": f"{name}.npy", "file_unit": "nm"}
+    scene = {**keys, "surface": {**surface, **keys["surface"], "sites": sites, "spacing": f"{width / sites:.10g} nm"}}
+    with store.outputs(place, files) as out:
+        if sample is not None:
+            with out.replacing(f"{name}.npy") as beside, open(beside, "wb") as opened:
+                np.save(opened, sample.below(width, sites))
+        out.write(f"{name}.toml", "# Written by asperity tip.\n" + toml_of(scene))
+    return place / f"{name}.toml"
+
+
+def files_of(with_map: bool) -> list[str]:
+    """Returns the names of the scenes and maps that plan_of() writes."""
+    return [f"{name}.{ending}" for name in ("tip", "coarse", "wide") for ending in (("toml", "npy") if with_map else ("toml",))]
+
+
+def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
+    """Writes the scenes of a tip on a sample, after all checks.
+
+    Parameters
+    ----------
+    file : str | None
+        Map of heights; None: a smooth sample.
+    place : Path
+        Directory to write to.
+    given : dict
+        radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, as of tip().
+
+    Returns
+    -------
+    Plan
+        What is to be run.
+
+    Raises
+    ------
+    SceneError
+        An argument or the map is refused; nothing is written.
+    """
+    keys = _checked(given, {"file_size": with_unit("size", given["size"])} if given["size"] is not None else {})
+    for name, key in (("radius", "surface.radius"), ("adhesion", "interface.adhesion"), ("stiffness", "drive.stiffness")):
+        if not keys.number(key, 0.0) > 0.0:
+            raise SceneError(f"{name} = {given[name]}", "is not above zero", {"radius": "a tip is a sphere", "stiffness": "the tip is held by "
+                             "a cantilever", "adhesion": "the work of flat surfaces is above zero"}[name],
+                             {"radius": 'for example "20 nm"', "stiffness": 'for example "0.2 N/m"', "adhesion": 'for example "50 mJ/m2"'}[name])
+    poisson = keys.needed("block.poisson")
+    contact = Contact(0.1 * keys.needed("surface.radius"), keys.needed("block.young") / (1 - poisson**2),
+                      1e-3 * MILLIJOULE * keys.needed("interface.adhesion"), 0.1 * keys.needed("interface.range"), keys.needed("drive.stiffness"))
+    asked = contact.range
+    load = float(f"{1.5 * contact.unit:.2g}") if given["load"] is None else _force(given["load"])
+    notes: list[str] = []
+    sample, rms = None, 0.0
+    if file is not None:
+        heights, edge, notes = read_square(file, given["unit"], keys.number("surface.file_size"), given["channel"])
+        sample = _Sample(0.1 * height_map.filled(heights), 0.1 * edge / len(heights))
+    reach = contact.radius_at(load)
+
+    def width_for(rms: float, range: float) -> float:
+        """Returns the width of a box that holds the contact and the attraction beside it, nm."""
+        return 2 * (ROOM * math.sqrt(reach**2 + 4 * contact.radius * rms) + 4 * range)
+
+    def require_inside(width: float) -> None:
+        if sample is not None and WIDER * width > sample.pixel * len(sample.heights):
+            raise SceneError(str(file), f"is too small for this contact: {sample.pixel * len(sample.heights):.4g} nm wide",
+                             f"a contact of {2 * reach:.3g} nm and a wider box to compare with take {WIDER * width:.3g} nm",
+                             "press less (load), take a sharper tip, or a wider map")
+
+    width = width_for(0.0, contact.range)
+    if sample is not None:
+        require_inside(width)
+        for _ in range(3):  # the rougher the sample, the wider is the region of its contacts
+            rms = float(np.std(sample.below(width, FEWEST)))
+            width = width_for(rms, contact.range)
+            require_inside(width)
+    if width > contact.radius * 1.6:
+        raise SceneError(f"load = {load:g} nN", f"presses a tip of {contact.radius:g} nm into a contact of {2 * reach:.3g} nm",
+                         "the surfaces are taken as gently sloped, which such a contact is not",
+                         "press less, or take a larger tip or a stiffer sample")
+    finest = contact.modulus * contact.range**2 / (2 * contact.work)  # two sites beside the edge of a contact
+    wanted = math.ceil(width / min(width / FEWEST, finest, sample.pixel if sample is not None else math.inf))
+    sites = given["sites"] or min(MOST, wanted + wanted % 2)
+    if contact.range**2 < 0.999 * 2 * width / sites * contact.work / contact.modulus:
+        longer = math.sqrt(2 * width / sites * contact.work / contact.modulus)
+        if given["range"] is not None:
+            raise SceneError(f"range = {given['range']}", f"is not resolved by a spacing of {width / sites:.3g} nm", "beside the edge of a "
+                             f"contact it would act on less than two sites (w / E* = {contact.work / contact.modulus:.3g} nm)",
+                             f'range "{math.ceil(1e3 * longer) / 1e3:g} nm", or leave it out for the numbers that depend on no range')
+        notes.append(f"the range of the attraction is {longer:.3g} nm in place of {asked:.3g} nm, which a spacing of {width / sites:.3g} nm "
+                     "does not resolve; numbers that depend on it are not stated")
+        contact = contact._replace(range=longer)
+        width = width_for(rms, longer)
+        require_inside(width)
+    if sample is not None:
+        notes.append(f"the middle of the map is below the tip: {width:.3g} nm, {sites} sites along an edge; the mean plane is subtracted; "
+                     f"its rms height is {float(np.std(sample.below(width, sites))):.3g} nm")
+    # A step moves the force by less than its share of the pull-off force.
+    step = min(0.5 * contact.range, 0.01 * contact.unit / contact.stiffness)
+    scene = {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"},
+             "block": {"young": keys.number("block.young"), "poisson": poisson},
+             "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": f"{contact.range:.10g} nm",
+                           "frictionless": True},
+             "drive": {"mode": "quasistatic", "path": ["approach", "pull-off"], "load": f"{load:.10g} nN", "stiffness": contact.stiffness,
+                       "displacement_step": f"{step:.10g} nm"},
+             "output": {"fields": ["relaxed"], "trajectory": "none"}}
+    coarse = max(16, 2 * round(sites / COARSER / 2))
+    wide = 2 * round(sites * WIDER / 2)
+    scenes = {"": _written(place, "tip", scene, sample, width, sites), "spacing": _written(place, "coarse", scene, sample, width, coarse),
+              "width": _written(place, "wide", scene, sample, width * wide / sites, wide)}
+    return Plan(scenes, contact, load, asked, notes, f"drive.displacement_step={LONGER * step:.10g} nm")
+
+
+class _Measured(NamedTuple):
+    """Numbers of a run by name, NaN where there is none, and why there is none."""
+
+    values: dict[str, float]
+    missing: dict[str, str]
+
+
+def _curve(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Returns drive and tip (separation of the undeformed surfaces, nm), force (nN), segment."""
+    series = result.series
+    zero = series["closest"][0]
+    return (0.1 * (zero + series["drive_displacement"]), 0.1 * (zero + series["top_displacement"]),
+            1e10 * ELECTRONVOLT * 1e9 * series["force"], series["segment"])
+
+
+def _measured(result: Result, contact: Contact) -> _Measured:
+    drive, tip, force, segment = _curve(result)
+    inwards = np.flatnonzero(segment == 0)
+    lost = np.diff(result.series["dissipated"][inwards])
+    joules = ELECTRONVOLT * 1e18  # 1 eV in aJ
+    values = {"pull_off_force": float(-force[segment == 1].min()), "jump_in_distance": NAN,
+              "contact_radius": result.number("instrument.contact_radius", NAN),
+              "lost": joules * float(result.series["dissipated"][-1])}
+    missing = {}
+    if len(lost) and joules * lost.max() > 1e-4 * contact.unit * contact.range:
+        values["jump_in_distance"] = float(tip[inwards[int(np.argmax(lost))]])
+    else:
+        missing["jump_in_distance"] = "the tip comes into contact without a jump: the cantilever is stiffer than the attraction"
+    if not values["contact_radius"] > 0:
+        missing["contact_radius"] = "the surfaces are apart at zero load"
+    return _Measured(values, missing)
+
+
+def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
+    """Returns the fit of JKR's force against the height of the tip on the way out, by work of adhesion, E* and the zero of heights."""
+    far = int(np.argmin(force))
+    tip, force = tip[:far + 1], force[:far + 1]
+    if len(tip) < 8 or not force[0] > 0:
+        return Fit(failed="the way out has too few points")
+    a = np.linspace((2 / 3) ** (1 / 3) / 2**(1 / 3) * 0.7, 6.0, 4000)
+    reduced, _, approach = jkr(a)
+    stable = slice(int(np.argmin(approach)), None)  # what a held tip can reach
+    reduced, approach = reduced[stable], approach[stable]
+
+    def curve(p: np.ndarray) -> np.ndarray:
+        work, stiffness = math.exp(p[0]), 4 / 3 * math.exp(p[1])
+        length = (math.pi * work * contact.radius**2 / stiffness) ** (1 / 3)
+        return math.pi * work * contact.radius * np.interp((p[2] - tip) * contact.radius / length**2, approach, reduced)
+
+    start = [math.log(contact.work), math.log(contact.modulus), 0.0]
+    found = least_squares(lambda p: curve(p) - force, start, x_scale=[0.1, 0.1, 0.1], method="lm")
+    if not found.success or not np.isfinite(found.x).all():
+        return Fit(failed="the fit does not converge")
+    misfit = math.sqrt(float(np.mean(found.fun**2)))
+    try:
+        spread = np.sqrt(np.diag(np.linalg.inv(found.jac.T @ found.jac)) * np.sum(found.fun**2) / max(1, len(tip) - 3))
+    except np.linalg.LinAlgError:
+        return Fit(failed="the curve does not fix both numbers")
+    work, modulus = math.exp(found.x[0]), math.exp(found.x[1])
+    return Fit(work, work * float(spread[0]), modulus, modulus * float(spread[1]), float(found.x[2]), misfit)
+
+
+NUMBERS = {"pull_off_force": ("F_{pull-off}", "largest attraction on the way out", "nN"),
+           "jump_in_distance": ("d_{jump-in}", "separation of the undeformed surfaces at which the tip jumps in", "nm"),
+           "contact_radius": ("a_{0}", "contact radius at zero load, of the area as a circle", "nm"),
+           "lost": ("W_{lost}", "energy lost in a cycle", "aJ")}
+
+
+def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
+    """Returns the numbers of a tip from its runs.
+
+    Parameters
+    ----------
+    plan : Plan
+        What was run.
+    results : dict
+        Results by part; "" is the scene itself.
+    place : Path
+        Directory of the study.
+
+    Returns
+    -------
+    Tip
+        The numbers with their errors, the curve and the fit.
+    """
+    own = _measured(results[""], plan.contact)
+    others = {part: _measured(result, plan.contact) for part, result in results.items() if part}
+    used = plan.contact.range > 1.001 * plan.asked_range
+    numbers = []
+    for path, (symbol, name, unit) in NUMBERS.items():
+        value = own.values[path]
+        parts = {part: Found(0.0, PARTS[part] * abs(value - measured.values[path])) for part, measured in others.items()}
+        withheld = own.missing.get(path, "")
+        if not withheld and not all(math.isfinite(found.error) for found in parts.values()):
+            withheld = "a coarser or wider run has no such number: its error is not known"
+        if not withheld and used and path in ("jump_in_distance", "lost"):
+            withheld = (f"the range of the attraction decides, and is {plan.contact.range:.3g} nm, which the spacing resolves, in place of "
+                        f"{plan.asked_range:.3g} nm")
+        if used and path == "pull_off_force":
+            parts["range"] = Found(0.0, abs(plan.contact.pull_off() - plan.contact._replace(range=plan.asked_range).pull_off()))
+        condition = "" if used else f"for a range of {plan.contact.range:.3g} nm"
+        numbers.append(Number(path, symbol, name, unit, value, {} if withheld else parts, least=0.0, withheld=withheld, condition=condition))
+    drive, tip, force, segment = _curve(results[""])
+    out = segment == 1
+    notes = list(plan.notes)
+    edge = results[""].number("instrument.edge_distance", NAN)
+    if edge < 0.5:
+        notes.append(f"the contact comes within {edge:.2g} nm of the edge of the box: press less")
+    return Tip(numbers, drive, tip, force, out, plan.contact, _fitted(plan.contact, tip[out], force[out]), results[""], notes, place)
