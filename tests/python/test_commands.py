@@ -45,7 +45,7 @@ def words_of(name):
             "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
             "prony": (["curve.csv"], "out.toml", ""),
             "defaults": ([], "", ""), "info": ([], "", ""),
-            "tip": ([*TIP, "--sites", "16"], "out", "tip.json")}[name]
+            "tip": ([*TIP, "--sites", "24"], "out", "tip.json")}[name]
 
 
 @pytest.fixture(scope="module")

@@ -57,7 +57,7 @@ COMMANDS = {
     "cost": ["cost", "q.toml", "--parameters", "tolerance", "--out", "out"],
     "estimate": ["estimate", "q.toml", "--parts", "convergence,width", "--seeds", "2", "--out", "out"],
     "adhesion": ["adhesion", *MAP, "--out", "out"],
-    "tip": ["tip", "--radius", "20nm", "--E", "3GPa", "--nu", "0.3", "--w", "50mJ/m2", "--stiffness", "20N/m", "--sites", "16", "--out", "out"],
+    "tip": ["tip", "--radius", "20nm", "--E", "3GPa", "--nu", "0.3", "--w", "50mJ/m2", "--stiffness", "20N/m", "--sites", "24", "--out", "out"],
     "states": ["states", "q.toml", "--starts", "1", "--out", "out"],
 }
 """Each with the directory "out" for its files."""

@@ -105,8 +105,8 @@ def test_a_line_of_names_above_columns(place):
     assert read_heights("titled.txt")["heights"].shape == (4, 4)
 
 
-@pytest.mark.parametrize("name, key", [("E", "block.young"), ("work", "interface.adhesion"), ("range", "interface.range"),
-                                       ("size", "surface.file_size")])
+@pytest.mark.parametrize("name, key", [("young", "block.young"), ("adhesion", "interface.adhesion"), ("range", "interface.range"),
+                                       ("size", "surface.file_size"), ("stiffness", "drive.stiffness")])
 def test_a_number_without_a_unit_is_asked_for_with_each(place, name, key):
     with pytest.raises(asperity.SceneError, match="has no unit") as error:
         asperity.studies.map_scene.with_unit(name, 0.05)

@@ -19,8 +19,8 @@ from ..reports import estimate as report_estimate
 from ..reports.run import run_page_files, write_run_page
 from ..results.result import Result
 from ..running import lock, program
-from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs
-from ..studies.estimates import MAP_FILES, RESULT, Estimate, Estimating, require_free_runs
+from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs, require_free_runs
+from ..studies.estimates import MAP_FILES, OF_A_MAP, RESULT, Estimate, Estimating
 from ..studies.map_scene import MapScene, scene_of, stem_of
 from ..terminal import Voice
 
@@ -137,7 +137,7 @@ def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable
 
 def _require_free(place: Path, file: str) -> None:
     """Checks that no file is in the way. Raises SceneError."""
-    require_free_runs(place)
+    require_free_runs(place, OF_A_MAP)
     page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
     store.require_free({place: ["map.npy", f"{stem_of(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
                         place / "scene": page}, inputs=[file])

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,10 +16,14 @@ from ..files import store
 from ..reports import tip as report_tip
 from ..results.result import Result
 from ..running import lock, program
-from ..running.pool import DONE, STOPPED, PoolOptions, refuse_jobs
+from ..running.pool import DONE, STOPPED, PoolOptions, refuse_jobs, require_free_runs
 from ..studies.tip import Plan, Tip, files_of, plan_of, tip_of
 from ..studies.variations import Runs, Variation
 from ..terminal import Voice
+
+
+RUNS = re.compile(r"tip|coarse|wide|tip,displacement_step=.*")
+"""Directories of the runs."""
 
 
 def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: str | None = None, poisson: float | None = None,
@@ -98,6 +103,7 @@ def _place(file: str | None) -> str:
 
 
 def _planned(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
+    require_free_runs(place, RUNS)
     store.require_free({place: [*files_of(file is not None), *report_tip.FILES]}, inputs=[file] if file else [])
     return plan_of(file, place, given)
 

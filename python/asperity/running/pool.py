@@ -16,6 +16,7 @@ import contextlib
 import ctypes
 import math
 import os
+import re
 import signal
 import subprocess
 import threading
@@ -150,6 +151,26 @@ def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool
     aside = (RESULT, "run.h5") if damaged and store.is_named(directory, RESULT) else ()
     names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
     return store.in_the_way(directory, names, renew=False, inputs=inputs) + store.in_the_way(directory, [LOG], inputs=inputs)
+
+
+def require_free_runs(place: Path, names: re.Pattern[str]) -> None:
+    """Checks that no file is in the way of the runs of a study, before anything is written.
+
+    Parameters
+    ----------
+    place : Path
+        Directory of the study.
+    names : re.Pattern
+        Names of the directories of its runs.
+
+    Raises
+    ------
+    SceneError
+        Files are in the way in a directory without a result.
+    """
+    folders = [one for one in sorted(place.glob("*/")) if names.fullmatch(one.name) and not (one / RESULT).exists()]
+    if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
+        raise SceneError.of(problems)
 
 
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:

@@ -23,7 +23,7 @@ from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
 from ..running import lock, program
-from ..running.pool import DONE, PoolOptions, in_the_way_of_run, refuse_jobs
+from ..running.pool import DONE, PoolOptions, refuse_jobs, require_free_runs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from ..terminal import duration
 from ..units import GIGAPASCAL
@@ -159,12 +159,6 @@ MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}"
 OF_A_MAP = re.compile(r"(scene|finer|mirrored|quarter-\d)(,.*)?|\w+=.*")
 """Folders of the runs of a map's estimate."""
 
-
-def require_free_runs(place: Path) -> None:
-    """Checks that no file is in the way of the runs of a map's estimate, before anything is written. Raises SceneError."""
-    folders = [one for one in sorted(place.glob("*/")) if OF_A_MAP.fullmatch(one.name) and not (one / "result.json").exists()]
-    if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
-        raise SceneError.of(problems)
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
@@ -378,7 +372,7 @@ class Estimating(Study):
         map_parts: tuple[Part, ...] = ()
         self.law: missing_waves.Law | None = None
         if of_file:
-            require_free_runs(self.place)
+            require_free_runs(self.place, OF_A_MAP)
             map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)

@@ -33,6 +33,8 @@ from .stated_number import NAN, Found, Number
 
 FEWEST, MOST = 64, 256
 """Sites along an edge of the box unless others are asked for."""
+LEAST = 24
+"""Of which a coarser box can be made."""
 RANGE = "3 Å"
 ROOM = 1.3
 """Width of the box over the diameter of the contact."""
@@ -252,6 +254,9 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
             raise SceneError(f"{name} = {given[name]}", "is not above zero", {"radius": "a tip is a sphere", "stiffness": "the tip is held by "
                              "a cantilever", "adhesion": "the work of flat surfaces is above zero"}[name],
                              {"radius": 'for example "20 nm"', "stiffness": 'for example "0.2 N/m"', "adhesion": 'for example "50 mJ/m2"'}[name])
+    if given["sites"] is not None and given["sites"] < LEAST:
+        raise SceneError(f"sites = {given['sites']}", "are too few", f"a box with {COARSER:g} times the spacing is run for the error, and has 16 "
+                         "sites at least", f"take {LEAST} or more, or leave it out")
     poisson = keys.needed("block.poisson")
     contact = Contact(0.1 * keys.needed("surface.radius"), keys.needed("block.young") / (1 - poisson**2),
                       1e-3 * MILLIJOULE * keys.needed("interface.adhesion"), 0.1 * keys.needed("interface.range"), keys.needed("drive.stiffness"))
@@ -311,7 +316,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
              "drive": {"mode": "quasistatic", "path": ["approach", "pull-off"], "load": f"{load:.10g} nN", "stiffness": contact.stiffness,
                        "displacement_step": f"{step:.10g} nm"},
              "output": {"fields": ["relaxed"], "trajectory": "none"}}
-    coarse = max(16, 2 * round(sites / COARSER / 2))
+    coarse = 2 * round(sites / COARSER / 2)
     wide = 2 * round(sites * WIDER / 2)
     scenes = {"": _written(place, "tip", scene, sample, width, sites), "spacing": _written(place, "coarse", scene, sample, width, coarse),
               "width": _written(place, "wide", scene, sample, width * wide / sites, wide)}
