@@ -208,6 +208,8 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
     if target.suffix.lower() not in (".h5", ".hdf5"):
         raise refuse(target, "is no name of an HDF5 file", "what is written is HDF5",
                       f"for example {target.with_suffix('.h5')}")
+    if target != Path(source):  # of a file that would be written to itself it is said first that it needs no conversion
+        store.require_new(target)
     found = read_heights(source, channel) if ":/" in source else _found(source, channel, None, False)
     store.require_new(target)
     if channel is not None and "heights" not in found:
