@@ -4,8 +4,9 @@
 // The ranks of a run behind one value type.
 //
 // A run started by mpirun uses MPI; a run started alone never initialises it: there, collective
-// calls cost nothing. Every MPI call of the project is in communicator.cpp. All member functions
-// are collective (every rank calls them in the same order) except abort() and those that return a
+// calls cost nothing. Every MPI call of the project is in communicator_mpi.cpp; a program without
+// MPI (ASPERITY_WITH_MPI=OFF) has communicator_one_rank.cpp in its place. All member functions are
+// collective (every rank calls them in the same order) except abort() and those that return a
 // property (rank, size and the like).
 #pragma once
 
@@ -108,6 +109,12 @@ private:
 /// has the same rule.
 bool launched_in_parallel();
 
+/// Returns the number of ranks that a launcher says it has started; 0 if no launcher says so.
+int ranks_launched();
+
+/// Name of the MPI library of a program that was built without MPI.
+inline constexpr const char* no_mpi = "none (one process)";
+
 /// Session of MPI: starts MPI if the process is launched_in_parallel(), and ends it. main() makes
 /// one and checks unconnected().
 class ParallelSession {
@@ -124,7 +131,7 @@ public:
     int unconnected() const { return unconnected_; }
     /// Returns true if the launcher counts this process as the first.
     static bool first_started();
-    /// Returns name and version of the MPI library, or "none (one process)".
+    /// Returns name and version of the MPI library, or no_mpi.
     static std::string library();
 
 private:

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: MIT
 //
 // The program: a table of commands, each with its description, its options and its function.
+// start.cpp is the program's main(); the Python module calls program() itself.
 // The main loop of a run is follow() in engine/run/run.cpp.
 // Every rank of mpirun runs this; how they end together is in engine/commands/exit_code.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/commands.hpp"
 #include "engine/commands/exit_code.hpp"
+#include "engine/commands/program.hpp"
 #include "engine/commit.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/run/run.hpp"
@@ -135,6 +137,7 @@ std::vector<Command> all_commands() {
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
         {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},
         {"prony", "branches of a viscoelastic block from a master curve of a rubber", {}},
+        {"scenes", "copy the scenes and examples that come with the program, and list them", {}},
         {"defaults",
          "every key of a scene with its default, as TOML",
          {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},
@@ -160,10 +163,8 @@ std::vector<Command> all_commands() {
 }
 
 } // namespace
-} // namespace asperity
 
-int main(int argc, char** argv) {
-    using namespace asperity;
+int program(int argc, char** argv) {
     const std::vector<Command> commands = all_commands();
     if (const auto failed = hand_over_to_python(commands, argc, argv)) return *failed;
         // Memory of fields goes back to the system when they go: else what a heap keeps between
@@ -181,3 +182,5 @@ int main(int argc, char** argv) {
         return carry_out(commands, argc, argv, world);
     });
 }
+
+} // namespace asperity

@@ -93,10 +93,15 @@ int refuse_unconnected(const ParallelSession& session) {
         std::this_thread::sleep_for(std::chrono::seconds(2)); // launchers end it with the first
         return io::exit_code::scene;
     }
+    const std::string started = fmt::format(
+        "{} processes were started, and MPI connects none of them", session.unconnected());
+    if (ParallelSession::library() == no_mpi)
+        throw io::SceneError(
+            {"asperity", started,
+             "this program was built without MPI: it has one rank with many threads",
+             "start it alone, or build it with an MPI (docs/howto/install.md)"});
     throw io::SceneError(
-        {"asperity",
-         fmt::format("{} processes were started, and MPI connects none of them",
-                     session.unconnected()),
+        {"asperity", started,
          fmt::format("this program is linked with {}; the launcher is that of another MPI, or srun "
                      "without the PMI that this MPI speaks",
                      ParallelSession::library()),

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """The command line: `python3 -m asperity` is `asperity`.
 
-theory, sweep, cost, estimate, adhesion, tip, states, report, export and convert are carried out here; the program hands them over. Every other
-command is handed to the program.
+theory, sweep, cost, estimate, adhesion, tip, states, report, export, convert and scenes are carried out here; the program hands them over.
+Every other command is handed to the program. In a wheel the program is entry(): the compiled module carries out the others.
 """
 
 from __future__ import annotations
@@ -87,6 +87,10 @@ def _carry_out(given: argparse.Namespace) -> int:
         voice.show("\n".join(map(str, files)))
         voice.tell({"files": files})
         return 0
+    if given.command == "scenes":
+        from .commands.scenes import scenes_command
+
+        return scenes_command(given.out)
     if given.command == "convert":
         from .maps.convert import convert
 
@@ -202,6 +206,20 @@ def main(words: list[str]) -> int:
         print(f"asperity {words[0]}: a Python package is missing\n    why: {sys.executable}: {error}\n    fix: {fix}",
               file=sys.stderr)
         return 1
+
+
+def entry() -> int:
+    """Runs the program `asperity` of a wheel: study commands here, the others in the compiled module. Returns the exit code."""
+    words = sys.argv[1:]
+    if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
+        os.environ.setdefault("GOMP_SPINCOUNT", "3000")
+    try:
+        from . import _engine
+    except ImportError:  # the package alone, beside a program that is elsewhere
+        return main(words)
+    if words and words[0] in parsers():
+        return main(words)
+    return _engine.program(words)
 
 
 if __name__ == "__main__":

@@ -18,6 +18,8 @@ class _Components(NamedTuple):
 
 version: str
 
+def program(words: list[str]) -> int: ...
+
 def quantity(where: str, given: float | str, unit: str) -> float: ...
 
 class Energies:

@@ -35,6 +35,9 @@ void bind_simulation(py::module_& m);
 /// Binds Statics, a quasi-static path that a script leads.
 void bind_statics(py::module_& m);
 
+/// Binds program(), the command line.
+void bind_program(py::module_& m);
+
 /// Calls work() without the lock of Python, so that its other threads run. FFTW's plans and HDF5
 /// are of the process, and threads are shared: one call works at a time.
 template <class Work>

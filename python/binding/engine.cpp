@@ -44,6 +44,7 @@ PYBIND11_MODULE(_engine, m) {
         py::arg("where"), py::arg("given"), py::arg("unit"),
         "A number in this unit, given so or as a text with a unit. Raises SceneError.");
 
+    bind_program(m);
     bind_records(m);
     bind_state(m);
     bind_simulation(m);

@@ -21,7 +21,7 @@ SUBPACKAGES = {
                 "estimates", "map_scene", "tip", "prony", "states"),
     "plots": ("style", "run", "prony", "tip", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "tip", "sweep", "export"),
-    "commands": ("command_line", "studies", "theory", "adhesion", "tip", "prony"),
+    "commands": ("command_line", "scenes", "studies", "theory", "adhesion", "tip", "prony"),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()

@@ -233,6 +233,9 @@ def parsers() -> dict[str, Parser]:
     convert.add_argument("-o", "--out", metavar="OUT.h5", help="the same as an option")
     convert.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
     _voice(convert, progress=False)
+    scenes = add("scenes", "copy the scenes and examples that come with the program, and list them", "Nothing is replaced.")
+    scenes.add_argument("out", nargs="?", default=".", metavar="FOLDER", help="where scenes/ and examples/ are made (default: here)")
+    _voice(scenes, progress=False)
     prony = add("prony", "branches of a viscoelastic block from a master curve of a rubber",
                 "Text of columns: frequency, storage and loss modulus (or tan δ), maybe a shift factor aT; names and units stand above. "
                 "OUT.toml is what block.prony of a scene names; OUT.svg shows the fit.")

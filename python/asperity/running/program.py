@@ -28,6 +28,13 @@ def version() -> str:
     return info()["version"]
 
 
+def _leads_nowhere(place: str | Path, package: Path) -> bool:
+    """Returns true for the script of a wheel, which calls the compiled module (__main__.entry), if the package has no such module."""
+    with open(place, "rb") as file:
+        script = b"asperity.__main__" in file.read(1000)
+    return script and not any(package.glob("_engine*.so"))
+
+
 @functools.cache
 def path() -> str:
     """Returns the program: $ASPERITY_PROGRAM, the build of this source tree, an installation, or the one in PATH.
@@ -39,12 +46,12 @@ def path() -> str:
     for root in package.parents[1:4]:
         places += [root / "build/release/engine/asperity", root / "asperity", root / "bin/asperity"]
     for place in places:
-        if place and os.path.isfile(place) and os.access(place, os.X_OK):
+        if place and os.path.isfile(place) and os.access(place, os.X_OK) and not _leads_nowhere(place, package):
             if place in {root / "asperity" for root in package.parents[1:4]}:
                 print(f"asperity: there is no build; {place} makes one first, which takes minutes", file=sys.stderr)
             return str(place)
     found = shutil.which("asperity")
-    if not found:
+    if not found or _leads_nowhere(found, package):
         raise InputOutputError("asperity", "the program was not found",
                                "neither beside this package nor in PATH",
                                "build it, or set ASPERITY_PROGRAM to its path")

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""asperity scenes: the scenes and examples that come with the package."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+from ..errors import InputOutputError
+
+KINDS = ("scenes", "examples")
+
+
+def folder() -> Path:
+    """Returns the folder that holds scenes/ of this package: of a wheel, of an installation, or of the source tree.
+
+    Raises InputOutputError if there is none.
+    """
+    package = Path(__file__).resolve().parents[1]
+    for place in (package / "share", package.parents[1]):
+        if (place / "scenes" / "first-contact.toml").is_file():
+            return place
+    raise InputOutputError("asperity scenes", "the scenes were not found", "this installation has none beside its package",
+                           "install Asperity again, or take scenes/ of its source tree")
+
+
+def title(scene: Path) -> str:
+    """Returns the first sentence of the comment at the head of a scene, or of a script."""
+    lines = [line[1:].strip() for line in scene.read_text().split("\n\n")[0].splitlines() if line.startswith("#")]
+    text = "\n".join(line for line in lines if not line.startswith(("SPDX", "!"))).strip().partition("\n\n")[0].replace("\n", " ")
+    return re.split(r"(?<!Fig)\.\s", text + " ", maxsplit=1)[0].strip().rstrip(":")
+
+
+def scenes_command(out: str) -> int:
+    """Copies the scenes and examples into a folder and prints a list of the scenes (`asperity scenes`).
+
+    Parameters
+    ----------
+    out : str
+        Folder that gets scenes/ and examples/.
+
+    Returns
+    -------
+    int
+        The exit code.
+
+    Raises
+    ------
+    InputOutputError
+        If the folder has a scenes/ or examples/ already: nothing is replaced.
+    """
+    source, target = folder(), Path(out)
+    for kind in KINDS:
+        if (target / kind).exists():
+            raise InputOutputError("asperity scenes", f"{target / kind} is there already", "nothing is replaced",
+                                   "name another folder: asperity scenes FOLDER")
+    for kind in KINDS:
+        if (source / kind).is_dir():
+            shutil.copytree(source / kind, target / kind, ignore=shutil.ignore_patterns("results", "__pycache__"))
+    for scene in sorted((target / "scenes").rglob("*.toml")):
+        print(f"{scene}\n    {title(scene)}")
+    return 0
