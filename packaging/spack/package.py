@@ -14,7 +14,7 @@ class Asperity(CMakePackage):
     """Adhesion between randomly rough elastic solids, from the atoms up: molecular dynamics of an elastic block on a
     rough substrate, quasi-static paths and states at rest."""
 
-    version("0.1.0")
+    version("0.2.0")
 
     license("MIT")
 

@@ -90,7 +90,7 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "scenes":
         from .commands.scenes import scenes_command
 
-        return scenes_command(given.out)
+        return scenes_command(given.out, voice)
     if given.command == "convert":
         from .maps.convert import convert
 

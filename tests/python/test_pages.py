@@ -118,6 +118,28 @@ def test_pages_are_short():
     assert sum(count for page, count in words.items() if page not in written_whole) <= 22400, words
 
 
+WORDS_OF_THE_FIELD = ("adhesion", "contact mechanics", "rough surface", "friction", "rubber", "viscoelastic", "AFM", "tip", "sphere",
+                      "JKR", "Persson", "pull-off", "contact area", "hysteresis", "atomistic", "continuum", "periodic", "molecular dynamics",
+                      "elastic", "quasi-static", "GPU", "CUDA", "MPI", "SLURM", "memory", "wheel", "Python", "load", "spectrum",
+                      "Contact-Mechanics Challenge")
+
+
+def test_a_search_finds_the_words_of_the_field():
+    """Each is in a heading, or in the first lines of a page."""
+    found = ""
+    for page in PAGES:
+        lines = page.read_text().splitlines()
+        found += "\n".join(lines[:12] + [line for line in lines if line.startswith("#")]).lower() + "\n"
+    assert len(WORDS_OF_THE_FIELD) == 30
+    assert [word for word in WORDS_OF_THE_FIELD if word.lower() not in found] == []
+
+
+def test_every_scene_is_in_the_index():
+    index = (ROOT / "scenes/README.md").read_text()
+    scenes = {str(file.relative_to(ROOT / "scenes")) for file in (ROOT / "scenes").rglob("*.toml") if "results" not in file.parts}
+    assert set(re.findall(r"\]\((.*?\.toml)\)", index)) == scenes
+
+
 def test_references_are_current():
     try:
         import asperity.running.engine  # noqa: F401

@@ -74,3 +74,12 @@ def test_scenes_come_along(tmp_path):
     again = call([sys.executable, "-m", "asperity", "scenes"], tmp_path)
     assert again.returncode == 4 and "fix: name another folder" in again.stderr
     assert call([sys.executable, "-m", "asperity", "scenes", "other"], tmp_path).returncode == 0
+
+
+def test_every_file_names_one_version():
+    """The version is in CMakeLists.txt; copies are written by packaging/version.py."""
+    done = subprocess.run([sys.executable, ROOT / "packaging/version.py", "--check"], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    version = done.stdout.strip()
+    assert call([PROGRAM, "--version"], ROOT).stdout.split()[1] == version
+    assert f"## {version}" in (ROOT / "CHANGELOG.md").read_text()

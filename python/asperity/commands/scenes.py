@@ -9,6 +9,7 @@ import shutil
 from pathlib import Path
 
 from ..errors import InputOutputError
+from ..terminal import Voice
 
 KINDS = ("scenes", "examples")
 
@@ -33,13 +34,15 @@ def title(scene: Path) -> str:
     return re.split(r"(?<!Fig)\.\s", text + " ", maxsplit=1)[0].strip().rstrip(":")
 
 
-def scenes_command(out: str) -> int:
+def scenes_command(out: str, voice: Voice) -> int:
     """Copies the scenes and examples into a folder and prints a list of the scenes (`asperity scenes`).
 
     Parameters
     ----------
     out : str
         Folder that gets scenes/ and examples/.
+    voice : Voice
+        What prints.
 
     Returns
     -------
@@ -59,6 +62,7 @@ def scenes_command(out: str) -> int:
     for kind in KINDS:
         if (source / kind).is_dir():
             shutil.copytree(source / kind, target / kind, ignore=shutil.ignore_patterns("results", "__pycache__"))
-    for scene in sorted((target / "scenes").rglob("*.toml")):
-        print(f"{scene}\n    {title(scene)}")
+    titles = {str(scene): title(scene) for scene in sorted((target / "scenes").rglob("*.toml"))}
+    voice.show("\n".join(f"{scene}\n    {text}" for scene, text in titles.items()))
+    voice.tell({"scenes": titles})
     return 0
