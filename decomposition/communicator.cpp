@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// What does not depend on MPI. communicator_mpi.cpp has the rest with MPI,
-// communicator_one_rank.cpp without.
+// The part without MPI. The other functions are in communicator_mpi.cpp or, in a build without MPI,
+// in communicator_one_rank.cpp.
 #include "decomposition/communicator.hpp"
 
 #include <cstdlib>
