@@ -152,6 +152,9 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].stored", "meV/Å^2", per::area,
      "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
      "dissipated_in_block"},
+    {"segments[].work_of_settling", "meV/Å^2", per::area,
+     "part of work_of_drive of a slide until steady: it brings a viscoelastic block into the shape "
+     "in which it slides steadily, before the first step"},
     {"segments[].kinetic", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
      "path "
@@ -171,7 +174,8 @@ inline constexpr Quantity result_quantities[] = {
      "distance left out at the beginning, with which the variance of the mean friction is least"},
     {"segments[].steady_friction", "eV/Å", per::block, "force against the slide"},
     {"segments[].steady_friction_error", "eV/Å", per::block,
-     "its standard error, by blocking, as of the following ones"},
+     "its standard error, by blocking, as of the following ones; if that is larger, by how much it "
+     "differs from what is dissipated over the distance of a steady slide"},
     {"segments[].friction_stress", "MPa", "", "steady_friction over the area of the box"},
     {"segments[].friction_coefficient", "1", "",
      "steady_friction over the normal force; left out if that pulls"},

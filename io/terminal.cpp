@@ -133,6 +133,21 @@ std::string number(double value, int decimals) {
     return fmt::format("{:.{}f}", value, 3 - before);
 }
 
+std::string with_error(double value, double error) {
+    if (!std::isfinite(value) || !std::isfinite(error) || !(error > 0.0)) return cell(value);
+    const double largest = std::max(std::abs(value), error);
+    if (largest < 1e-4 || largest >= 1e7) {
+        const double exponent = std::floor(std::log10(largest)), unit = std::pow(10.0, exponent);
+        return fmt::format("({})e{:+03d}", with_error(value / unit, error / unit),
+                           static_cast<int>(exponent));
+    }
+    const double digit = std::floor(std::log10(error)), unit = std::pow(10.0, digit);
+    if (std::round(error / unit) >= 10.0) return with_error(value, 10.0 * unit);
+    const int decimals = std::max(0, -static_cast<int>(digit));
+    return fmt::format("{:.{}f} ± {:.{}f}", std::round(value / unit) * unit, decimals,
+                       std::round(error / unit) * unit, decimals);
+}
+
 std::string cell(double value, int digits) {
     if (!std::isfinite(value)) return "-";
     const double size = std::abs(value);

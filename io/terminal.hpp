@@ -38,6 +38,9 @@ private:
 std::string number(double value, int decimals);
 /// Returns a number with so many significant digits, unless it needs powers of ten.
 std::string cell(double value, int digits = 4);
+/// Returns a number with its error, which has one significant digit, to the decimals of the error:
+/// "0.033 ± 0.004", "(1.23 ± 0.05)e-06"; without an error as cell() has it.
+std::string with_error(double value, double error);
 
 /// Mode of progress reports. "bar" redraws one line, on a terminal; "lines" prints a line now and
 /// then, for logs and under mpirun (where ranks see no terminal); "auto" picks one of them; "json"

@@ -31,6 +31,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.lost = per_area(works.lost);
     if (case_.effects.branches) ended.relaxed = per_area(works.relaxed);
     ended.stored = per_area(works.stored);
+    ended.settling = per_area(works.settling);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
     if (!case_.effects.temperature) ended.kinetic = per_area(kinetic);

@@ -37,6 +37,8 @@ struct Works {
     std::optional<double> interface;
     /// Uncertainty of on_solids and lost; quasi-static paths only
     std::optional<double> uncertainty;
+    /// Part of on_solids that brought a viscoelastic block into its steady shape; of such slides
+    std::optional<double> settling = {};
     std::optional<double> distance = {};    ///< distance of a slide over a wall, Å
     std::optional<SteadySlide> steady = {}; ///< means of a slide over a wall
 

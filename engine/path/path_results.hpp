@@ -30,6 +30,8 @@ struct SegmentResults {
     /// Work of the interface's force on the mean height of the lowest layer, int F dz. Empty on a
     /// quasi-static path that controls the top, where the mean height jumps at instabilities.
     std::optional<double> interface_work;
+    /// Part of work that brought a viscoelastic block into the shape in which it slides steadily.
+    std::optional<double> settling;
     std::optional<double> relaxed; ///< energy dissipated in time by a viscoelastic block
     double lost = 0.0;             ///< energy damped (less the heat of a thermostat) or dissipated
     /// Change of the energy of interface and block; quasi-static only.
@@ -55,6 +57,7 @@ struct SegmentResults {
         v("kind", kind);
         v("work", work);
         v("work_of_interface", interface_work);
+        v("settling", settling);
         v("relaxed", relaxed);
         v("lost", lost);
         v("stored", stored);

@@ -141,6 +141,8 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.relaxed = mean_from(rate(&SlidePoint::relaxed), first);
     s.lost = mean_from(rate(&SlidePoint::lost), first);
     s.steady = is_steady(lengths);
+    if (s.steady)
+        s.friction_error = std::max(s.friction_error, std::abs(s.friction - s.relaxed - s.lost));
     return s;
 }
 

@@ -8,7 +8,8 @@
 // left out at its beginning, up to half, that is taken as the running-in with which the variance of
 // the bins over their number is least (White, Simulation 69, 323 (1997)). The standard error of the
 // mean is the largest that bins, pairs of bins, fours and so on give (Flyvbjerg and Petersen, J.
-// Chem. Phys. 91, 461 (1989)).
+// Chem. Phys. 91, 461 (1989)). The friction of a steady slide is what is dissipated over the
+// distance: where the two differ by more, this is the error.
 //
 // A slide is steady if the mean friction over a correlation length of the map has changed by less
 // than a hundredth since the one before, and what a geometric series of the last two changes has

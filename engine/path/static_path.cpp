@@ -119,6 +119,9 @@ void StaticPath::conclude() {
     if (case_.simulation.drive.control == Control::mean_height)
         works.interface = slide ? points_->lateral_work() - points_->work() : -points_->work();
     if (slide && interface_.wall()) {
+        if (works.interface) *works.interface += points_->settling_work();
+        if (segment_to_conclude().until_steady && case_.effects.branches)
+            works.settling = points_->settling_work();
         works.distance = points_->way();
         works.steady = results_.slide.means(lengths());
     }

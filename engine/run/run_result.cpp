@@ -145,6 +145,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].lost", i, s.lost);
         given("segments[].dissipated_in_block", s.relaxed);
         given("segments[].stored", s.stored);
+        given("segments[].work_of_settling", s.settling);
         given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);

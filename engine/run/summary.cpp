@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -160,49 +161,77 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                        "(block.thickness) less so.\n");
 }
 
-/// Prints the segments of a path that has others than approach and pull-off.
+/// Returns the number and the first words of a segment: "1 slide x 128 nm".
+std::string short_name(const Case& c, const SegmentResults& s) {
+    std::string text = c.path()[s.number].text;
+    for (const char* condition : {" under load", " until steady"})
+        if (const std::size_t at = text.find(condition); at != std::string::npos) text.resize(at);
+    return fmt::format("{} {}", s.number, text);
+}
+
+/// Prints the segments of a path that has others than approach and pull-off, a column each, as many
+/// side by side as a page has room for.
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
-    const bool slides = c.effects.sliding;
-    std::vector<std::string> head = {"segment",
-                                     named("work of the drive", "segments[].work_of_drive"),
-                                     named("lost", "segments[].lost")};
+    const bool newtons = c.in_newtons();
+    const double unit = newtons ? units::nanonewton : c.area() * units::megapascal;
+    struct Row {
+        std::string name;
+        std::function<std::string(const SegmentResults&)> of;
+    };
+    std::vector<Row> rows;
+    rows.push_back({named("work of the drive", "segments[].work_of_drive"),
+                    [](const SegmentResults& s) { return energies(s.work); }});
+    rows.push_back({named("lost", "segments[].lost"),
+                    [](const SegmentResults& s) { return energies(s.lost); }});
     if (c.effects.branches)
-        head.push_back(named("dissipated in the block", "segments[].dissipated_in_block"));
-    if (!c.effects.dynamic) head.push_back(named("stored", "segments[].stored"));
-    const io::Key force =
-        c.in_newtons() ? io::Key("segments[].force") : io::Key("segments[].pressure");
-    head.insert(head.end(), {named("ends at", force),
-                             named("mean height", "segments[].mean_height"), "contact"});
-    if (slides) head.push_back(named("friction", "segments[].friction"));
-    io::Table table(head);
-    for (const SegmentResults& s : results.segments) {
-        std::vector<std::string> row = {c.path()[s.number].text, energies(s.work),
-                                        energies(s.lost)};
-        if (c.effects.branches) row.push_back(energies(s.relaxed));
-        if (!c.effects.dynamic) row.push_back(energies(s.stored));
-        const double unit = c.in_newtons() ? units::nanonewton : c.area() * units::megapascal;
-        row.insert(row.end(), {number(s.force / unit, c.in_newtons() ? 3 : 1),
-                               number(s.mean_height, 2), number(c.fraction(s.in_contact), 4)});
-        if (slides) row.push_back(number(s.lateral_mean, 2));
-        table.row(row);
+        rows.push_back({named("dissipated in the block", "segments[].dissipated_in_block"),
+                        [](const SegmentResults& s) { return energies(s.relaxed); }});
+    if (!c.effects.dynamic)
+        rows.push_back({named("stored", "segments[].stored"),
+                        [](const SegmentResults& s) { return energies(s.stored); }});
+    rows.push_back(
+        {named("ends at", newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
+         [=](const SegmentResults& s) { return number(s.force / unit, newtons ? 3 : 1); }});
+    rows.push_back({named("mean height", "segments[].mean_height"),
+                    [](const SegmentResults& s) { return number(s.mean_height, 2); }});
+    rows.push_back(
+        {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
+    if (c.effects.sliding)
+        rows.push_back({named("friction", "segments[].friction"),
+                        [](const SegmentResults& s) { return number(s.lateral_mean, 2); }});
+    constexpr std::size_t side_by_side = 3;
+    const auto& all = results.segments;
+    for (std::size_t first = 0; first < all.size(); first += side_by_side) {
+        const std::size_t end = std::min(all.size(), first + side_by_side);
+        std::vector<std::string> head = {"segment"};
+        for (std::size_t i = first; i < end; ++i)
+            head.push_back(short_name(c, all[i]));
+        io::Table table(head);
+        for (const Row& row : rows) {
+            std::vector<std::string> cells = {row.name};
+            for (std::size_t i = first; i < end; ++i)
+                cells.push_back(row.of(all[i]));
+            table.row(cells);
+        }
+        fmt::print(to, "\n");
+        table.print(to);
     }
-    fmt::print(to, "\n");
-    table.print(to);
     if (c.effects.dynamic) return;
-    for (const SegmentResults& s : results.segments) {
+    for (const SegmentResults& s : all) {
         if (!s.steady) continue;
         const SteadySlide& mean = *s.steady;
         const double megapascal = 1.0 / (c.area() * units::megapascal);
-        const std::string coefficient =
-            mean.load > 0.0
-                ? fmt::format(", coefficient {:.4g} ± {:.1g}", mean.friction / mean.load,
-                              mean.friction_error / mean.load)
-                : std::string();
-        fmt::print(to,
-                   "  \"{}\" after {:.4g} Å: friction {:.4g} ± {:.1g} MPa{}, contact {:.4f}{}.\n",
-                   c.path()[s.number].text, mean.running_in, mean.friction * megapascal,
-                   mean.friction_error * megapascal, coefficient, mean.in_contact / c.sites(),
-                   mean.steady ? "; steady" : "; not steady yet");
+        fmt::print(to, "  {}: friction {} MPa", short_name(c, s),
+                   io::with_error(mean.friction * megapascal, mean.friction_error * megapascal));
+        if (mean.load > 0.0)
+            fmt::print(to, ", coefficient {}",
+                       io::with_error(mean.friction / mean.load, mean.friction_error / mean.load));
+        fmt::print(to, ", contact {},\n    after {:.4g} Å{}.\n",
+                   io::with_error(mean.in_contact / c.sites(), mean.in_contact_error / c.sites()),
+                   mean.running_in,
+                   mean.steady ? "; steady"
+                               : "; not steady yet: the friction still drifts at its end, and a "
+                                 "longer slide tells more");
     }
     for (const SegmentResults& s : results.segments) {
         const Segment& asked = c.path()[s.number];

@@ -3,9 +3,11 @@
 #include "engine/statics/last_point.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "engine/waves/moving_pattern.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace asperity {
@@ -55,16 +57,51 @@ RelaxedState LastPoint::relax_at(double at, double dt, const Report& report,
     const std::array<double, 2>& place = interface_.place();
     if (interface_.wall() && place != place_)
         block_.shift_displacements(place[0] - place_[0], place[1] - place_[1]);
+    RelaxOptions options = relax_options(report);
+    options.force_window = window;
+    const RelaxedState state = relax(block_, interface_, constraint(at), options, phases_);
+    iterations_ += state.iterations;
+    return state;
+}
+
+RelaxOptions LastPoint::relax_options(const Report& report) const {
     RelaxOptions options;
     options.start = Start::near;
     options.tolerance = options_.tolerance;
     options.scales = options_.scales;
     options.balance = balance_;
     options.report = report;
-    options.force_window = window;
-    const RelaxedState state = relax(block_, interface_, constraint(at), options, phases_);
-    iterations_ += state.iterations;
-    return state;
+    return options;
+}
+
+RelaxedState LastPoint::settle(double velocity, const Report& report) {
+    // Turns come nearer by a factor each. Where sites jump to and fro there is no end: the slide
+    // then begins from where they are.
+    constexpr int most_turns = 200;
+    constexpr double loosest = 100.0, closer = 0.1;
+    state_.restore(state_to_restore(block_)); // the same bits after a resume
+    block_.hold(constraint(at_));
+    const MovingPattern pattern(block_.options(), along_ == Along::y ? 1 : 0, velocity);
+    RelaxOptions options = relax_options(report);
+    const double enough = options_.tolerance;
+    for (int turn = 0; turn < most_turns; ++turn) {
+        const double left = block_.follow(pattern);
+        if (left <= enough) break;
+        options.tolerance = std::clamp(closer * left, enough, loosest * enough);
+        const RelaxedState state = relax(block_, interface_, constraint(at_), options, phases_);
+        iterations_ += state.iterations;
+        if (state.interrupted) {
+            block_.begin_step(0.0);
+            put_back();
+            return state;
+        }
+        if (!state.converged) break;
+    }
+    block_.settle_branches();
+    block_.begin_step(0.0);
+    state_.take(state_of(block_));
+    block_.end_step();
+    return relax_at(at_, 0.0, {});
 }
 
 std::function<double(int, int)> LastPoint::moves() const {

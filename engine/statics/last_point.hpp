@@ -61,6 +61,11 @@ public:
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
 
+    /// Brings a viscoelastic block, at the last point, into the shape in which it slides steadily,
+    /// as far as turns lead there (moving_pattern.hpp), its branches as well, without a step in
+    /// time. velocity: along x or y, the coordinate, Å/fs, with its sign. Unless interrupted, the
+    /// block is then to be accepted. Collective.
+    RelaxedState settle(double velocity, const Report& report);
     /// Notes that the next step in time does not continue the last one, as the displacements have
     /// changed their course.
     void turn() { last_dt_ = units::forever; }
@@ -101,6 +106,7 @@ private:
         return {options_.along, along_ == Along::z ? at : normal_};
     }
     void place_block(double at);
+    RelaxOptions relax_options(const Report& report) const;
 
     SpectralBlock& block_;
     Interface& interface_;

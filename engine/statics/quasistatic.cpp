@@ -71,6 +71,7 @@ double QuasistaticPath::longest_step() const {
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
     if (course_.comes_to_rest) return come_to_rest();
+    if (course_.settles) return settle();
     if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
     for (;;) {
         const Try t = plan();
@@ -186,6 +187,30 @@ QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
     return Outcome::apart;
 }
 
+/// Brings the block into the shape in which it slides steadily. The energy for that is work, apart
+/// from that of the slide.
+QuasistaticPath::Outcome QuasistaticPath::settle() {
+    const long long iterations = last_.iterations();
+    last_.relax_to(0.25 * tolerance_at(record_.force));
+    const RelaxedState state = last_.settle(course_.direction * options_.velocity, options_.report);
+    if (state.interrupted) {
+        last_.set_iterations(iterations);
+        return Outcome::interrupted;
+    }
+    if (!state.converged) refuse_place(state, at());
+    last_.accept(at());
+    const double gained = state.interface_energy + state.elastic_energy - record_.energy();
+    course_.work += gained;
+    course_.settling = gained + course_.held.value_or(0.0) * (lifted(state) - record_.top);
+    record_.work += gained;
+    ++record_.step;
+    set_record(state, at());
+    trail_.begin(at(), force());
+    turn();
+    course_.settles = false;
+    return Outcome::point;
+}
+
 /// Returns the uncertainty of the force of a point, eV/Å: a quarter of the tolerance, to which
 /// points are relaxed, for each site that counts. Under a prescribed top plane every site counts;
 /// at a prescribed mean height only sites that the substrate holds, because the residuals of the
@@ -275,6 +300,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
                                        step.smooth ? 0.0 : step.dissipated);
     if (options_.velocity > 0.0) record_.time += time_of(way);
     if (course_.along != Along::time) way_ += way;
+    refuse_to_creep(way);
     if (step.dissipated > 0.0) {
         dissipation_.add(describe(state, step.dissipated));
         if (!is_short_in_time(way)) dissipation_.not_followed += step.dissipated;

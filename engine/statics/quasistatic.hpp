@@ -13,7 +13,9 @@
 // A slide changes the place of the block over the substrate at a fixed top or mean height, or under
 // a load, whose potential is then a part of the energy. The force is that of the substrate along
 // the slide, and "top" means the place. Over a wall the map of heights moves under the block, and
-// the force is that of the pressure on the slopes, sum F dh/dx.
+// the force is that of the pressure on the slopes, sum F dh/dx. A slide until steady of a
+// viscoelastic block begins in the shape in which the block slides steadily, as far as that is
+// found without walking there: slow branches would take many lengths of the map.
 //
 // Between two points, the work of the top plane -int F dz_top is the change of the energy
 // U_LJ + U_el, unless the block became unstable in between and changed to another state: the
@@ -99,6 +101,9 @@ public:
     double way() const { return std::abs(at() - course_.from); }
     /// Returns the part of work() that moves the block sideways, eV.
     double lateral_work() const { return course_.lateral; }
+    /// Returns the part of work() that brought the block into the shape in which it slides
+    /// steadily, before the first step of a slide, eV.
+    double settling_work() const { return course_.settling; }
     /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
     /// (work_errors.hpp; docs/explanation/relaxation.md has how often it holds).
     double uncertainty() const { return course_.errors.total(); }
@@ -137,10 +142,13 @@ private:
         SegmentRule rule;             ///< rule of a segment that a force ends
         LoadAim aim;                  ///< way to a load
         bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
+        bool settles = false;         ///< the next point is that of a block that slides steadily
+        std::int64_t crept = 0;       ///< points in a row as close together as points can be
         double from = 0.0;            ///< beginning, Å
         std::optional<double> held;   ///< load of a slide under load, eV/Å
         double work = 0.0;            ///< work of the top plane, eV
         double lateral = 0.0;         ///< part of it that moves the block sideways, eV
+        double settling = 0.0;        ///< work that brought the block into its steady shape, eV
         double relaxed = 0.0;         ///< dissipated by the block, eV
         double stored_at_start = 0.0; ///< energy of interface and block, eV
         WorkErrors errors;            ///< uncertainty of work and dissipated energy
@@ -155,10 +163,13 @@ private:
             v("rule", rule);
             v("aim", aim);
             v("comes_to_rest", comes_to_rest);
+            v("settles", settles);
+            v("crept", crept);
             v("from", from);
             v("held", held);
             v("work", work);
             v("lateral", lateral);
+            v("settling", settling);
             v("relaxed", relaxed);
             v("stored_at_start", stored_at_start);
             v("errors", errors);
@@ -198,6 +209,8 @@ private:
     void hold_load(std::optional<double> load);
     Outcome outcome();
     Outcome come_to_rest();
+    Outcome settle();
+    void refuse_to_creep(double way);
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }

@@ -40,6 +40,21 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                            "a larger drive.tolerance, or a height further from the substrate");
 }
 
+/// Counts the points that are as close together as points can be, and throws if there are more in a
+/// row than instabilities take: the path would go on for days.
+void QuasistaticPath::refuse_to_creep(double way) {
+    constexpr std::int64_t most = 300;
+    course_.crept = way <= smallest_step() ? course_.crept + 1 : 0;
+    if (course_.crept < most) return;
+    throw io::PhysicsError(
+        fmt::format("the path does not get on: the last {} points are {:.2g} Å apart, as close "
+                    "as points can be",
+                    most, way),
+        "work and energies differ in every step by more than drive.tolerance allows, so that steps "
+        "are halved again and again",
+        "a larger drive.tolerance");
+}
+
 /// Sums the lateral force of the substrate on the lowest layer, eV/Å, of the last relaxation.
 /// Collective.
 std::array<double, 2> QuasistaticPath::lateral_force() const {

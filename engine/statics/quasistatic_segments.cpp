@@ -149,6 +149,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         direction = 1.0;
     }
     begin(along, direction);
+    course_.settles = segment.until_steady && options_.velocity > 0.0;
 }
 
 void QuasistaticPath::begin_to(double at) {
@@ -190,9 +191,10 @@ void QuasistaticPath::begin(Along along, double direction) {
                        slack(record_.in_contact));
     course_.aim.begin();
     course_.errors.begin();
-    course_.comes_to_rest = false;
+    course_.comes_to_rest = course_.settles = false;
+    course_.crept = 0;
     course_.from = at();
-    course_.work = course_.lateral = course_.relaxed = 0.0;
+    course_.work = course_.lateral = course_.settling = course_.relaxed = 0.0;
     course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
 }

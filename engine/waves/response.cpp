@@ -85,10 +85,37 @@ void Response::stiffen(int b, double factor, double uniform, const T* u, double 
 
 template <class T>
 void Response::stiffen(int b, const T* u, double norm, const T* g, T* f) const {
-    stiffen(b, factor_, held_stiffness(), u, norm, g, f);
+    if (!pattern_) {
+        stiffen(b, factor_, held_stiffness(), u, norm, g, f);
+        return;
+    }
+    const std::size_t length = slab_.block_length(components_);
+    std::vector<T> load; // f may be g
+    if (norm != 0.0) load.assign(g, g + length);
+    stiffen<T>(b, factor_, held_stiffness(), u, 0.0, nullptr, f);
+    scale_waves(b, pattern_->axis(), pattern_->stiffening(), f);
+    if (norm != 0.0) combine_row(norm, load.data(), 1.0, f, static_cast<int>(length));
 }
 template void Response::stiffen(int, const float*, double, const float*, float*) const;
 template void Response::stiffen(int, const double*, double, const double*, double*) const;
+
+template <class T, class Factor>
+void Response::scale_waves(int b, int axis, const std::vector<Factor>& factors, T* waves) const {
+    const int first = (slab_.first_block() + b) * block_columns;
+    for (int column = 0; column < block_columns && first + column < slab_.columns(); ++column)
+        for (int row = 0; row < components_ * slab_.sites; ++row) {
+            const int wave = axis == 0 ? first + column : row % slab_.sites;
+            const Factor& factor = factors[static_cast<std::size_t>(wave)];
+            T* const at = waves + 2 * (block_columns * static_cast<std::ptrdiff_t>(row) + column);
+            const std::complex<double> scaled =
+                factor *
+                std::complex<double>(static_cast<double>(at[0]), static_cast<double>(at[1]));
+            at[0] = static_cast<T>(scaled.real());
+            at[1] = static_cast<T>(scaled.imag());
+        }
+}
+template void Response::scale_waves(int, int, const std::vector<std::complex<double>>&,
+                                    double*) const;
 
 void Response::stiffen_relaxed(Waves<double>& f) const {
 #pragma omp parallel for schedule(static)
@@ -142,13 +169,18 @@ Holder Response::holder() const {
 SurfaceMatrix Response::acting_stiffness(int nx, int ny) const {
     SurfaceMatrix s = table_.at(nx, ny);
     for (double* entry : {&s.xx, &s.yy, &s.zz, &s.xy, &s.xz, &s.yz})
-        *entry *= factor_;
+        *entry *= pattern_ ? pattern_->stiffening(nx, ny) : factor_;
     if (nx == 0 && ny == 0 && constraint_.is_top()) s.zz = held_stiffness();
     return s;
 }
 
 double Response::stiffest_wave() const {
-    return std::max(factor_ * table_.stiffest(), constraint_.is_top() ? held_stiffness() : 0.0);
+    double stiffest = 0.0;
+    for (int n = 0; pattern_ && n < slab_.columns(); ++n)
+        for (int m = 0; m < slab_.columns(); ++m)
+            stiffest = std::max(stiffest, acting_stiffness(n, m).zz);
+    if (!pattern_) stiffest = factor_ * table_.stiffest();
+    return std::max(stiffest, constraint_.is_top() ? held_stiffness() : 0.0);
 }
 
 double Response::held_stiffness() const {
@@ -239,23 +271,19 @@ void Response::shift_displacements(double x, double y) {
     const double unit = 2.0 * std::numbers::pi / (sites * options_.spacing);
     const double norm = 1.0 / (static_cast<double>(sites) * sites);
     // The shortest wave along an axis has no sign: it is multiplied by the mean of both.
-    const auto phase = [&](int k, double by) {
-        const double angle = unit * (2 * k > sites ? k - sites : k) * by;
-        return 2 * k == sites ? std::complex(std::cos(angle), 0.0) : std::polar(1.0, angle);
-    };
-    change_waves(field, [&](int b, double* waves) {
-        for (int column = 0; column < block_columns; ++column) {
-            const int k = (slab_.first_block() + b) * block_columns + column;
-            if (k >= slab_.columns()) break;
-            const std::complex<double> along_x = norm * phase(k, x);
-            for (int row = 0; row < components_ * sites; ++row) {
-                double* const wave = waves + 2 * (block_columns * row + column);
-                const std::complex<double> moved =
-                    std::complex(wave[0], wave[1]) * (along_x * phase(row % sites, y));
-                wave[0] = moved.real();
-                wave[1] = moved.imag();
-            }
+    const auto phases = [&](double by, double factor) {
+        std::vector<std::complex<double>> of;
+        for (int k = 0; k < sites; ++k) {
+            const double angle = unit * (2 * k > sites ? k - sites : k) * by;
+            of.push_back(factor * (2 * k == sites ? std::complex(std::cos(angle), 0.0)
+                                                  : std::polar(1.0, angle)));
         }
+        return of;
+    };
+    const auto along_x = phases(x, norm), along_y = phases(y, 1.0);
+    change_waves(field, [&](int b, double* waves) {
+        scale_waves(b, 0, along_x, waves);
+        scale_waves(b, 1, along_y, waves);
     });
     for (int c = 0; c < components_; ++c) {
         const PlaneView<double> to = moving(layer_.plane(0), c);

@@ -18,7 +18,8 @@
 //     the holder         the uniform normal wave against the rigid top plane, if that is held, in
 //                        series with the spring of the machine
 //     the branches       a factor on all of S in a step of a viscoelastic block, and a force that
-//                        is known at its start (block_memory.hpp)
+//                        is known at its start (block_memory.hpp); or a factor for each wave, as
+//                        long as a shape is sought that slides on unchanged (moving_pattern.hpp)
 //
 // Without friction (scene: interface.frictionless) the substrate takes no lateral traction: S is
 // one number for each wave, 1 / (S^-1)_zz, the sites have one component of displacement, and the
@@ -39,6 +40,7 @@
 #include "decomposition/surface_transform.hpp"
 #include "engine/waves/block_memory.hpp"
 #include "engine/waves/constraint.hpp"
+#include "engine/waves/moving_pattern.hpp"
 #include "engine/waves/stiffness_table.hpp"
 
 #include <memory>
@@ -176,6 +178,9 @@ protected:
     double held_stiffness() const;
     /// Returns the displacement from the top plane at the sites, Å.
     SiteField<double> from_top() const;
+    /// Multiplies block b of waves by the factors of the waves 0 .. N-1 along an axis.
+    template <class T, class Factor>
+    void scale_waves(int b, int axis, const std::vector<Factor>& factors, T* waves) const;
     /// Sets f to S f with the stiffness of the relaxed springs, the holder included.
     void stiffen_relaxed(Waves<double>& f) const;
     /// Returns sum_r u.(S u) with the stiffness of the relaxed springs, eV. Collective.
@@ -207,7 +212,9 @@ protected:
     std::optional<BlockMemory> memory_; ///< memory of the branches; empty: an elastic block
     /// Force of the branches at the start of the step, with its sign reversed, eV/Å; empty: none
     std::optional<Waves<double>> memory_force_;
-    double factor_ = 1.0;           ///< factor of branches on S
+    double factor_ = 1.0; ///< factor of branches on S
+    /// Factors of branches on S, wave by wave, instead; factor_ is then 1.
+    std::optional<MovingPattern> pattern_;
     std::optional<double> machine_; ///< stiffness of the spring that holds the top plane, eV/Å^2
 
 private:

@@ -3,6 +3,7 @@
 #include "engine/waves/spectral_block.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace asperity {
 
@@ -17,12 +18,42 @@ void SpectralBlock::set_uniform(double z) {
 
 void SpectralBlock::begin_step(double dt, double last) {
     if (!memory_) return;
+    pattern_.reset();
     memory_->begin(from_top(), dt, last);
     const double sites = slab_.sites;
     to_waves(memory_->known_force(), transform<double>(), *memory_force_);
     combine(0.0, *memory_force_, 1.0 / (sites * sites), *memory_force_);
     stiffen_relaxed(*memory_force_);
     factor_ = 1.0 + memory_->stiffening();
+}
+
+double SpectralBlock::follow(const MovingPattern& pattern) {
+    const bool first = !pattern_;
+    if (first) begin_step(HUGE_VAL); // relaxed, and nothing is known
+    pattern_ = pattern;
+    Waves<double> change = new_waves<double>();
+    combine(-1.0, *memory_force_, 0.0, change);
+    combine(1.0, waves_, 0.0, *memory_force_);
+    const MovingPattern::Factors rest = pattern.rest();
+#pragma omp parallel for schedule(static)
+    for (int b = 0; b < memory_force_->blocks(); ++b)
+        scale_waves(b, pattern.axis(), rest, memory_force_->block(b));
+    stiffen_relaxed(*memory_force_);
+    combine(1.0, *memory_force_, 1.0, change);
+    return first ? HUGE_VAL : std::sqrt(dot(change, change)) / slab_.sites;
+}
+
+void SpectralBlock::settle_branches() {
+    Waves<double> waves = new_waves<double>();
+    for (std::size_t k = 0; k < pattern_->branches(); ++k) {
+        combine(1.0, waves_, 0.0, waves);
+#pragma omp parallel for schedule(static)
+        for (int b = 0; b < waves.blocks(); ++b)
+            scale_waves(b, pattern_->axis(), pattern_->of_branch(k), waves.block(b));
+        to_sites(waves, transform<double>(), memory_->extensions()[k]);
+    }
+    for (SiteField<double>& field : memory_->history())
+        field = new_field<double>();
 }
 
 std::size_t SpectralBlock::bytes() const {

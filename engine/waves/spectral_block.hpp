@@ -42,6 +42,14 @@ public:
     /// that this one continues, fs; infinite: it continues none. Does nothing without branches.
     /// Collective.
     void begin_step(double dt, double last = units::forever);
+    /// Begins a turn of the way to the equilibrium of a moving pattern (moving_pattern.hpp) from
+    /// the present shape; begin_step() ends the turns. Returns the root mean square of the change
+    /// of the forces since the last turn, eV/Å, by which the shape is no equilibrium yet; infinite
+    /// at the first turn. The block has branches. Collective.
+    double follow(const MovingPattern& pattern);
+    /// Sets the branches to what they are in the moving pattern of the present shape, as the last
+    /// turn had it. Collective.
+    void settle_branches();
     /// Ends the step of the branches at the current displacements.
     void end_step() {
         if (memory_) memory_->end(from_top());

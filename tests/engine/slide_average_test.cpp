@@ -55,6 +55,16 @@ TEST(SlideAverage, LeavesTheRunningInOut) {
         << "what is still to come counts";
 }
 
+/// Blocking does not see an energy that is missing in every step.
+TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
+    SlideAverage average;
+    for (double at = 0.0; at <= 400.0; at += 0.5)
+        average.add({.distance = at, .work = 3.0 * at, .relaxed = 2.5 * at, .lost = 0.3 * at});
+    const auto means = average.means(lengths);
+    ASSERT_TRUE(means && means->steady);
+    EXPECT_NEAR(means->friction_error, 0.2, 1e-9);
+}
+
 TEST(SlideAverage, ErrorsKnowHowFarForcesHangTogether) {
     // Noise that keeps its value over stretches of eight: independent ones are fewer than bins.
     std::mt19937 random(11);

@@ -41,6 +41,13 @@ TEST(Table, Cells) {
     EXPECT_EQ(cell(1e-9), "1.000e-09");
     EXPECT_EQ(cell(123456.0), "123456");
     EXPECT_EQ(cell(1.0 / 0.0), "-");
+    // A number ends where its error does.
+    EXPECT_EQ(with_error(0.03265, 0.00384), "0.033 ± 0.004");
+    EXPECT_EQ(with_error(-12.345, 0.0961), "-12.3 ± 0.1");
+    EXPECT_EQ(with_error(1234.0, 38.0), "1230 ± 40");
+    EXPECT_EQ(with_error(0.02, 0.3), "0.0 ± 0.3");
+    EXPECT_EQ(with_error(1.234e-6, 5.4e-8), "(1.23 ± 0.05)e-06");
+    EXPECT_EQ(with_error(98.8612, 0.0), "98.86");
     // As many decimals as asked for, and three significant digits in any case.
     for (const auto& [value, text] :
          std::initializer_list<std::pair<double, const char*>>{{69.912, "69.91"},

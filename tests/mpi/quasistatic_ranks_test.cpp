@@ -92,6 +92,7 @@ struct Contact {
         if (outcome == Outcome::at_load && slides) {
             Segment slide{Segment::slide, 1.7, 1};
             if (interface.wall()) slide.under = 0.0;
+            slide.until_steady = interface.wall() != nullptr;
             path.begin(slide, 1);
         } else if (outcome == Outcome::at_load && !options.branches.empty())
             path.begin({Segment::hold, 1e5}, 1);

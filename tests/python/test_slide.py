@@ -100,3 +100,71 @@ def test_friction_over_a_line_is_that_of_a_program_of_one_dimension(tmp_path, ve
         mean_behind(0.0, place, force), rel=0.02)
     spent = slide["dissipated_in_block"] + slide["lost"]
     assert slide["work_of_drive"] == pytest.approx(slide["stored"] + spent, abs=0.02 * spent)
+
+
+ROUGH = """
+[surface]
+sites = 48
+spacing = "1 nm"
+rms = "0.4 nm"
+rolloff = 3
+q_max = 12
+[block]
+young = "20 MPa"
+poisson = 0.49
+prony = [[3.0, "1 ns"], [3.0, "20 ns"], [3.0, "400 ns"]]
+[interface]
+kind = "wall"
+range = "0.9 nm"
+[drive]
+mode = "quasistatic"
+control = "mean-height"
+load = "40 MPa"
+velocity = 1.0
+path = ["relax", "slide x 512 nm under load until steady"]
+"""
+
+
+def steady_slide(place, name, **keys):
+    (place / "rough.toml").write_text(ROUGH)
+    sets = [word for key, value in keys.items() for word in ("--set", f"{key.replace('__', '.')}={value}")]
+    done = subprocess.run([program.path(), "run", "rough.toml", "--out", name, *sets], cwd=place, capture_output=True, text=True,
+                          env={**os.environ, "OMP_NUM_THREADS": "1"})
+    assert done.returncode == 0, done.stderr
+    slide = json.loads((place / name / "result.json").read_text())["segments"][-1]
+    assert slide["steady"]
+    return slide, done.stdout
+
+
+def test_friction_in_full_contact_is_that_of_the_loss_modulus_of_each_wave(tmp_path):
+    velocity = 1e-4  # nanometres in a nanosecond: far below all waves' loss
+    slide, text = steady_slide(tmp_path, "full", drive__velocity=velocity, interface__adhesion=0)
+    assert slide["steady_contact_fraction"] == 1.0
+    with h5py.File(tmp_path / "full/run.h5") as file:
+        height = file["substrate/height"][:] / 10
+    n, modulus = len(height), 20.0 / (1 - 0.49**2)
+    q = 2 * np.pi * np.fft.fftfreq(n)
+    qx, size = q[None, :], np.hypot(q[:, None], q[None, :])
+    loss = sum(r * qx * velocity * t / (1 + (qx * velocity * t) ** 2) for r, t in ((3, 1), (3, 20), (3, 400)))
+    stress = 0.5 * modulus * np.sum(size * qx * loss * np.abs(np.fft.fft2(height) / n**2) ** 2)
+    assert slide["friction_stress"] == pytest.approx(stress, rel=0.1)
+    # A table of a page's width, and numbers that end where their errors do.
+    table = [line for line in text.splitlines() if "meV/Å² (mJ/m²)" in line or line.strip().startswith("segment")]
+    assert table and max(map(len, table)) <= 100
+    assert "1 slide x 512 nm: friction" in text and " ± " in text
+
+
+def test_friction_of_a_rough_wall_has_one_maximum(tmp_path):
+    for adhesion in (0, 10):
+        slides = [steady_slide(tmp_path, f"{adhesion}-{v}", drive__velocity=v, drive__load='"4 MPa"',
+                               interface__adhesion=f'"{adhesion} mJ/m^2"')[0]
+                  for v in (1e-4, 2e-4, 0.02, 1.0, 100.0)]
+        first, second, most, after, last = (s["friction_coefficient"] for s in slides)
+        assert second == pytest.approx(2 * first, rel=0.1)  # linear at low velocity
+        assert second < 0.5 * most and most > 1.2 * after > 5 * last > 0
+        area = [s["steady_contact_fraction"] for s in slides]
+        assert all(a >= b - 1e-3 for a, b in zip(area, area[1:]))
+        for s in slides:  # also if the longest time is that of a thousand boxes
+            spent = s["stored"] + s["dissipated_in_block"] + s["lost"]
+            assert s["work_of_drive"] == pytest.approx(spent, abs=1e-2 * s["work_of_drive"] + 2e-3)
+            assert s["work_of_settling"] != 0.0

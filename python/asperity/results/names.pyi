@@ -133,6 +133,8 @@ class Segment(Values):
     """meV/Å^2: energy that a viscoelastic block has dissipated by that, beside lost"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
+    work_of_settling: float
+    """meV/Å^2: part of work_of_drive of a slide until steady"""
     kinetic: float
     """meV/Å^2: kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic path at T = 0, as ..."""
     uncertainty: float
