@@ -140,17 +140,24 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
 
 /// Finds the uniform force at which excess(force), eV/Å, is no more than enough, by the secant from
 /// the last one. The sites follow the force, so the excess falls steadily as the force grows. A
-/// secant that leaves what is known of the root is replaced by a halving.
+/// secant that leaves what is known of the root is replaced by a halving. Where a soft machine
+/// holds sites that touch nothing, the excess hardly falls, and a small one says little: what the
+/// secant would still change must be small as well.
 template <class Excess>
 void WallMinimiser::balance(const Excess& excess_at, double enough) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
+    const double small = holder_.stiffness > 0.0 ? 0.1 * options_.tolerance : infinite;
     double force = uniform_force_, excess = excess_at(force), low = -infinite, high = infinite;
     double next = force + excess;
-    for (int i = 0; i < 60 && std::abs(excess) > enough; ++i) {
+    const auto found = [&] {
+        return std::abs(excess) <= enough && std::abs(excess) <= small * fall_;
+    };
+    for (int i = 0; i < 60 && !found(); ++i) {
         (excess > 0.0 ? low : high) = force;
         const double now = excess_at(next);
         if (now == excess) break; // no number lies between the two
         const double before = std::exchange(force, next);
+        fall_ = std::abs((now - excess) / (force - before));
         next = force - now * (force - before) / (now - excess);
         excess = now;
         (excess > 0.0 ? low : high) = force;

@@ -73,6 +73,7 @@ private:
     Holder holder_;              ///< holder of the uniform wave
     double widest_ = 0.0;        ///< the largest |z - mean|, Å
     double uniform_force_ = 0.0; ///< force on each site that balances the uniform wave, eV/Å
+    double fall_ = 1.0;          ///< fall of the excess over the rise of that force, as last seen
     double estimate_;
     double residual_factor_ = 1.0; ///< doubled if the estimate was below the tolerance too early
     bool single_ = true;
