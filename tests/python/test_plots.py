@@ -41,6 +41,10 @@ def test_forces_of_flat_solids_are_stresses(path_run):
 
 def test_forces_of_spheres_are_forces(sphere_run):
     ax = sphere_run.plot.separation(axes())
+    assert ax.get_xlabel() == "mean height above the apex (nm)"
+    way = sphere_run.series["top_displacement"]
+    drawn = style.drawn(sphere_run.plot.loading(axes())).curves
+    assert max(c.x.max() for c in drawn) == pytest.approx(0.1 * way.max())
     curves = {c.label: c for c in style.drawn(ax).curves}
     force = sphere_run.series["force"][sphere_run.series["segment"] == 0]
     assert curves["approach"].y == pytest.approx(force * 1.602176634)  # 1 eV/Å = 1.602176634 nN

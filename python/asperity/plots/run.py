@@ -37,8 +37,8 @@ from .style import (
 WAYS = {"approach": BLUE, "pull-off": RED}  # other segments of a path have the other colours in turn
 OTHERS = (GREEN, PINK, SKY, YELLOW)
 BY_HAND = "led by the script"
-TOP = "displacement of the top plane (Å)"
-DRIVE = "displacement of the drive (Å)"
+TOP = "displacement of the top plane"
+DRIVE = "displacement of the drive"
 
 
 def _columns(run: Result, *names: str) -> list[np.ndarray]:
@@ -67,6 +67,22 @@ def force_unit(run: Result) -> tuple[float, str]:
     scale, name = next(((s, n) for s, n in ((1.0, "GPa"), (1e-3, "MPa")) if largest >= 0.1 * s), (1e-6, "kPa"))
     scale, name = (scale, name) if largest > 0.0 else (1.0, "GPa")
     return area * scale, f"mean stress $F/A_0$ ({name})"
+
+
+def length_unit(run: Result) -> tuple[float, str]:
+    """Returns how lengths of a run are drawn.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+
+    Returns
+    -------
+    tuple[float, str]
+        Divisor of lengths in Å, and the unit: nm of a sphere or a box with free edges, else Å.
+    """
+    return (10.0, "nm") if run.curved or run.has_free_edges else (1.0, "Å")
 
 
 def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
@@ -104,10 +120,12 @@ def separation(run: Result, ax: Axes) -> bool:
         return False
     height, force, _ = columns
     unit, label = force_unit(run)
+    one, length = length_unit(run)
     beside = combined.sphere_curves(run, force.max())
     for number, (words, x, y) in enumerate(beside):
-        curve(ax, x, y / unit, words if "theory" in words else "theory: " + words,
+        curve(ax, np.asarray(x) / one, y / unit, words if "theory" in words else "theory: " + words,
               colour=(GREY, YELLOW, YELLOW, PINK)[number % 4], line=DASHES[(4, 2, 3, 1)[number % 4]], behind=True)
+    height = height / one
     _by_segment(ax, run, height, force / unit)
     least, greatest = force.min(), force.max()
     felt = height[np.abs(force) > -1e-3 * least]  # beyond, nothing is felt
@@ -118,7 +136,7 @@ def separation(run: Result, ax: Axes) -> bool:
         lowest = min([least] + [v for _, _, y in beside for v in y if v > 1.5 * least])
         room = 0.08 * (greatest - least)
         ax.set_ylim((lowest - room) / unit, (greatest + room) / unit)
-    return finish(ax, "mean height above the apex (Å)" if run.curved else "mean separation (Å)", label, zero=True,
+    return finish(ax, ("mean height above the apex" if run.curved else "mean separation") + f" ({length})", label, zero=True,
                   legend="above" if beside else True)
 
 
@@ -143,7 +161,9 @@ def loading(run: Result, ax: Axes) -> bool:
     if not columns or run.key("drive.control") == "mean-height":
         return False
     unit, label = force_unit(run)
-    return _by_segment(ax, run, columns[0], columns[1] / unit) and finish(ax, DRIVE if sprung else TOP, label, zero=True)
+    one, length = length_unit(run)
+    return (_by_segment(ax, run, columns[0] / one, columns[1] / unit)
+            and finish(ax, f"{DRIVE if sprung else TOP} ({length})", label, zero=True))
 
 
 def contact(run: Result, ax: Axes) -> bool:
@@ -162,6 +182,8 @@ def contact(run: Result, ax: Axes) -> bool:
         False if there is nothing to draw.
     """
     columns = _columns(run, "top_displacement", "contact_fraction", "repulsive_fraction", "segment")
+    one, length = length_unit(run)
+    columns[:1] = [column / one for column in columns[:1]]
     if not columns or not _by_segment(ax, run, columns[0], columns[1], ", in contact"):
         return False
     _by_segment(ax, run, columns[0], columns[2], ", repulsive", (DASHES[4], DASHES[2]))
@@ -170,7 +192,7 @@ def contact(run: Result, ax: Axes) -> bool:
     if touching.size and np.ptp(touching) < 0.5 * np.ptp(top):  # most of the way is through empty space
         room = max(0.15 * np.ptp(touching), 0.01 * np.ptp(top))
         ax.set_xlim(touching.min() - room, touching.max() + room)
-    return finish(ax, TOP, "fraction of the sites", legend="above" if len(run.segment_names) > 2 else True, most=1)
+    return finish(ax, f"{TOP} ({length})", "fraction of the sites", legend="above" if len(run.segment_names) > 2 else True, most=1)
 
 
 def friction(run: Result, ax: Axes) -> bool:
