@@ -148,11 +148,7 @@ void Simulation::advance_block(bool observe) {
 
 void Simulation::move_top() {
     if (!top_spring_) return top_.move(options_.dt);
-    const double before = top_.velocity;
-    top_.move(options_.dt, top_spring_, global_sum(communicator(), sums_.top_force));
-    const double mean = 0.5 * (before + top_.velocity), slip = mean - top_.machine.z;
-    const double drag = top_spring_.mass * top_spring_.damping * options_.dt;
-    sums_.top = {0.5 * top_spring_.mass * mean * mean, drag * slip * slip, drag * slip};
+    sums_.top = top_.move(options_.dt, top_spring_, global_sum(communicator(), sums_.top_force));
 }
 
 /// Sums over u(n), before it moves on.

@@ -97,17 +97,13 @@ public:
     void visit(Visitor& v);
 
 private:
-    /// Energies of a top plane that a spring pulls, eV, and its drag, eV fs/Å.
-    struct MotionOfTop {
-        double kinetic = 0.0, dissipated = 0.0, dragged = 0.0;
-    };
     /// Sums of a step, of this rank.
     struct Sums {
         InterfaceSums interface;
         KickSums kick;
         NoiseSums noise;
         ExactSum top_force, lowest_z, elastic;
-        MotionOfTop top;                 ///< the same on every rank
+        TopEnergies top;                 ///< the same on every rank
         std::array<ExactSum, 2> lateral; ///< force along x and y, of a path that slides
     };
     void step_on_device(bool observe);

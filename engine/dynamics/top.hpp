@@ -25,6 +25,11 @@ struct TopSpring {
     explicit operator bool() const { return stiffness > 0.0; }
 };
 
+/// Energies of a top plane on a spring in a step, eV, and its drag, eV fs/Å.
+struct TopEnergies {
+    double kinetic = 0.0, dissipated = 0.0, dragged = 0.0;
+};
+
 /// The top plane. At a time step n velocities are those between n and n + 1.
 struct Top {
     double z = 0.0;                ///< displacement along z, Å
@@ -39,13 +44,15 @@ struct Top {
         advance(dt);
     }
     /// Moves the plane over a step of dt, fs, under the spring, the force of the block on the plane
-    /// (eV/Å) and the drag.
-    void move(double dt, const TopSpring& spring, double force) {
-        const double g = 0.5 * spring.damping * dt;
+    /// (eV/Å) and the drag. Returns its energies at the middle of the two velocities.
+    TopEnergies move(double dt, const TopSpring& spring, double force) {
+        const double before = velocity, damped = spring.damping * dt, g = 0.5 * damped;
         const double pull = spring.stiffness * (drive - z) + force;
-        velocity =
-            ((1.0 - g) * velocity + dt / spring.mass * pull + 2.0 * g * machine.z) / (1.0 + g);
+        velocity = ((1.0 - g) * before + dt / spring.mass * pull + 2.0 * g * machine.z) / (1.0 + g);
         advance(dt);
+        const double mean = 0.5 * (before + velocity), slip = mean - machine.z;
+        const double drag = spring.mass * damped;
+        return {0.5 * spring.mass * mean * mean, drag * slip * slip, drag * slip};
     }
     /// Returns the displacement of the plane a step before the present one, Å.
     double z_before(double dt) const { return z - dt * velocity; }
