@@ -72,8 +72,9 @@ def licences(tree, prefix):
         text = Path(f"/usr/share/doc/{package}/copyright").read_text()
         common |= set(COMMON.findall(text))
         (folder / f"{package}.txt").write_text(text)
-    import pybind11
     import importlib.metadata as metadata
+
+    import pybind11
     for file in metadata.files("pybind11") or ():
         if file.name == "LICENSE":
             (folder / "pybind11.txt").write_text(Path(pybind11.__file__).parents[1].joinpath(file).read_text())

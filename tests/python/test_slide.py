@@ -10,6 +10,7 @@ import subprocess
 import h5py
 import numpy as np
 import pytest
+
 from asperity.running import program
 
 SITES, YOUNG, POISSON, RATIO, TIME = 64, 20.0, 0.49, 9.0, 1.0  # a nanometre apart; MPa, nanoseconds

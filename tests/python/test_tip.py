@@ -73,7 +73,8 @@ def test_the_fit_finds_what_jkr_was_made_of():
 
 
 @pytest.mark.parametrize("name, value, words", [
-    ("radius", "20", "has no unit"), ("radius", "-3 nm", "radius"), ("radius", "0 nm", "out of range"), ("radius", "none", "above zero"), ("stiffness", "0 N/m", "stiffness"), ("stiffness", "none", "above zero"),
+    ("radius", "20", "has no unit"), ("radius", "-3 nm", "radius"), ("radius", "0 nm", "out of range"), ("radius", "none", "above zero"),
+    ("stiffness", "0 N/m", "stiffness"), ("stiffness", "none", "above zero"),
     ("stiffness", "-1 N/m", "stiffness"), ("stiffness", "0.2", "has no unit"), ("adhesion", "0 mJ/m2", "above zero"), ("young", "3 nm", "young"),
     ("poisson", 0.7, "poisson"), ("load", "5", "no force"), ("load", "-5 nN", "no force"), ("load", "5 GPa", "no force"),
     ("load", "2 µN", "gently sloped"), ("range", "0.01 nm", "not resolved"), ("sites", 16, "too few")])

@@ -67,7 +67,8 @@ def test_a_closed_pipe_ends_the_module_as_it_ends_the_program(tmp_path):
 
 def test_scenes_come_along(tmp_path):
     done = call([sys.executable, "-m", "asperity", "scenes"], tmp_path)
-    assert done.returncode == 0 and "scenes/first-contact.toml\n    First contact: two rough solids meet, stick and part\n" in done.stdout, done.stdout
+    assert done.returncode == 0, done.stdout
+    assert "scenes/first-contact.toml\n    First contact: two rough solids meet, stick and part\n" in done.stdout
     assert (tmp_path / "examples" / "slide.py").exists()
     done = call([PROGRAM, "check", "scenes/first-contact.toml"], tmp_path)
     assert done.returncode == 0

@@ -21,7 +21,6 @@ from ..studies.tip import Plan, Tip, files_of, plan_of, tip_of
 from ..studies.variations import Runs, Variation
 from ..terminal import Voice
 
-
 RUNS = re.compile(r"tip|coarse|wide|tip,displacement_step=.*")
 """Directories of the runs."""
 

@@ -95,7 +95,9 @@ def answer_of(found: Tip) -> dict[str, Any]:
     contact = {"radius": found.contact.radius, "modulus": found.contact.modulus, "work": found.contact.work, "range": found.contact.range,
                "stiffness": found.contact.stiffness, "maugis": found.contact.parameter, "tabor": found.contact.tabor,
                "model": found.contact.model, "smooth_pull_off_force": found.contact.pull_off()}
-    fit = {"failed": found.fit.failed} if found.fit.failed else {key: numbered(value) for key, value in found.fit._asdict().items() if key != "failed"}
+    fit: dict[str, Any] = {key: numbered(value) for key, value in found.fit._asdict().items() if key != "failed"}
+    if found.fit.failed:
+        fit = {"failed": found.fit.failed}
     return {"numbers": numbers, "fit": fit, "contact": contact, "notes": found.notes}
 
 
@@ -112,8 +114,8 @@ def write(found: Tip) -> Path:
     Path
         The page.
     """
-    rows = [["drive, nm", "tip, nm", "force, nN", "retraction"],
-            *([float(d), float(t), float(f), int(r)] for d, t, f, r in zip(found.drive, found.tip, found.force, found.retracting))]
+    rows: list[list[str | float]] = [["drive, nm", "tip, nm", "force, nN", "retraction"]]
+    rows += [[float(d), float(t), float(f), int(r)] for d, t, f, r in zip(found.drive, found.tip, found.force, found.retracting)]
     with store.outputs(found.directory, [RESULT, "curve.csv"]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))
         out.write("curve.csv", store.csv_text(rows))

@@ -309,7 +309,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
                      f"its rms height is {float(np.std(sample.below(width, sites))):.3g} nm")
     # A step moves the force by less than its share of the pull-off force.
     step = min(0.5 * contact.range, 0.01 * contact.unit / contact.stiffness)
-    scene = {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"},
+    scene: dict[str, dict[str, Any]] = {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"},
              "block": {"young": keys.number("block.young"), "poisson": poisson},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": f"{contact.range:.10g} nm",
                            "frictionless": True},

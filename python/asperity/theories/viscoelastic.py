@@ -92,10 +92,10 @@ def _panels(pieces: list[list[float]]) -> tuple[np.ndarray, np.ndarray, np.ndarr
         one = np.ones(len(edges) - 1)
         for column, numbers in zip(columns, (edges[:-1], np.diff(edges), value * one, power * one, low * one)):
             column.append(numbers)
-    first, width, height, power, base = (np.concatenate(column)[:, None] for column in columns)
+    first, width, height, slope, base = (np.concatenate(column)[:, None] for column in columns)
     half = width / 2
     q = np.exp(first + half * (1 + x))
-    spectrum = height * (q / base) ** power
+    spectrum = height * (q / base) ** slope
     return q, half * spectrum, within
 
 
