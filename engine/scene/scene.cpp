@@ -448,7 +448,8 @@ io::Schema bind(Scene& scene) {
     schema
         .number("displacement_step", drive.displacement_step, "Å", positive(),
                 "largest displacement from point to point of a quasi-static path, of what "
-                "drive.control prescribes")
+                "drive.control prescribes; half a spacing of the sites in a slide over a wall if "
+                "that is longer")
         .needs = {needs.equilibria};
     schema
         .number_or("stiffness", drive.stiffness, "none", "N/m", positive(),

@@ -35,6 +35,17 @@ void bind_point(Class& statics) {
             "nm\") is the target of the next relax()");
 }
 
+/// Binds the spring that holds the top plane.
+void bind_spring(Class& statics) {
+    statics.def_property_readonly(
+        "stiffness",
+        [](const LedPath& s) {
+            return s.scene_case().simulation.drive.stiffness / units::newton_per_metre;
+        },
+        "stiffness of the spring that holds the top plane (drive.stiffness), N/m; 0: the top is "
+        "held itself");
+}
+
 /// Binds what the Python class and a search of states need, in the units of the engine.
 void bind_inner(Class& statics) {
     statics
@@ -115,6 +126,7 @@ void bind_statics(py::module_& m) {
             "Returns maps of the sites at the last point.\n\n"
             "Returns\n-------\nSiteMaps\n    Gap (Å), contact and pressure (GPa), [y, x].");
     bind_point(statics);
+    bind_spring(statics);
     bind_inner(statics);
 }
 

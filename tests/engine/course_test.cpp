@@ -50,9 +50,10 @@ void expect_fair(const std::vector<Look>& told, double by) {
         const Look &now = told[i], &before = told[i - 1];
         EXPECT_GE(now.fraction, before.fraction);
         EXPECT_LE(now.fraction, 0.99);
-        if (before.seconds > 0.1 * all && before.left > 0.05 * all)
+        if (before.seconds > 0.1 * all && before.left > 0.05 * all) {
             EXPECT_LT(now.left, 1.3 * before.left + 3.0 * (now.seconds - before.seconds))
                 << "jumps at " << now.seconds << " of " << all;
+        }
         if (now.seconds > 0.7 * all)
             worst = std::max(worst, std::abs(now.left - (all - now.seconds)) / all);
     }

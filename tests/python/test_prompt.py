@@ -60,6 +60,8 @@ def test_numbers_may_have_units():
     assert with_top.relax().top == -1.5
     with_top.top = "-0.2 nm"
     assert with_top.relax().top == pytest.approx(-2.0)
+    assert with_top.stiffness == 0.0
+    assert asperity.Statics(STATIC, {"drive.stiffness": "20 mN/m"}).stiffness == pytest.approx(0.02)
     for thing, name, called in ((statics, "mean_height", "mean_height"), (with_top, "top", "top"),
                                 (statics, "load", "load"), (sim.top, "position", "top.position"),
                                 (sim.top, "velocity", "top.velocity")):
