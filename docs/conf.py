@@ -41,8 +41,8 @@ def complete(app, page, source):
     up = re.escape("../" * (page.count("/") + 1))
     source[0] = re.sub(rf"\[[^\]]+\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", r"`\1`", source[0])
     if page == "index":
-        for caption, items in re.findall(r"^## (.*)\n\n((?:- .*\n)+)", source[0], re.M):
-            names = "\n".join(re.findall(r"\]\((.*)\.md\)", items))
+        for caption, items in re.findall(r"^## (.*)\n\n((?:(?:-|\d+\.) .*\n)+)", source[0], re.M):
+            names = "\n".join(re.findall(r"\]\(([^)]*)\.md\)", items))
             source[0] += f"\n```{{toctree}}\n:caption: {caption}\n:maxdepth: 1\n:hidden:\n\n{names}\n```\n"
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import extrapolate
 import machine
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "docs"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "docs"))  # a package is called tables, too
 from tables import block
 
 

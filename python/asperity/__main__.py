@@ -90,7 +90,9 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "scenes":
         from .commands.scenes import scenes_command
 
-        return scenes_command(given.out, voice)
+        if given.target and given.out:
+            raise SceneError("command line", f"two folders to write are given, {given.target} and {given.out}", "", "leave one out")
+        return scenes_command(given.target or given.out or ".", voice)
     if given.command == "convert":
         from .maps.convert import convert
 

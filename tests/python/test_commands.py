@@ -43,7 +43,7 @@ def words_of(name):
             "adhesion": (["map.npy", *GIVEN, "--sites", "16"], "out", "estimate.json"),
             "states": (["s.toml", "--starts", "2"], "out", "states.json"), "report": (["done"], "out", "report.html"),
             "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
-            "prony": (["curve.csv"], "out.toml", ""),
+            "prony": (["curve.csv"], "out.toml", ""), "scenes": ([], "out", "scenes/first-contact.toml"),
             "defaults": ([], "", ""), "info": ([], "", ""),
             "tip": ([*TIP, "--sites", "24"], "out", "tip.json")}[name]
 

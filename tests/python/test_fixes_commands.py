@@ -25,13 +25,17 @@ import test_fixes_scene
 from asperity.files import store
 from asperity.results import result
 from asperity.running import program
-from asperity.studies import grid, states
+from asperity.studies import grid, states, tip
+from asperity.studies.stated_number import Number
 from conftest import unsealed
 from following import ask, followed, not_followed
 
 OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES + test_fixes_rubber.SOURCES
 EXCUSED = {
-    "MPI connects none of them": "a launcher of another MPI",
+    "the scenes were not found": "an installation that lacks them",
+    "the path does not get on": "a path whose steps are halved without end",
+    "this program was built without MPI": "a program without MPI",
+    "the launcher is that of another MPI": "a launcher of another MPI",
     "MB of device memory": "a device that fails",
     "the path does not start from an equilibrium": "a relaxation that does not converge",
     "look at run.h5 whether the surfaces touch": "a relaxation that does not converge",
@@ -397,6 +401,45 @@ def test_a_fix(case, made):
     if right:
         right(*found.groups())
     followed(said)
+
+
+def test_scenes_of_another_folder():
+    assert ask("scenes", "here")[0] == 0
+    code, said = ask("scenes", "here")
+    assert code == 4 and "name another folder: asperity scenes FOLDER" in said, said
+    assert ask("scenes", "there")[0] == 0
+    followed(said)
+    code, said = ask("scenes", "here", "-o", "there")
+    assert code == 2 and "two folders to write are given" in said, said
+    assert ask("scenes", "-o", "elsewhere")[0] == 0
+    followed(said)
+
+
+@pytest.mark.parametrize("bad, good", [
+    ({"load": "5"}, {"load": "5 nN"}), ({"sites": 16}, {"sites": 24}), ({"load": "2 µN"}, {"load": "1 nN"}),
+    ({"range": "0.01 nm"}, {"range": None}), ({"file": "map.npy", "size": "10 nm"}, {"file": "map.npy", "size": "60 nm"})])
+def test_a_fix_of_a_tip(bad, good):
+    np.save("map.npy", np.random.default_rng(0).normal(size=(32, 32)))
+    given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "load": None, "range": None,
+             "size": None, "unit": "Å", "channel": None, "sites": None}
+
+    def plan(file=None, **more):
+        return tip.plan_of(file, Path("tip"), {**given, **more})
+
+    with pytest.raises(asperity.SceneError) as error:
+        plan(**bad)
+    assert plan(**good).scenes
+    followed(str(error.value))
+
+
+def test_a_number_of_a_tip():
+    numbers = [Number("lost", "W", "energy lost", "aJ", 1.0)]
+    nothing = np.zeros(1)
+    found = tip.Tip(numbers, nothing, nothing, nothing, nothing, tip.Contact(20, 3, 0.05, 0.3, 2), tip.Fit(), None, [], Path("tip"))
+    with pytest.raises(asperity.SceneError, match="is none of a tip") as error:
+        found.number("losses")
+    assert found.number("lost").value == 1.0
+    followed(str(error.value))
 
 
 def test_every_message_is_followed():

@@ -308,6 +308,15 @@ def test_what_the_program_reads_itself_is_named_in_the_scene():
     assert len(messages_in(str(error.value))) == 1
 
 
+def test_a_scene_is_no_map():
+    write("h.csv", "x,y,z\n" + "\n".join(f"{x},{y},{x + y}" for x in range(4) for y in range(4)) + "\n")
+    write("s.toml", '[surface]\nkind = "file"\nfile = "h.csv"\n')
+    with pytest.raises(asperity.Error, match="name the map that the scene names") as error:
+        convert("s.toml", "t.h5")
+    convert("h.csv", "t.h5")
+    followed(str(error.value))
+
+
 def test_every_message_is_followed():
     left = not_followed(SOURCES, EXCUSED)
     assert not left, "\n".join(left)

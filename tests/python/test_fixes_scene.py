@@ -463,6 +463,15 @@ def test_kernels_that_a_device_does_not_match():
     followed(said)
 
 
+def test_a_map_is_no_scene():
+    np.save("map.npy", np.random.default_rng(0).normal(size=(16, 16)))
+    said = ask("check", "map.npy")[1]
+    assert "or name the map in a scene" in said, said
+    code, now = ask("check", "-", "--set", "surface.kind=file", "surface.file=map.npy", "surface.file_unit=Å", "surface.sites=16", given=TEXT)
+    assert code == 0, now
+    followed(said)
+
+
 def test_fewer_ranks():
     said = ask("plan", "-", "--ranks", "64", "--set", "surface.sites=12", "surface.rolloff=2", given=TEXT)[1]
     assert "use fewer ranks" in said, said

@@ -234,7 +234,8 @@ def parsers() -> dict[str, Parser]:
     convert.add_argument("--channel", metavar="NAME", help="of a file with several maps: this one, by name or number")
     _voice(convert, progress=False)
     scenes = add("scenes", "copy the scenes and examples that come with the program, and list them", "Nothing is replaced.")
-    scenes.add_argument("out", nargs="?", default=".", metavar="FOLDER", help="where scenes/ and examples/ are made (default: here)")
+    scenes.add_argument("target", nargs="?", metavar="FOLDER", help="where scenes/ and examples/ are made (default: here)")
+    scenes.add_argument("-o", "--out", metavar="FOLDER", help="the same as an option")
     _voice(scenes, progress=False)
     prony = add("prony", "branches of a viscoelastic block from a master curve of a rubber",
                 "Text of columns: frequency, storage and loss modulus (or tan δ), maybe a shift factor aT; names and units stand above. "
