@@ -113,21 +113,16 @@ def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[s
     rows = {part: Variation(part, part, [], scene=str(file)) for part, file in made.scenes.items()}
     rows["step"] = Variation("step", "step", [made.longer_step], scene=own)
     with lock.in_use(place):
-        complete = Runs(own, [], place, options, say).run(list(rows.values()))
-        if not complete:
+        runs = Runs(own, [], place, options, say)
+        if not runs.run(list(rows.values())):
             return None
         for row in rows.values():
             if row.outcome.status != DONE:
                 raise BY_CODE.get(row.outcome.exit_code, InternalError)(str(place), f"the run {row.label or 'of the tip'} failed",
                                                                         row.outcome.reason, f"look at {place}")
-        found = tip_of(made, {part: Result(_directory(place, row)) for part, row in rows.items()}, place)
+        found = tip_of(made, {part: Result(job.directory) for part, job in zip(rows, runs.jobs(list(rows.values())))}, place)
         report_tip.write(found)
     return found
-
-
-def _directory(place: Path, row: Variation) -> Path:
-    """Returns the directory of a run (variations.Runs)."""
-    return place / ",".join([Path(row.scene).stem, *(one.partition(".")[2] for one in sorted(row.setting))])
 
 
 def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: Voice, **given: Any) -> int:
