@@ -141,7 +141,7 @@ void check_layers(const Case& c, io::Problems& problems) {
         }
         sum += std::round(thickness / spacing);
     }
-    if (!block.layers.empty() && sum >= block.thickness)
+    if (!block.layers.empty() && sum >= block.thickness && !scene.has_free_edges())
         problems.add(
             "block.layers",
             fmt::format("are {:.6g} lattice layers thick, {:.4g} Å", sum,

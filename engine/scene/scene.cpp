@@ -257,9 +257,6 @@ io::Schema bind(Scene& scene) {
                     "drive.path is one relaxation, and its state is the relaxed one"}};
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
                                     "its surface, has them";
-    constexpr const char* of_one =
-        "the displacements around a force are known without images for a "
-        "half-space of one material";
     schema
         .rows<3>("layers", block.layers,
                  {{{"thickness", "Å", positive(), "\"2 nm\""},
@@ -268,16 +265,12 @@ io::Schema bind(Scene& scene) {
                  "coatings between the block's own material and its surface, on a quasi-static "
                  "path, from the surface upwards; a thickness is rounded to whole lattice layers")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
-                                 "take drive.mode = \"quasistatic\", or leave layers out"),
-                  needs.refusing(needs.periodic, "with surface.boundary = \"free\"", of_one,
-                                 "take boundary = \"periodic\", or leave layers out")};
+                                 "take drive.mode = \"quasistatic\", or leave layers out")};
     schema
         .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
                 "tension of the block's surface, on a quasi-static path")
         .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
-                                 "take drive.mode = \"quasistatic\", or leave surface_stress out"),
-                  needs.refusing(needs.periodic, "N/m with surface.boundary = \"free\"", of_one,
-                                 "take boundary = \"periodic\", or leave surface_stress out")};
+                                 "take drive.mode = \"quasistatic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "

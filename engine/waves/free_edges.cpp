@@ -4,15 +4,24 @@
 
 #include "decomposition/surface_transform.hpp"
 
+#include <boost/math/interpolators/cardinal_cubic_b_spline.hpp>
+#include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/special_functions/bessel.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace asperity {
 
 namespace {
 
 constexpr double smoothing = 1.9; ///< s over the spacing: erfc(s pi/a) is 1e-17
+
+constexpr double cut = 1.7; ///< c over the wave number 1/a: exp(-(pi/c)^6) is 1e-17
+constexpr double table_step = 0.125; ///< over the spacing
+constexpr double least_phase = 5e-4; ///< below it K is as at it; S of longer waves takes long
 
 double phase_of(int n, int sites) { return 2.0 * std::numbers::pi * n / sites; }
 
@@ -21,8 +30,18 @@ WavePhase along(double phase) { return {std::cos(phase), std::sin(phase)}; }
 } // namespace
 
 FreeEdges::FreeEdges(const BlockOptions& block, int grid)
-    : block_(block), grid_(grid), far_(Slab(grid, Communicator()), 1) {
+    : block_(block), has_added_(!block.layers.empty() || block.surface_stress > 0.0), grid_(grid),
+      far_(Slab(grid, Communicator()), 1) {
     block_.thickness = 1 << 30;
+    plain_ = block_;
+    plain_.layers.clear();
+    plain_.surface_stress = 0.0;
+    using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
+    std::optional<Spline> added;
+    if (has_added_) {
+        const std::vector<double> table = added_far();
+        added.emplace(table.data(), table.size(), 0.0, table_step * block.spacing, 0.0);
+    }
     const Slab slab(grid, Communicator());
     SiteField<double> far = site_field<double>(slab, 1);
     const PlaneView<double> at = far[0].plane(0);
@@ -34,6 +53,7 @@ FreeEdges::FreeEdges(const BlockOptions& block, int grid)
             const double dx = std::min(x, grid - x), dy = std::min(y, grid - y);
             const double r = a * std::sqrt(dx * dx + dy * dy);
             at(x, y) = r > 0.0 ? std::erf(0.5 * r / s) / (std::numbers::pi * modulus * r) : centre;
+            if (added) at(x, y) += (*added)(r);
         }
     to_waves(far, SurfaceTransform<double>(slab, 1), far_);
 }
@@ -46,18 +66,62 @@ double FreeEdges::compliance(int nx, int ny) const {
 }
 
 double FreeEdges::near(WavePhase x, WavePhase y, double phase) const {
-    const double far =
-        2.0 * std::erfc(smoothing * phase) / (block_.contact_modulus() * phase * block_.spacing);
-    return inverse(block_.stiffness(x, y)).zz - far;
+    const double rest = inverse(block_.stiffness(x, y)).zz - far_wave(phase);
+    return has_added_ ? rest - added(phase) : rest;
 }
 
-/// Returns the limit of long waves, from three of them.
+double FreeEdges::far_wave(double phase) const {
+    return 2.0 * std::erfc(smoothing * phase) / (block_.contact_modulus() * phase * block_.spacing);
+}
+
+double FreeEdges::added(double phase) const {
+    const double low_pass = std::exp(-std::pow(phase / cut, 6));
+    if (low_pass < 1e-17) return 0.0;
+    const auto compliance = [&](const BlockOptions& block) {
+        return inverse(block.stiffness(along(phase), {1.0, 0.0})).zz;
+    };
+    return low_pass * (compliance(block_) - compliance(plain_));
+}
+
+std::vector<double> FreeEdges::added_far() const {
+    using Gauss = boost::math::quadrature::gauss<double, 10>;
+    const double widest = grid_ / std::numbers::sqrt2 + 2.0; // all lengths over the spacing
+    std::vector<double> phase, weight;
+    const auto add = [&](double from, double to) {
+        for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i)
+            for (const double side : {-1.0, 1.0}) {
+                phase.push_back(0.5 * (from + to + side * (to - from) * Gauss::abscissa()[i]));
+                weight.push_back(0.5 * (to - from) * Gauss::weights()[i] * phase.back() *
+                                 added(std::max(phase.back(), least_phase)) /
+                                 (2.0 * std::numbers::pi));
+            }
+    };
+    // Panels of half a wave of J0 at the widest r; the first is halved again and again, for thick
+    // layers.
+    const double panel = std::numbers::pi / widest, last = std::numbers::pi;
+    double to = panel;
+    for (; to > least_phase; to *= 0.5)
+        add(0.5 * to, to);
+    add(0.0, to);
+    for (double from = panel; from < last; from += panel)
+        add(from, std::min(from + panel, last));
+    std::vector<double> table(static_cast<std::size_t>(widest / table_step) + 1);
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < table.size(); ++i)
+        for (std::size_t j = 0; j < phase.size(); ++j)
+            table[i] += weight[j] * boost::math::cyl_bessel_j(
+                                        0, phase[j] * table_step * static_cast<double>(i));
+    return table;
+}
+
+/// Returns the limit of long waves, from three of them, without layers and surface stress: their
+/// part vanishes there.
 double FreeEdges::near_uniform() const {
     const double longest = phase_of(1, 16 * grid_);
     double value[3];
     for (int i = 0; i < 3; ++i) {
         const double phase = longest / (1 << i);
-        value[i] = near(along(phase), {1.0, 0.0}, phase);
+        value[i] = inverse(plain_.stiffness(along(phase), {1.0, 0.0})).zz - far_wave(phase);
     }
     const double coarse = 2.0 * value[1] - value[0], fine = 2.0 * value[2] - value[1];
     return (4.0 * fine - coarse) / 3.0;

@@ -20,12 +20,23 @@
 //
 // without a remainder for s = 1.9 a. The rest, 1/S(q) - far^(q) with the lattice's S, falls as r^-3
 // and is taken wave by wave: it repeats, which changes displacements across the box by 0.15/N^2 of
-// themselves. (That of a coating reaches much further.) Displacements are measured from those far
-// away, where the top plane of a periodic block is.
+// themselves.
+//
+// Layers and surface stress add K(q) = 1/S - 1/S of the block's own material, which reaches as far
+// as r^-3 times their thickness squared. Its long waves, K(q) G(q) with K along x and
+// G = exp(-(q a/1.7)^6), belong to far,
+//
+//     far(r) += a^2 / (2 pi) integral of K(q) G(q) J0(q r) q over q from 0,
+//
+// and what is left of K falls faster than r^-3.
+//
+// Displacements are measured from those far away, where the top plane of a periodic block is.
 #pragma once
 
 #include "decomposition/waves.hpp"
 #include "engine/options/block_options.hpp"
+
+#include <vector>
 
 namespace asperity {
 
@@ -41,9 +52,18 @@ public:
 private:
     /// Returns 1/S - far^ at these phases, Å^2/eV.
     double near(WavePhase x, WavePhase y, double phase) const;
+    /// Returns far^ without K, Å^2/eV.
+    double far_wave(double phase) const;
+    /// Returns K G of a wave along x with this phase q a > 0, Å^2/eV.
+    double added(double phase) const;
+    /// Returns a^2 / (2 pi) times the integral of K(q) G(q) J0(q r) q at r = 0, t, 2t, ...,
+    /// t = table_step spacings, to beyond the corner of the box, Å^2/eV.
+    std::vector<double> added_far() const;
     double near_uniform() const;
 
     BlockOptions block_; ///< a block without an end above
+    BlockOptions plain_; ///< the same without layers and surface stress
+    bool has_added_;
     int grid_;
     Waves<double> far_; ///< Å^2/eV
 };

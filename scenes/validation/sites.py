@@ -15,12 +15,15 @@ import argparse
 import math
 import pathlib
 import sys
+from collections.abc import Callable
 
 import h5py
 import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))
+sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scenes/validation")]
+import spring  # noqa: E402
+
 import asperity  # noqa: E402
 
 GPA = 1 / 160.21766208  # eV/Å³
@@ -78,54 +81,103 @@ def check_maugis(out: pathlib.Path, given: argparse.Namespace) -> None:
               f"{apart / -least:8.4f}", flush=True)
 
 
-def jkr_over_rings(alpha: float, period: float, most: float) -> tuple[float, float]:
-    """Energy lost in a cycle and pull-off force with the work of adhesion at the edge of the contact."""
-    a = np.linspace(1e-6, 3.0, 150001)
-    held = 1 + alpha * np.cos(2 * math.pi * a / period)
-    at, work, before, last, pull = 0, 0.0, 0.0, 0.0, 0.0
-    for shift in np.concatenate([np.linspace(0, most, 20001), np.linspace(most, -2, 20001)]):
-        def way(i: int, shift: float = shift) -> int:
-            lifts = a[i] ** 2 > shift and 3 * (shift - a[i] ** 2) ** 2 / (8 * a[i]) > held[i]
-            return -1 if lifts else 1
-
-        step = way(at)
-        while 0 < at + step < len(a) and way(at + step) == step:
-            at += step
-        apart = at + step <= 0
-        force = 0.0 if apart else a[at] ** 3 + 1.5 * a[at] * (shift - a[at] ** 2)
-        work, before, last, pull = work + (force + before) / 2 * (shift - last), force, shift, min(pull, force)
-        if apart and shift < 0:
+def loop(a: np.ndarray, height: np.ndarray, attraction: np.ndarray, jump_in: float, most: float,
+         away: tuple[np.ndarray, np.ndarray] = (np.array([-9.0, 9.0]), np.zeros(2))) -> tuple[float, float]:
+    """Returns the energy lost between a jump into contact at a height, a displacement of most and the jump out of contact, and the
+    largest attraction. a: radii that grow, with the height and the attraction in force balance; the contact grows where it is below
+    that height and shrinks where it is above, to the next radius in balance. away: heights and attractions before contact."""
+    at = int(np.argmax(height > jump_in))  # past the unstable contact
+    lost, pull, down, up = 0.0, 0.0, np.linspace(jump_in, -most, 20001), np.linspace(-most, 2.0, 40001)
+    held = []
+    for h in down:
+        while at + 1 < len(a) and height[at] > h:
+            at += 1
+        held.append(attraction[at])
+    lost += np.trapz(held, down)
+    held = []
+    for h in up:
+        while at > 0 and height[at] < h:
+            at -= 1
+        if at == 0:
             break
-    return work, pull
+        held.append(attraction[at])
+    up = up[:len(held)]
+    lost += np.trapz(held, up)
+    pull = max(held)
+    between = up > jump_in
+    return lost - np.trapz(np.interp(up[between], *away), up[between]), pull
+
+
+def over_rings(alpha: float, period: float) -> Callable[[np.ndarray], np.ndarray]:
+    return lambda r: 1 + alpha * np.cos(2 * math.pi * r / period)
+
+
+def jkr_over_rings(alpha: float, period: float, most: float, jump_in: float) -> tuple[float, float]:
+    """Returns the energy lost in a cycle and the pull-off force with the work of adhesion at the edge of the contact."""
+    a = np.linspace(1e-6, 3.0, 150001)
+    w = over_rings(alpha, period)(a)
+    return loop(a, np.sqrt(8 * a * w / 3) - a * a, np.sqrt(6 * w * a**3) - a**3, jump_in, most)
+
+
+def follow_rings(alpha: float, period: float, most: float, reach: float) -> tuple[float, float, float]:
+    """Returns the energy lost in a cycle, the pull-off force and the height of the jump into contact of axisymmetric bodies (spring.py)."""
+    field = over_rings(alpha, period)
+    radius, height, attraction = (x[::-1] for x in spring.contacts(reach, field, 0.005))
+    away = spring.approach(reach, field)
+    number = np.arange(len(radius))
+    fine = np.linspace(0, len(radius) - 1, 40 * len(radius))
+    lost, pull = loop(*(spring.cubic(fine, number, x) for x in (radius, height, attraction)), away[0][0], most, away)
+    return lost, pull, away[0][0]
 
 
 def check_rings(out: pathlib.Path, given: argparse.Namespace) -> None:
     box, period, most = 5.2, 0.2, 3.0
-    sites, reach = given.sites or 384, given.range or 0.14
-    print("alpha  range/D0  sites   lost    JKR    ratio   pull-off   JKR    ratio")
+    sites, reach = given.sites or 384, given.range or 0.2
+    print("alpha  range/D0  sites   lost  of bodies of rings  ratio   pull-off  of bodies of rings  ratio")
     for alpha in (0.0, 0.1, 0.2, 0.4):
         if given.only is not None and alpha != given.only:
             continue
         shift, force, _ = follow(out, f"rings-{alpha}-{sites}-{reach}", 32 * reach * D0, {
             "surface.sites": sites, "surface.spacing": box * UNIT / sites,
             "interface.adhesion": f"rings {1e3 * W} {alpha} {period * UNIT}", "interface.range": reach * D0,
-            "drive.path": [f"height {-most * D0} Å", "pull-off"], "drive.displacement_step": 0.05 * D0})
+            "drive.path": [f"height {-most * D0} Å", "pull-off"], "drive.displacement_step": 0.02 * D0})
         lost = float(np.sum((force[1:] + force[:-1]) / 2 * np.diff(shift)))
-        wanted, pull = jkr_over_rings(alpha, period, most)
-        print(f"{alpha:4} {reach:8} {sites:7} {lost:8.3f} {wanted:7.3f} {lost / wanted:7.3f} {force.min():9.3f} {pull:7.3f} "
-              f"{force.min() / pull:7.3f}", flush=True)
+        wanted, pull, _ = follow_rings(alpha, period, most, reach)
+        print(f"{alpha:4} {reach:8} {sites:7} {lost:8.3f} {wanted:7.3f} {lost / wanted:7.3f} {-force.min():9.3f} {pull:7.3f} "
+              f"{-force.min() / pull:7.3f}", flush=True)
+
+
+def check_limits(_: pathlib.Path, given: argparse.Namespace) -> None:
+    """Prints what bodies of rings lose, and its limit of no range: what differs from the closed form with the same jump into
+    contact is extrapolated."""
+    period, most = 0.2, 3.0
+    ranges = np.array([0.025, 0.03, 0.035, 0.04])
+    print("alpha   JKR: lost  pull-off   range/D0: lost, over the closed form with its jump into contact; pull-off   limits over JKR")
+    for alpha in (0.0, 0.1, 0.2, 0.4):
+        if given.only is not None and alpha != given.only:
+            continue
+        lost, pull = jkr_over_rings(alpha, period, most, 0.0)
+        print(f"{alpha:4} {lost:9.3f} {pull:8.3f}", end=" ", flush=True)
+        rows = []
+        for reach in ranges:
+            found = follow_rings(alpha, period, most, reach)
+            same = jkr_over_rings(alpha, period, most, found[2])
+            rows.append((found[0] - same[0], found[1] - same[1]))
+            print(f"  {reach:.3g}: {found[0]:.3f}, {found[0] / same[0]:.3f}; {found[1]:.3f}", end=" ", flush=True)
+        apart = [spring.limit(ranges, np.array(column)) for column in zip(*rows, strict=True)]
+        print(f"  {1 + apart[0] / lost:.3f} {1 + apart[1] / pull:.3f}", flush=True)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=["maugis", "rings"])
+    parser.add_argument("what", choices=["maugis", "rings", "limits"])
     parser.add_argument("--only", type=float, help="lambda or alpha")
     parser.add_argument("--sites", type=int)
     parser.add_argument("--range", type=float)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/sites"))
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)
-    {"maugis": check_maugis, "rings": check_rings}[given.what](given.out, given)
+    {"maugis": check_maugis, "rings": check_rings, "limits": check_limits}[given.what](given.out, given)
 
 
 if __name__ == "__main__":

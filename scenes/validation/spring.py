@@ -20,6 +20,7 @@ import csv
 import math
 import pathlib
 import sys
+from collections.abc import Callable
 
 import numpy as np
 
@@ -30,6 +31,7 @@ import rings  # noqa: E402
 STIFFNESS = (math.inf, 10.0, 3.0, 1.0, 0.3, 0.1)  # F0/D0
 NAMES = ("jump_in", "after", "jump_out", "pull_off", "lost")
 WORK, MODULUS = 1 / math.pi, 0.75  # R = K = F0 = a0 = D0 = 1
+WIDEST = 2.5  # contact
 
 
 def jkr() -> tuple[np.ndarray, np.ndarray]:
@@ -38,25 +40,34 @@ def jkr() -> tuple[np.ndarray, np.ndarray]:
     return -(a * a - 2 / 3 * np.sqrt(6 * a)), np.sqrt(6 * a**3) - a**3
 
 
-def cycle(stiffness: float, contact: tuple[np.ndarray, np.ndarray], approach: tuple[np.ndarray, np.ndarray] | None) -> dict[str, float]:
-    """Numbers of a cycle from both branches: heights of the top plane that rise, and attractions. None: no attraction before
-    contact, which begins at the height 0."""
-    def driven(branch: tuple[np.ndarray, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
-        return branch[0] + branch[1] / stiffness, branch[1]
+def largest(values: np.ndarray, radius: np.ndarray, *others: np.ndarray) -> tuple[float, ...]:
+    """Returns the maximum of values over the radius, where it is, and the others there, by a polynomial through the 17 points about
+    it: single contacts differ by the places of their rings."""
+    middle = int(np.argmax(values))
+    near = slice(max(0, middle - 8), middle + 9)
+    fits = [np.polynomial.Polynomial.fit(radius[near], y[near], 4) for y in (values, *others)]
+    turns = [x.real for x in fits[0].deriv().roots() if abs(x.imag) < 1e-9 and radius[near].min() <= x.real <= radius[near].max()]
+    at = max([*turns, radius[middle]], key=fits[0])
+    return float(fits[0](at)), float(at), *(float(fit(at)) for fit in fits[1:])
 
-    at, force = driven(contact)
-    last = int(np.argmax(at))  # the fold of the contact
-    at, force = at[:last + 1], force[:last + 1]
-    if approach is None:
-        far, weak, jump_in = np.array([0.0, at[-1]]), np.zeros(2), 0.0
-    else:
-        far, weak = driven(approach)
-        first = int(np.argmin(far))
-        far, weak = far[first:], weak[first:]
-        jump_in = far[0]
-    z = np.linspace(jump_in, at[-1], 200001)
-    lost = np.trapz(np.interp(z, at, force) - np.interp(z, far, weak), z)
-    return dict(zip(NAMES, (jump_in, np.interp(jump_in, at, force), force[-1], force.max(), lost), strict=True))
+
+def cycle(stiffness: float, contact: tuple[np.ndarray, ...], approach: tuple[np.ndarray, np.ndarray]) -> dict[str, float]:
+    """Returns the numbers of a cycle from both branches: radii of the contact that fall, heights of the top plane, attractions; and
+    heights that rise and attractions before contact."""
+    radius, height, force = contact
+    end, _, torn = largest(height + force / stiffness, radius, force)
+    last = int(np.argmax(height + force / stiffness))  # the fold of the contact
+    at, held = np.append((height + force / stiffness)[:last], end), np.append(force[:last], torn)
+    far, weak = approach[0] + approach[1] / stiffness, approach[1]
+    first = int(np.argmin(far))
+    far, weak, jump_in = far[first:], weak[first:], far[first]
+    number = np.arange(len(at))
+    fine = np.linspace(0, len(at) - 1, 40 * len(at))
+    fine_at, fine_held = np.maximum.accumulate(cubic(fine, number, at)), cubic(fine, number, held)
+    z = np.linspace(jump_in, end, 200001)
+    lost = np.trapz(np.interp(z, fine_at, fine_held) - np.interp(z, far, weak), z)
+    pulled = largest(force, radius)[0]
+    return dict(zip(NAMES, (jump_in, np.interp(jump_in, fine_at, fine_held), torn, pulled, lost), strict=True))
 
 
 def closed(stiffness: float, jump_in: float = 0.0) -> dict[str, float]:
@@ -88,20 +99,23 @@ class Contact:
     attracted; the pressure goes over the edge without a jump, and the height follows. So no ring takes part in both, as they
     would at a given height, where single rings hold the edge."""
 
-    def __init__(self, radius: float, reach: float, work: float, before: "Contact | None" = None):
+    def __init__(self, radius: float, reach: float, work: float, before: "Contact | None" = None,
+                 field: Callable[[np.ndarray], np.ndarray] | None = None):
         self.body, self.inside = rings_about(radius, MODULUS * reach**2 / WORK)
         r, inside = self.body.r, np.arange(len(self.body.r)) < self.inside
         shape, law = r**2 / 2, rings.Exponential(work, reach, 500 * math.pi * MODULUS / 0.03)
         gap, height = np.maximum(shape - radius**2 / 2, 0) / 4, -radius**2 / 2
         if before is not None:
             gap, height = np.interp(r - radius, before.body.r - before.radius, before.gap), before.height
+        share = np.ones(len(r)) if field is None else field(r)  # of the work of adhesion
+        at_edge = 1.0 if field is None else float(field(np.array([radius]))[0])
         edge = np.zeros(len(r))
         edge[self.inside - 2:self.inside] = (-0.5, 1.5)
         for _ in range(60):
-            pull = law.tension * np.exp(-np.maximum(gap, -3 * reach) / reach)
-            pressure = np.where(inside, -law.stiffness * gap - law.tension, -pull)
+            pull = share * law.tension * np.exp(-np.maximum(gap, -3 * reach) / reach)
+            pressure = np.where(inside, -law.stiffness * gap - share * law.tension, -pull)
             slope = np.where(inside, -law.stiffness, pull / reach)
-            off = np.append(gap - height - shape - self.body.flexibility @ pressure, edge @ pressure + law.tension)
+            off = np.append(gap - height - shape - self.body.flexibility @ pressure, edge @ pressure + at_edge * law.tension)
             matrix = np.zeros((len(r) + 1, len(r) + 1))
             matrix[:-1, :-1] = np.eye(len(r)) - self.body.flexibility * slope
             matrix[:-1, -1], matrix[-1, :-1] = -1, edge * slope
@@ -116,47 +130,43 @@ class Contact:
         self.attraction = float(-self.body.area @ pressure)
 
 
-def wide_contact(reach: float) -> Contact:
-    """A contact of radius 2 at this range, from a longer one."""
+def wide_contact(reach: float, field: Callable[[np.ndarray], np.ndarray] | None = None) -> Contact:
+    """Returns a contact of the radius WIDEST at this range, from a longer one."""
     before, longest = None, max(0.4, reach)
     for part in (0.05, 0.25, 0.5, 0.75, 1.0):
-        before = Contact(2.0, longest, part * WORK, before)
+        before = Contact(WIDEST, longest, part * WORK, before, field)
     for wide in np.geomspace(longest, reach, max(2, math.ceil(math.log(longest / reach) / 0.1))):
-        before = Contact(2.0, wide, WORK, before)
+        before = Contact(WIDEST, wide, WORK, before, field)
     return before
 
 
+def contacts(reach: float, field: Callable[[np.ndarray], np.ndarray] | None = None, step: float = 0.01) -> tuple[np.ndarray, ...]:
+    """Returns radii, heights and attractions of contacts from a wide one to one past the largest height of small contacts. field:
+    the work of adhesion at a radius over w."""
+    before = wide_contact(reach, field)
+    rows = []
+    while before.radius > 0.4:
+        rows.append((before.radius, before.height, before.attraction))
+        before = Contact(before.radius - step, reach, WORK, before, field)
+    return tuple(np.array(rows).T)
+
+
 def of_rings(reach: float) -> list[dict]:
-    """Cycles of rings at this range."""
-    before = wide_contact(reach)
-    rows, last = [], -math.inf
-    radius = 2.0
-    while before.height > last or radius > 0.8:
-        last = before.height
-        rows.append((before.height, before.attraction))
-        radius -= 0.01
-        before = Contact(radius, reach, WORK, before)
-    at, force = np.array(rows).T
-    number, fine = np.arange(len(at)), np.linspace(0, len(at) - 1, 40 * len(at))
-    contact = cubic(fine, number, at), cubic(fine, number, force)
-    last = int(np.argmax(contact[0]))
-    contact = contact[0][:last + 1], contact[1][:last + 1]
-    return [{"range": reach, "rings": len(before.body.r), "stiffness": k, **cycle(k, contact, approach(reach))} for k in STIFFNESS]
+    """Returns cycles of rings at this range."""
+    contact, away = contacts(reach), approach(reach)
+    return [{"range": reach, "rings": len(rings_about(0.5, MODULUS * reach**2 / WORK)[0].r), "stiffness": k, **cycle(k, contact, away)}
+            for k in STIFFNESS]
 
 
 def limits(ranges: list[float]) -> None:
-    """Cube of the radius, force and height at the largest attraction of rings, and their limit beside JKR's."""
+    """Prints the cube of the radius, force and height at the largest attraction of rings, and their limits beside JKR's."""
     rows = []
     for reach in sorted(ranges)[:4]:
-        contact, found = wide_contact(reach), []
-        for radius in np.arange(1.98, 1.0, -0.02):
-            contact = Contact(radius, reach, WORK, contact)
-            found.append((radius, contact.height, contact.attraction))
-        near = np.array(found).T[:, max(0, int(np.argmax(np.array(found)[:, 2])) - 3):][:, :7]
-        height, force = (np.polynomial.Polynomial.fit(near[0], near[i], 4) for i in (1, 2))
-        radius = next(x.real for x in force.deriv().roots() if abs(x.imag) < 1e-9 and near[0][-1] < x.real < near[0][0])
-        rows.append((radius**3, float(force(radius)), float(height(radius))))
-    print("a^3, attraction, height:", *(f"{limit(np.array(sorted(ranges)[:4]), np.array(column)):.4f}" for column in zip(*rows, strict=True)),
+        radius, height, force = contacts(reach)
+        most, at, there = largest(force, radius, height)
+        rows.append((at**3, most, there))
+        print(f"range {reach}: a^3 {at**3:.4f}, attraction {most:.4f}, height {there:.4f}", flush=True)
+    print("limit: ", *(f"{limit(np.array(sorted(ranges)[:4]), np.array(column)):.4f}" for column in zip(*rows, strict=True)),
           "JKR: 1.5 1.5", f"{2 / 3 * math.sqrt(6 * 1.5 ** (1 / 3)) - 1.5 ** (2 / 3):.4f}")
 
 
@@ -169,10 +179,12 @@ def cubic(x: np.ndarray, at: np.ndarray, values: np.ndarray) -> np.ndarray:
     return values[i] + t * change + bend
 
 
-def approach(reach: float) -> tuple[np.ndarray, np.ndarray]:
-    """Heights and attractions before contact, from the last stable height outwards."""
+def approach(reach: float, field: Callable[[np.ndarray], np.ndarray] | None = None) -> tuple[np.ndarray, np.ndarray]:
+    """Returns heights and attractions before contact, from the last stable height outwards."""
     body = rings.Rings(np.concatenate([np.linspace(0, 0.45, 46)[:-1], np.arange(0.45, 3.8, 0.025)]), MODULUS)
     law, shape = rings.Exponential(WORK, reach, 500 * math.pi * MODULUS / 0.03), body.r**2 / 2
+    if field is not None:
+        law.tension = law.tension * field(body.r)
     height, step, rows = 12 * reach + 1, 0.05 * reach, []
     gap = height + shape
     while step > 1e-5 * reach:

@@ -9,9 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 using namespace asperity;
 
@@ -85,6 +87,25 @@ ExponentialWall hard_wall(const BlockOptions& o, double factor = 1000.0) {
     return {0.0, o.spacing, factor * 0.5 * pi * o.contact_modulus() * o.spacing};
 }
 
+/// Returns the displacement by a force on one site as a function of the sites away from it.
+std::function<double(int, int)> displacement_by(double force, const BlockOptions& o) {
+    const FreeEdges edges(o, o.grid());
+    const int n = o.grid();
+    std::vector<double> wave, cosine;
+    for (int i = 0; i < n * n; ++i)
+        wave.push_back(edges.compliance(std::min(i % n, n - i % n), std::min(i / n, n - i / n)));
+    for (int i = 0; i < n; ++i)
+        cosine.push_back(std::cos(2.0 * pi * i / n));
+    return [=](int x, int y) {
+        double sum = 0.0;
+        for (int i = 0; i < n * n; ++i) // even in both directions
+            sum += wave[static_cast<std::size_t>(i)] *
+                   cosine[static_cast<std::size_t>(i % n * x % n)] *
+                   cosine[static_cast<std::size_t>(i / n * y % n)];
+        return force * sum / (n * n);
+    };
+}
+
 } // namespace
 
 TEST(FreeEdges, HaveAPositiveComplianceOfAllWaves) {
@@ -118,24 +139,8 @@ TEST(FreeEdges, AnswerAForceWithoutImages) {
     // too, and it is that of a wider box. What the lattice has beside the continuum falls as r^-3,
     // and is the only part that repeats: over the displacement it is 0.16/N^2.
     constexpr double F = 0.7;
-    const auto displacement = [&](int sites) {
-        const BlockOptions o = free_block(sites, 2.6 * sites, 1.0);
-        const FreeEdges edges(o, o.grid());
-        const int n = o.grid();
-        std::vector<double> wave, cosine;
-        for (int i = 0; i < n * n; ++i)
-            wave.push_back(
-                edges.compliance(std::min(i % n, n - i % n), std::min(i / n, n - i / n)));
-        for (int i = 0; i < n; ++i)
-            cosine.push_back(std::cos(2.0 * pi * i / n));
-        return [=](int x, int y) {
-            double sum = 0.0;
-            for (int i = 0; i < n * n; ++i) // even in both directions
-                sum += wave[static_cast<std::size_t>(i)] *
-                       cosine[static_cast<std::size_t>(i % n * x % n)] *
-                       cosine[static_cast<std::size_t>(i / n * y % n)];
-            return F * sum / (n * n);
-        };
+    const auto displacement = [](int sites) {
+        return displacement_by(F, free_block(sites, 2.6 * sites, 1.0));
     };
     const auto narrow = displacement(16), wide = displacement(40);
     for (int y = 0; y < 16; ++y)
@@ -146,6 +151,62 @@ TEST(FreeEdges, AnswerAForceWithoutImages) {
                 EXPECT_NEAR(u, F / (pi * r), 0.005 * u) << x << ", " << y;
             }
         }
+}
+
+TEST(FreeEdges, AnswerAForceOnLayersWithoutImages) {
+    // Coatings of four cells, ten times as stiff and as soft, and a gradient of three layers: in
+    // boxes of 16, 40 and 96 sites the same, and that of the half-space far away.
+    constexpr double F = 0.7, a = 2.6;
+    const std::vector<std::vector<MaterialLayer>> columns{
+        {{{10.0, 0.3}, 4}}, {{{0.1, 0.3}, 4}}, {{{0.3, 0.45}, 6}, {{3.0, 0.2}, 6}, {{0.6, 0.3}, 6}}};
+    for (const std::vector<MaterialLayer>& layers : columns) {
+        const auto on_layers = [&](int sites) {
+            BlockOptions o = free_block(sites, a * sites, 1.0);
+            o.layers = layers;
+            return displacement_by(F, o);
+        };
+        const auto narrow = on_layers(16), wide = on_layers(40), widest = on_layers(96);
+        for (int y = 0; y < 16; y += 3)
+            for (int x = 0; x < 16; x += 3) {
+                EXPECT_NEAR(narrow(x, y), wide(x, y), 0.7 / (16 * 16) * wide(x, y));
+                EXPECT_NEAR(wide(x, y), widest(x, y), 0.7 / (40 * 40) * wide(x, y));
+            }
+        const double far = F / (pi * a * 95.0);
+        EXPECT_NEAR(widest(95, 0), far, 0.03 * far);
+    }
+}
+
+TEST(FreeEdges, HaveAPositiveComplianceOfAllWavesOfLayers) {
+    for (const double young : {0.02, 0.5, 20.0})
+        for (const double stress : {0.0, 10.0}) {
+            BlockOptions o = free_block(33, 86.0, 1.0);
+            o.layers = {{{young, 0.4}, 5}, {{3.0, 0.2}, 3}};
+            o.surface_stress = stress;
+            const FreeEdges edges(o, o.grid());
+            for (int nx = 0; nx <= o.sites; ++nx)
+                for (int ny = 0; ny <= o.sites; ++ny)
+                    EXPECT_GT(edges.compliance(nx, ny), 0.0) << young << ", " << stress;
+        }
+}
+
+TEST(FreeEdges, AnswerAForceOnASurfaceStressWithoutImages) {
+    // 1/S = 2/(E* q + 2 Y q^2) has u(r) = F/(2 pi Y) integral of exp(-k r t)/sqrt(1 + t^2) over t
+    // from 0, k = E*/(2 Y).
+    constexpr double F = 0.7, a = 2.6;
+    for (const double stress : {2.0, 8.0, 40.0}) { // of a modulus of 1: 2 Y/E* of 4 to 80 Å
+        BlockOptions o = free_block(24, 24 * a, 1.0);
+        o.surface_stress = stress;
+        const auto found = displacement_by(F, o);
+        const double k = 0.5 / stress;
+        for (int x = 5; x < 24; x += 3) {
+            double sum = 0.0;
+            const double r = a * x, step = 1e-3;
+            for (double s = 0.5 * step; s < 40.0; s += step) // t = sinh(s)
+                sum += std::exp(-k * r * std::sinh(s));
+            const double wanted = F / (2.0 * pi * stress) * sum * step;
+            EXPECT_NEAR(found(x, 0), wanted, 0.005 * wanted) << stress << ", " << x;
+        }
+    }
 }
 
 TEST(FreeEdges, OfHertz) {
@@ -164,6 +225,25 @@ TEST(FreeEdges, OfHertz) {
         depths[wide - 1] = -s.top;
     }
     EXPECT_NEAR(depths[0], depths[1], 1e-3 * depth);
+}
+
+TEST(FreeEdges, OfASphereOnACoating) {
+    // A coating ten times as stiff, half as thick as Hertz' contact is wide: the depth is between
+    // those of both materials, and the same in a box of 1.25 and of 2.5 diameters.
+    constexpr double R = 20.0, modulus = 102.0, F = 15.0, a = 1.30175;
+    double depths[2];
+    for (const int wide : {1, 2}) {
+        const int sites = 32 * wide;
+        BlockOptions o = free_block(sites, 2.5 * a * wide, modulus);
+        o.layers = {{{10.0 * o.young, o.poisson}, 13}};
+        Free c(o, paraboloid(sites, o.edge(), R), hard_wall(o, 3e3), 0.01);
+        c.block.set_uniform(0.0);
+        depths[wide - 1] =
+            -c.relax(Constraint::load(F), 1e-5 * F / (38 * 38), Start::anywhere).top;
+    }
+    EXPECT_NEAR(depths[0], depths[1], 1e-3 * depths[1]);
+    EXPECT_LT(depths[1], 0.8 * 0.084728);
+    EXPECT_GT(depths[1], 1.2 * 0.084728 / std::pow(10.0, 2.0 / 3.0));
 }
 
 TEST(FreeEdges, OfTheFlatPunch) {

@@ -39,6 +39,7 @@ EFFECTS = {
     "plain": [],
     "spring": ["drive.stiffness=20 N/m"],
     "relaxing": ['block.prony=[[1.0, "1 ns"]]', "drive.velocity=1 m/s"],
+    "layers": ['block.layers=[["2 nm", "20 GPa", 0.3], ["60 nm", "1 GPa", 0.4]]', "block.surface_stress=0.05"],  # thicker than the box is wide
     "holes": ["surface.kind=file", "surface.file=punch.npy", "surface.file_missing=hole", "surface.radius=none"],
 }
 
