@@ -12,6 +12,7 @@ inline constexpr double gigapascal = 1.0 / 160.21766208;                   ///< 
 inline constexpr double megapascal = 1e-3 * gigapascal;                    ///< eV/Å^3
 inline constexpr double newton_per_metre = 1.0 / 16.021766208;             ///< eV/Å^2
 inline constexpr double nanonewton = 1.0 / 1.602176634;                    ///< eV/Å
+inline constexpr double attojoule = 1.0 / 0.1602176634;                    ///< eV
 inline constexpr double atomic_mass = 103.642695;                          ///< eV fs^2/Å^2
 inline constexpr double metre_per_second = 1e-5;                           ///< Å/fs
 inline constexpr double per_picosecond = 1e-3;                             ///< 1/fs

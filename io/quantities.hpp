@@ -133,6 +133,7 @@ inline constexpr Quantity result_quantities[] = {
     {"instrument.pull_off_force", "nN", per::block, "pull_off_force"},
     {"instrument.contact_radius", "nm", "", "contact_radius.relaxed"},
     {"instrument.spring", "N/m", "", "drive.stiffness"},
+    {"instrument.energy_lost", "aJ", per::block, "dissipated.energy"},
     {"instrument.edge_distance", "nm", "",
      "least distance of a contact of the path from a free edge of the box (surface.boundary)"},
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},

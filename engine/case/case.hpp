@@ -98,6 +98,9 @@ struct Case {
     }
     /// Returns true if forces are reported in nN and lengths in nm: of a sphere or with free edges.
     bool in_newtons() const { return effects.free_edges || radius().has_value(); }
+    /// Returns the size of the box and of the block in words: "64 x 64 sites, box 166 Å, 64 layers
+    /// in 3 levels".
+    std::string box_in_words() const;
     /// Returns a number of sites over that of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.

@@ -400,6 +400,16 @@ double Case::load_in_megapascal() const {
     return simulation.drive.load_force / (units::megapascal * area());
 }
 
+std::string Case::box_in_words() const {
+    const BlockOptions& block = simulation.block;
+    const std::string sites = fmt::format("{0} x {0} sites", block.sites);
+    if (effects.free_edges)
+        return fmt::format("{}, {:.6g} nm wide, with free edges; a half-space", sites,
+                           0.1 * edge());
+    return fmt::format("{}, box {:.6g} Å, {} layers in {} level{}", sites, edge(), block.thickness,
+                       levels.size(), levels.size() == 1 ? "" : "s");
+}
+
 ProcessGrid Case::grid(int rank) const {
     if (!effects.dynamic) return ProcessGrid::slabs(ranks, rank, simulation.block.grid());
     return ProcessGrid(ranks, rank, simulation.block.sites, static_cast<int>(levels.size()));

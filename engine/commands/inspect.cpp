@@ -140,9 +140,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root() || given.quiet) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", c.scene.file);
-    fmt::print("  {0} x {0} sites, box {1:.6g} Å, {2} layers in {3} level{4}\n",
-               c.simulation.block.sites, c.edge(), c.simulation.block.thickness, c.levels.size(),
-               c.levels.size() == 1 ? "" : "s");
+    fmt::print("  {}\n", c.box_in_words());
     if (c.effects.dynamic)
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));

@@ -171,11 +171,8 @@ Plan make_plan(const Case& c, int threads) {
 }
 
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
-    const BlockOptions& block = c.simulation.block;
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
-    fmt::print(to, "{}: {} x {} sites, box {:.6g} Å, {} layers in {} level{}\n\n", c.scene.name,
-               block.sites, block.sites, c.edge(), block.thickness, c.levels.size(),
-               s(c.levels.size()));
+    fmt::print(to, "{}: {}\n\n", c.scene.name, c.box_in_words());
     io::Table effects({"effect", "", "because"}, "<<<");
     for (const auto& [name, effect] : c.effects.list())
         effects.row({name, effect ? "on" : "off", effect.why});

@@ -238,6 +238,8 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     add_sphere(c, result);
     if (c.in_newtons() && c.effects.spring)
         result.set("instrument.spring", c.simulation.drive.stiffness / units::newton_per_metre);
+    if (c.in_newtons() && results.dissipated)
+        result.set("instrument.energy_lost", results.dissipated->total() / units::attojoule);
     if (results.edge_distance) result.set("instrument.edge_distance", 0.1 * *results.edge_distance);
     const auto& wall = c.simulation.interface.wall;
     const auto has_range = []<class Law>(const Law&) { return ScaledBySite<Law>; };

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <functional>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 namespace asperity {
@@ -65,16 +66,6 @@ struct Numbers {
 
 std::string number(Number value, int digits) { return value ? io::number(*value, digits) : "-"; }
 
-/// Returns a name with its unit as people print it; energies over an area have both units of
-/// energies().
-std::string named(const std::string& name, io::Key key) {
-    std::string unit(io::unit_of(key));
-    if (unit == "1") return name;
-    if (unit == "meV/Å^2") return name + ", meV/Å² (mJ/m²)";
-    if (const std::size_t at = unit.find("^2"); at != std::string::npos) unit.replace(at, 2, "²");
-    return name + ", " + unit;
-}
-
 /// Returns an energy over an area in meV/Å² and mJ/m²: "55.60 (891)".
 std::string energies(Number value, int digits = 2) {
     if (!value) return "-";
@@ -87,6 +78,53 @@ std::string with_units(double value) {
     return fmt::format("{} meV/Å² ({} mJ/m²)", io::number(value, 2),
                        io::cell(value * units::millijoule_per_square_metre, 3));
 }
+
+/// Works, energies and heights of a run as people read them: energies over the nominal area, those
+/// of a sphere or with free edges whole, in aJ; heights in Å, or beside forces in nN in nm.
+class Form {
+public:
+    explicit Form(const Case& c)
+        : whole_(c.in_newtons() ? 1e-3 * c.area() / units::attojoule : 0.0),
+          nanometres_(c.in_newtons()) {}
+    /// Returns whether energies are those of the whole contact.
+    bool is_whole() const { return whole_ > 0.0; }
+    /// Returns an energy over the nominal area, meV/Å^2, without its unit.
+    std::string energy(Number value) const {
+        if (!is_whole() || !value) return energies(value);
+        return io::cell(*value * whole_, 4);
+    }
+    /// Returns an energy over the nominal area, meV/Å^2, with its unit.
+    std::string with_unit(double value) const {
+        return is_whole() ? energy(value) + " aJ" : with_units(value);
+    }
+    /// Returns a part of an energy that stands before it with its unit.
+    std::string part(double value) const {
+        return is_whole() ? energy(value) : io::number(value, 2);
+    }
+    /// Returns an uncertainty of such an energy, in the first of its units.
+    std::string uncertainty(Number value) const {
+        return value ? fmt::format("{:.1e}", *value * (is_whole() ? whole_ : 1.0)) : "-";
+    }
+    std::string_view unit_of_uncertainty() const { return is_whole() ? "aJ" : "meV/Å²"; }
+    std::string height(double value) const {
+        return io::number(nanometres_ ? 0.1 * value : value, nanometres_ ? 3 : 2);
+    }
+    std::string_view unit_of_height() const { return nanometres_ ? "nm" : "Å"; }
+    /// Returns the name of a number of the result with its unit.
+    std::string named(const std::string& name, io::Key key) const {
+        std::string unit(io::unit_of(key));
+        if (unit == "1") return name;
+        if (unit == "meV/Å^2") unit = is_whole() ? "aJ" : "meV/Å² (mJ/m²)";
+        if (unit == "Å") unit = unit_of_height();
+        if (const std::size_t at = unit.find("^2"); at != std::string::npos)
+            unit.replace(at, 2, "²");
+        return name + ", " + unit;
+    }
+
+private:
+    double whole_; ///< aJ over meV/Å^2; zero: energies are over the area
+    bool nanometres_;
+};
 
 /// Returns the works of the drive of all segments of the last cycle, meV/Å^2.
 double works_in_cycle(const PathResults& results) {
@@ -102,6 +140,7 @@ double works_in_cycle(const PathResults& results) {
 /// Prints works and losses of a whole path.
 void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
+    const Form form(c);
     if (c.effects.temperature) {
         fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
@@ -113,7 +152,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
             "  {} are dissipated in the viscoelastic block,\n"
             "  and {} are lost at instabilities.\n",
-            with_units(works_in_cycle(results)), with_units(*relaxed), with_units(lost));
+            form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed), form.with_unit(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,
@@ -125,7 +164,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
             fmt::print(to, "  From the approach to the end of the pull-off {} are lost.\n",
-                       with_units(*lost));
+                       form.with_unit(*lost));
         return;
     }
     const double lost =
@@ -139,13 +178,13 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             to,
             "  The works of the drive on the solids, in and out, add up to {}:\n  hardly anything "
             "is lost.\n",
-            with_units(std::abs(lost)));
+            form.with_unit(std::abs(lost)));
     else
         fmt::print(
             to,
             "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
             "{}.\n",
-            with_units(lost),
+            form.with_unit(lost),
             c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
         fmt::print(
@@ -156,7 +195,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
         fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
                        "surface: a jump of the\n  whole block does not change it, jumps of single "
                        "patches do.\n");
-    if (!hardly && c.simulation.drive.control == Control::top)
+    if (!hardly && c.simulation.drive.control == Control::top && !c.effects.free_edges)
         fmt::print(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
                        "(block.thickness) less so.\n");
 }
@@ -172,6 +211,7 @@ std::string short_name(const Case& c, const SegmentResults& s) {
 /// Prints the segments of a path that has others than approach and pull-off, a column each, as many
 /// side by side as a page has room for.
 void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
+    const Form form(c);
     const bool newtons = c.in_newtons();
     const double unit = newtons ? units::nanonewton : c.area() * units::megapascal;
     struct Row {
@@ -179,25 +219,25 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
         std::function<std::string(const SegmentResults&)> of;
     };
     std::vector<Row> rows;
-    rows.push_back({named("work of the drive", "segments[].work_of_drive"),
-                    [](const SegmentResults& s) { return energies(s.work); }});
-    rows.push_back({named("lost", "segments[].lost"),
-                    [](const SegmentResults& s) { return energies(s.lost); }});
+    rows.push_back({form.named("work of the drive", "segments[].work_of_drive"),
+                    [&](const SegmentResults& s) { return form.energy(s.work); }});
+    rows.push_back({form.named("lost", "segments[].lost"),
+                    [&](const SegmentResults& s) { return form.energy(s.lost); }});
     if (c.effects.branches)
-        rows.push_back({named("dissipated in the block", "segments[].dissipated_in_block"),
-                        [](const SegmentResults& s) { return energies(s.relaxed); }});
+        rows.push_back({form.named("dissipated in the block", "segments[].dissipated_in_block"),
+                        [&](const SegmentResults& s) { return form.energy(s.relaxed); }});
     if (!c.effects.dynamic)
-        rows.push_back({named("stored", "segments[].stored"),
-                        [](const SegmentResults& s) { return energies(s.stored); }});
+        rows.push_back({form.named("stored", "segments[].stored"),
+                        [&](const SegmentResults& s) { return form.energy(s.stored); }});
     rows.push_back(
-        {named("ends at", newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
+        {form.named("ends at", newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
          [=](const SegmentResults& s) { return number(s.force / unit, newtons ? 3 : 1); }});
-    rows.push_back({named("mean height", "segments[].mean_height"),
-                    [](const SegmentResults& s) { return number(s.mean_height, 2); }});
+    rows.push_back({form.named("mean height", "segments[].mean_height"),
+                    [&](const SegmentResults& s) { return form.height(s.mean_height); }});
     rows.push_back(
         {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
     if (c.effects.sliding)
-        rows.push_back({named("friction", "segments[].friction"),
+        rows.push_back({form.named("friction", "segments[].friction"),
                         [](const SegmentResults& s) { return number(s.lateral_mean, 2); }});
     constexpr std::size_t side_by_side = 3;
     const auto& all = results.segments;
@@ -249,8 +289,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
 
 std::string progress_phase(const Case& c, const std::string& segment, double force,
                            long long in_contact, double mean_height) {
-    return fmt::format("{}, {}, contact {:.3f}, height {} Å", segment, force_text(c, force),
-                       c.fraction(in_contact), io::number(mean_height, 2));
+    const Form form(c);
+    return fmt::format("{}, {}, contact {:.3f}, height {} {}", segment, force_text(c, force),
+                       c.fraction(in_contact), form.height(mean_height), form.unit_of_height());
 }
 
 namespace {
@@ -312,6 +353,7 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const PathResults& results, const std::string& directory) {
     const Numbers of{result};
+    const Form form(c);
     const double flat = of("delta_gamma").value_or(0.0);
     const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const std::string at =
@@ -327,20 +369,18 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const auto over_flat = [&](Number v) {
         return number(v && flat != 0.0 ? Number(*v / flat) : Number(), 4);
     };
-    const auto plus_minus = [](Number v) { return v ? fmt::format("{:.1e}", *v) : "-"; };
-
     if (state) {
         io::Table table({"state " + at, ""});
         const auto row = [&](const std::string& name, io::Key key, const std::string& value) {
-            table.row({named(name, key), value});
+            table.row({form.named(name, key), value});
         };
-        row("binding energy", "binding_energy", energies(state));
-        table.row({flat_text, over_flat(state)});
-        table.row({"  convergence, meV/Å²", plus_minus(of("binding_energy_uncertainty"))});
+        row("binding energy", "binding_energy", form.energy(state));
+        if (!form.is_whole()) table.row({flat_text, over_flat(state)});
+        table.row({fmt::format("  convergence, {}", form.unit_of_uncertainty()), form.uncertainty(of("binding_energy_uncertainty"))});
         row("energy of the pairs alone", "pair_binding_energy",
-            energies(of("pair_binding_energy")));
+            form.energy(of("pair_binding_energy")));
         row("elastic energy stored", "relaxed.elastic_energy",
-            energies(of("relaxed.elastic_energy")));
+            form.energy(of("relaxed.elastic_energy")));
         row("contact fraction", "contact_fraction", number(of("contact_fraction"), 4));
         row("repulsive sites, fraction", "repulsive_fraction", number(of("repulsive_fraction"), 4));
         fmt::print(to, "\n");
@@ -349,11 +389,12 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (drive_in || drive_out || of("approach_force")) {
         io::Table table({"path", "approach", "pull-off"});
         const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
-            if (in || out) table.row({named(name, key), energies(in), energies(out)});
+            if (in || out) table.row({form.named(name, key), form.energy(in), form.energy(out)});
         };
         const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
             row(name, key, in, out);
-            if (in || out) table.row({flat_text, over_flat(in), over_flat(out)});
+            if ((in || out) && !form.is_whole())
+                table.row({flat_text, over_flat(in), over_flat(out)});
         };
         work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
         work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
@@ -365,15 +406,15 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
-            table.row({"convergence of the above, meV/Å²",
-                       plus_minus(of("work_of_drive.uncertainty.approach")),
-                       plus_minus(of("work_of_drive.uncertainty.pull_off"))});
+            table.row({fmt::format("convergence of the above, {}", form.unit_of_uncertainty()),
+                       form.uncertainty(of("work_of_drive.uncertainty.approach")),
+                       form.uncertainty(of("work_of_drive.uncertainty.pull_off"))});
         if (c.in_newtons())
-            table.row({named("largest attraction", "instrument.pull_off_force"),
+            table.row({form.named("largest attraction", "instrument.pull_off_force"),
                        number(of("instrument.approach_force"), 3),
                        number(of("instrument.pull_off_force"), 3)});
         else
-            table.row({named("largest attraction", "pull_off_force"),
+            table.row({form.named("largest attraction", "pull_off_force"),
                        number(of("approach_force"), 1), number(of("pull_off_force"), 1)});
         if (c.radius())
             row("  as a JKR sphere", "jkr.approach", of("jkr.approach"), of("jkr.pull_off"));
@@ -389,14 +430,14 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             "  {} of the pairs across the interface, less {} of elastic energy in "
             "the block.\n"
             "  {} % of the block's surface atoms are in contact.\n",
-            at, with_units(*state),
-            flat > 0.0 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
+            at, form.with_unit(*state),
+            flat > 0.0 && !form.is_whole() ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
                                      anywhere ? "one flat layer of the block's lattice"
                                               : "two flat surfaces")
                        : std::string(),
-            io::number(*of("pair_binding_energy"), 2), io::number(*of("relaxed.elastic_energy"), 2),
+            form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
             io::number(100.0 * *of("contact_fraction"), 1));
-    if (state && flat > 0.0 && *state < no_adhesion * flat)
+    if (state && flat > 0.0 && !form.is_whole() && *state < no_adhesion * flat)
         fmt::print(to,
                    "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n",
                    at, 100.0 * no_adhesion);

@@ -20,8 +20,8 @@ namespace {
 constexpr double smoothing = 1.9; ///< s over the spacing: erfc(s pi/a) is 1e-17
 
 constexpr double cut = 1.7; ///< c over the wave number 1/a: exp(-(pi/c)^6) is 1e-17
-constexpr double table_step = 0.125; ///< over the spacing
-constexpr double least_phase = 5e-4; ///< below it K is as at it; S of longer waves takes long
+constexpr double table_step = 0.125; ///< step of the table of far displacements, spacings
+constexpr double least_phase = 5e-4; ///< phase up to which K is taken as constant: S of longer waves takes long
 
 double phase_of(int n, int sites) { return 2.0 * std::numbers::pi * n / sites; }
 

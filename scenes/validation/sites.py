@@ -62,14 +62,16 @@ def maugis(a: float, tabor: float) -> tuple[float, float]:
 
 def check_maugis(out: pathlib.Path, given: argparse.Namespace) -> None:
     print("lambda  range/D0  box  sites  pull-off   Maugis   ratio   largest deviation of the force over the pull-off force")
-    for tabor, box, sites in ((0.1, 10.0, 192), (0.3, 7.5, 128), (1.0, 5.5, 96), (2.0, 4.5, 256), (5.0, 4.0, 1024)):
+    whole = ["approach", "pull-off"]
+    for tabor, box, sites, path in ((0.1, 10.0, 192, whole), (0.3, 7.5, 128, whole), (1.0, 5.5, 96, whole), (2.0, 4.5, 256, whole),
+                                    (5.0, 3.3, 768, ["height 0 Å", f"height {0.8 * D0} Å"])):
         if given.only and tabor != given.only:
             continue
         sites, reach = given.sites or sites, 2 / (math.pi * tabor)
         curve = np.array([maugis(a, tabor) for a in np.linspace(1e-4, 2.2, 4000)])
         shift, force, segment = follow(out, f"maugis-{tabor}-{sites}", 1.1 * reach * D0, {
             "surface.sites": sites, "surface.spacing": box * UNIT / sites, "interface.law": "dugdale", "interface.adhesion": 1e3 * W,
-            "interface.range": reach * D0, "drive.path": ["approach", "pull-off"], "drive.displacement_step": 0.02 * D0})
+            "interface.range": reach * D0, "drive.path": path, "drive.displacement_step": 0.02 * D0})
         out_of = segment == 1
         shift, force = shift[out_of], force[out_of]
         least = curve[:, 0].min()

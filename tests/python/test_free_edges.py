@@ -82,6 +82,18 @@ def test_a_tip_is_read_in_nanonewtons(place):
     assert at.name == "load 10 nN" and at.force == pytest.approx(10, rel=1e-3)
     assert at.pressure == pytest.approx(10e-9 / 24e-9**2 / 1e6, rel=1e-3)
     assert tip.instrument.pull_off_force == pytest.approx(tip.pull_off_force * 1.602176634, rel=1e-12)
+    # Energies are those of the whole contact, and heights in nm, on the terminal and in the report.
+    energies, heights = said[said.index("path  "):].split("How to read it")[0], [f"{0.1 * s.mean_height:.3f}" for s in tip.segments]
+    assert "meV" not in energies and "mean height, nm" in energies
+    assert all(text in energies for text in heights)
+    for s in tip.segments:
+        assert f"{s.work_of_drive * 1e-3 * tip.edge**2 * 0.1602176634:.4g}" in energies, energies
+    assert tip.instrument.energy_lost == pytest.approx(tip.dissipated.energy * 0.1602176634, rel=1e-9)
+    command("report", "tip")
+    page = (place / "tip" / "report.html").read_text()
+    table = page[page.index("Segments of the path"):].split("</table>")[0]
+    assert "mean height, nm" in table and "work of the drive, aJ" in table and "MPa" not in table and "meV" not in table
+    assert all(f"{s.force:.5g}" in table for s in tip.segments if s.force > 0)
     # The sphere is between DMT and JKR.
     pull = math.pi * 50 * 0.05
     assert 1.5 * pull < tip.instrument.pull_off_force < 2 * pull

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from ..errors import UnknownName
 from ..results.result import Result, State
 from ..theories import combined
-from ..units import GIGAPASCAL, MILLIJOULE, NANONEWTON
+from ..units import ATTOJOULE, GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (
     BLUE,
     CONTACT,
@@ -60,7 +60,7 @@ def force_unit(run: Result) -> tuple[float, str]:
     tuple[float, str]
         Divisor of forces in eV/Å, and the label of the axis: nN, or GPa, MPa, kPa.
     """
-    if run.curved or run.has_free_edges or not run.edge:
+    if run.in_newtons or not run.edge:
         return NANONEWTON, "force $F$ (nN)"
     area, force = run.edge**2 * GIGAPASCAL, run.series["force"] if "force" in run.series else np.zeros(0)
     largest = np.abs(force[np.isfinite(force)]).max(initial=0.0) / area
@@ -82,7 +82,7 @@ def length_unit(run: Result) -> tuple[float, str]:
     tuple[float, str]
         Divisor of lengths in Å, and the unit: nm of a sphere or a box with free edges, else Å.
     """
-    return (10.0, "nm") if run.curved or run.has_free_edges else (1.0, "Å")
+    return (10.0, "nm") if run.in_newtons else (1.0, "Å")
 
 
 def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
@@ -222,7 +222,7 @@ def friction(run: Result, ax: Axes) -> bool:
             sign = np.sign(place[-1] - place[0])
             curve(ax, np.abs(place - place[0]), -sign * force / unit, words, colour=OTHERS[number % len(OTHERS)])
             drawn = True
-    return drawn and finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.curved else
+    return drawn and finish(ax, "distance of the slide (Å)", "force against it (nN)" if run.in_newtons else
                             "shear stress against it " + label[label.rindex("("):], zero=True)
 
 
@@ -235,7 +235,7 @@ def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def energy(run: Result, ax: Axes) -> bool:
-    """Draws the energies along the path, per nominal area (meV/Å²) or, for a sphere, whole (eV).
+    """Draws the energies along the path, per nominal area (meV/Å²) or, of a sphere or with free edges, whole (aJ).
 
     Parameters
     ----------
@@ -253,7 +253,7 @@ def energy(run: Result, ax: Axes) -> bool:
     along = _columns(run, "time" if timed else "step")
     if not along or not run.edge:
         return False
-    unit = 1.0 if run.curved else 1e3 / run.edge**2
+    unit = 1 / ATTOJOULE if run.in_newtons else 1e3 / run.edge**2
     x, label = _time(along[0]) if timed else (along[0], "point of the path")
     for name, words, colour, line in (
             ("interface_energy", "interface", BLUE, "-"), ("elastic_energy", "elastic", RED, DASHES[1]),
@@ -263,9 +263,9 @@ def energy(run: Result, ax: Axes) -> bool:
             ("dissipated_in_block", "dissipated in the block", GREEN, DASHES[3])):
         if name in run.series:
             curve(ax, x, run.series[name] * unit, words, colour=colour, line=line)
-    if not run.curved:
+    if not run.in_newtons:
         millijoules(ax, MILLIJOULE, "mJ/m²")
-    return finish(ax, label, "energy (eV)" if run.curved else "energy per area (meV/Å²)", legend="above")
+    return finish(ax, label, "energy (aJ)" if run.in_newtons else "energy per area (meV/Å²)", legend="above")
 
 
 def balance(run: Result, ax: Axes) -> bool:
@@ -478,7 +478,8 @@ def height(run: Result, ax: Axes) -> bool:
     bool
         False if there is nothing to draw.
     """
-    return bool(run.substrate and run.edge) and image(ax, run.substrate.height, run.edge, label="height (Å)", cmap=GAP)
+    return bool(run.substrate and run.edge) and image(
+        ax, run.substrate.height / length_unit(run)[0], run.edge, label=f"height ({length_unit(run)[1]})", cmap=GAP)
 
 
 def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
@@ -502,14 +503,16 @@ def map_of(run: Result, state: State, name: str, ax: Axes) -> bool:
     """
     if name not in state or not run.edge:
         return False
-    look: dict[str, Any] = {"label": f"{name} (Å)", "cmap": GAP}
+    unit, length = length_unit(run)
+    look: dict[str, Any] = {"label": f"{name} ({length})", "cmap": GAP}
     if name == "contact":
-        look = {"label": name, "cmap": CONTACT, "words": ("apart", "in contact")}
+        unit, look = 1.0, {"label": name, "cmap": CONTACT, "words": ("apart", "in contact")}
     elif name == "pressure":
-        look = {"label": "pressure (GPa), positive is repulsive", "cmap": PRESSURE}
+        unit, look = 1.0, {"label": "pressure (GPa), positive is repulsive", "cmap": PRESSURE}
     elif name == "gap" and run.curved:  # around a sphere it grows without end; beyond the cutoff it does not matter
-        look["high"] = run.number("interface.cutoff")
-    return image(ax, state[name], run.edge, **look)
+        cutoff = run.number("interface.cutoff")
+        look["high"] = cutoff and cutoff / unit
+    return image(ax, state[name] / unit if unit != 1.0 else state[name], run.edge, **look)
 
 
 OF_RUN = {f.__name__: f for f in (separation, loading, contact, friction, energy, balance, spectrum, roughness,

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 
 from .. import terminal
 from ..plots import run as plots
@@ -19,7 +20,7 @@ from ..running import program, scene
 from ..studies.tables import AREA, BOTH
 from ..terminal import minus
 from ..theories import combined
-from ..units import shown
+from ..units import ATTOJOULE, NANONEWTON, shown
 from . import sentences
 from .page import Page, file_name, page_files
 
@@ -143,15 +144,29 @@ def _states(page: Page, run: Result) -> None:
         page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
 
 
-def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int) -> None:
-    """Adds numbers by the names of columns."""
+def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
+           units: Mapping[str, float] = MappingProxyType({})) -> None:
+    """Adds numbers by the names of columns, each over its unit."""
     def cell(line: Values, name: str, head: str) -> str:
         if name not in line:  # the friction of a segment that is no slide
             return "–"
-        text, value = line.text(name) or minus(sentences.general(line.find(name), digits)), line.number(name)
+        value = line.number(name)
+        if units and value is not None:
+            return minus(f"{value / units.get(name, 1.0):.{digits}g}")
+        text = line.text(name) or minus(sentences.general(line.find(name), digits))
         return f"{text} ({minus(terminal.millijoules(value))})" if head.endswith(BOTH) and value is not None else text
 
     page.table([*heads.values()], [[cell(line, *head) for head in heads.items()] for line in lines])
+
+
+def _segment_columns(run: Result) -> tuple[dict[str, str], dict[str, float]]:
+    """Returns the heads of the columns of segments and what divides their numbers."""
+    if not run.in_newtons:
+        return SEGMENT_COLUMNS, {}
+    heads = {name: head.replace(BOTH, ", aJ") for name, head in SEGMENT_COLUMNS.items()} | {
+        "pressure": "", "force": "ends at, nN", "mean_height": "mean height, nm", "friction": "friction, nN"}
+    works = {name: 1e3 * ATTOJOULE / run.edge**2 for name, head in SEGMENT_COLUMNS.items() if head.endswith(BOTH)}
+    return {name: head for name, head in heads.items() if head}, works | {"mean_height": 10.0, "friction": NANONEWTON}
 
 
 def _segments(page: Page, run: Result) -> None:
@@ -160,7 +175,8 @@ def _segments(page: Page, run: Result) -> None:
         return
     lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")
-    _table(page, {n: head for n, head in SEGMENT_COLUMNS.items() if any(n in line for line in lines)}, lines, 5)
+    heads, units = _segment_columns(run)
+    _table(page, {n: head for n, head in heads.items() if any(n in line for line in lines)}, lines, 5, units)
 
 
 def _numbers(page: Page, run: Result) -> None:
@@ -172,7 +188,7 @@ def _numbers(page: Page, run: Result) -> None:
         known = program.quantity(key)
         unit, meaning, flat = shown(run.unit(key) or known["unit"]), known["meaning"], sentences.reference(run, key)
         nominal = known["per"] == AREA and not key.startswith("theory.")
-        over = unit == "meV/Å²" and flat > 0 and not (run.curved and nominal)
+        over = unit == "meV/Å²" and flat > 0 and not (run.in_newtons and nominal)
         rows.append([f"{key}: {meaning}" if meaning else key, minus(f"{value:.6g}"), "" if unit == "1" else unit,
                      minus(terminal.millijoules(value)) if unit == "meV/Å²" else "",
                      minus(terminal.number(value / flat, 4)) if over else ""])

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..results.result import Result, Values, finite
 from ..terminal import duration, millijoules, minus, number
-from ..units import GIGAPASCAL, NANONEWTON
+from ..units import ATTOJOULE, GIGAPASCAL, NANONEWTON
 
 
 @dataclass
@@ -50,6 +50,24 @@ def energy(gamma: float, more: str = "") -> str:
         The text.
     """
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
+
+
+def whole(run: Result, gamma: float) -> str:
+    """Spells the energy of a whole contact: "1.29 aJ".
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+    gamma : float
+        Energy over the nominal area, meV/Å².
+
+    Returns
+    -------
+    str
+        The text.
+    """
+    return minus(f"{gamma * run.edge**2 / 1e3 / ATTOJOULE:.4g} aJ")
 
 
 def general(value: Any, digits: int = 4) -> str:
@@ -205,8 +223,8 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                            for k in ("delta_gamma", "theory.sphere.maugis_images"))
             smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
             add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force", smooth * (jkr > 0 and maugis > 0))
-        if (radius := run.number("contact_radius.relaxed")) is not None:
-            add(number(radius, 1), "Å", f"contact radius {at}", "√(area of the sites in contact / π)")
+        if (radius := run.number("instrument.contact_radius")) is not None:
+            add(f"{radius:.4g}", "nm", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
         gamma("binding_energy", f"binding energy {at}")
         contact, theory = run.number("contact_fraction"), run.number("theory.persson.contact_fraction")
@@ -229,9 +247,11 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
             ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block is viscoelastic (block.prony)")):
         if (value := run.number(key)) is not None:
-            add(f"{value * run.edge**2 / 1e3 if run.curved else value:.4g}", "eV" if run.curved else "meV/Å²", name,
-                note if run.curved else f"{millijoules(value)} mJ/m²; {note}")
-    if not run.curved:
+            if run.in_newtons:
+                add(*whole(run, value).split(), name, note)
+            else:
+                add(f"{value:.4g}", "meV/Å²", name, f"{millijoules(value)} mJ/m²; {note}")
+    if not run.in_newtons:
         gamma("work_of_interface.approach", "work of the interface, approach")
         gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
         gamma("-work_of_drive.approach", "work that the drive takes up, approach")
@@ -254,8 +274,8 @@ def _state_sentence(run: Result, state: float, flat: float) -> str:
     known, sites = run.number("binding_energy_uncertainty", 0.0), run.number("scene.surface.sites", 0.0) ** 2
     if abs(state) <= known:
         text = f"{at} the solids do not stick: the binding energy is below {energy(abs(state) + known)}."
-    elif run.curved:
-        text = f"{at} the sphere is bound by {state * run.edge**2 / 1e3:.4g} eV."
+    elif run.in_newtons:
+        text = f"{at} the {'sphere is' if run.curved else 'solids are'} bound by {whole(run, state)}."
     else:
         unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
         text = (f"{at} the solids are bound by {energy(state)}. That is {percent(state / flat)} of the binding energy "
@@ -287,11 +307,11 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
     lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
     if lost is None:
         lost = into + out
-    if run.curved:
-        loop, *ways = ("" if p is None else minus(f"{p * run.edge**2 / 1e3:.4g}") for p in (lost, *parts))
-        return f"A cycle of approach and pull-off loses {loop} eV" + (
+    if run.in_newtons:
+        loop, *ways = ("" if p is None else whole(run, p) for p in (lost, *parts))
+        return f"A cycle of approach and pull-off loses {loop}" + (
             f": {ways[0]} on the way in, where the contact spreads by itself, and {ways[1]} on the way out, where it "
-            "detaches." if all(ways) else ".") + _relaxing_sentence(run, lambda e: minus(f"{e * run.edge**2 / 1e3:.4g}") + " eV")
+            "detaches." if all(ways) else ".") + _relaxing_sentence(run, lambda e: whole(run, e))
     text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
     if relaxing := _relaxing_sentence(run, energy):
         text += f" Of these works {energy(lost)} are lost at instabilities." + relaxing

@@ -115,6 +115,8 @@ class Instrument(Values):
     """nm: contact_radius.relaxed"""
     spring: float
     """N/m: drive.stiffness"""
+    energy_lost: float
+    """aJ: dissipated.energy"""
     edge_distance: float
     """nm: least distance of a contact of the path from a free edge of the box"""
 

@@ -501,6 +501,11 @@ class Result(Values, Numbers):
         return self.text("scene.surface.boundary") == "free"
 
     @property
+    def in_newtons(self) -> bool:
+        """True if forces are read in nN, lengths in nm and energies whole in aJ: of a sphere or with free edges."""
+        return self.curved or self.has_free_edges
+
+    @property
     def curved(self) -> bool:
         """True for a sphere."""
         return self.radius is not None
