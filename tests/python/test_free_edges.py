@@ -91,7 +91,7 @@ def test_a_tip_is_read_in_nanonewtons(place):
     assert tip.instrument.energy_lost == pytest.approx(tip.dissipated.energy * 0.1602176634, rel=1e-9)
     command("report", "tip")
     page = (place / "tip" / "report.html").read_text()
-    table = page[page.index("Segments of the path"):].split("</table>")[0]
+    table = page[page.rindex("Segments of the path"):].split("</table>")[0]
     assert "mean height, nm" in table and "work of the drive, aJ" in table and "MPa" not in table and "meV" not in table
     assert all(f"{s.force:.5g}" in table for s in tip.segments if s.force > 0)
     # The sphere is between DMT and JKR.

@@ -163,10 +163,11 @@ def _segment_columns(run: Result) -> tuple[dict[str, str], dict[str, float]]:
     """Returns the heads of the columns of segments and what divides their numbers."""
     if not run.in_newtons:
         return SEGMENT_COLUMNS, {}
-    heads = {name: head.replace(BOTH, ", aJ") for name, head in SEGMENT_COLUMNS.items()} | {
-        "pressure": "", "force": "ends at, nN", "mean_height": "mean height, nm", "friction": "friction, nN"}
-    works = {name: 1e3 * ATTOJOULE / run.edge**2 for name, head in SEGMENT_COLUMNS.items() if head.endswith(BOTH)}
-    return {name: head for name, head in heads.items() if head}, works | {"mean_height": 10.0, "friction": NANONEWTON}
+    others = {"pressure": ("force", "ends at, nN", 1.0), "mean_height": ("mean_height", "mean height, nm", 10.0),
+              "friction": ("friction", "friction, nN", NANONEWTON)}
+    columns = [others.get(name, (name, head.replace(BOTH, ", aJ"), 1e3 * ATTOJOULE / run.edge**2 if head.endswith(BOTH) else 1.0))
+               for name, head in SEGMENT_COLUMNS.items()]
+    return {name: head for name, head, _ in columns}, {name: unit for name, _, unit in columns}
 
 
 def _segments(page: Page, run: Result) -> None:
