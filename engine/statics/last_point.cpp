@@ -108,7 +108,9 @@ std::function<double(int, int)> LastPoint::moves() const {
     const auto layer = block_.lowest_layer();
     const VectorPlane<const double> old = {state_[0].plane(0), state_[1].plane(0),
                                            state_[2].plane(0)};
+    const int across = interface_.sites_across(), first = interface_.tile().y0;
     return [=](int x, int y) {
+        if (x >= across || first + y >= across) return 0.0; // beside a box with free edges
         return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
                           layer.z(x, y) - old.z(x, y));
     };

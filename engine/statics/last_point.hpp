@@ -74,7 +74,8 @@ public:
 
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
-    /// Returns the distance that a site of the lowest layer has moved since the last point, Å.
+    /// Returns the distance that a site of the lowest layer has moved since the last point, Å;
+    /// zero beside a box with free edges.
     std::function<double(int, int)> moves() const;
     /// Returns the site that has moved most. Collective.
     LargestSite largest_move() const {

@@ -107,6 +107,15 @@ def test_a_tip_is_read_in_nanonewtons(place):
     assert there.contact.mean() == pytest.approx(at.contact_fraction)
 
 
+def test_jumps_are_of_sites_of_the_box(place):
+    run("soft", "drive.stiffness=5 N/m", "drive.path=height 0 nm", "surface.sites=20")
+    jumps = asperity.load("soft").dissipated.jumps
+    assert jumps
+    for jump in jumps:
+        assert all(abs(place - 9.5) < 8 for place in jump.site), jump.site
+        assert 0 < jump.sites_moved <= 20**2
+
+
 def test_a_contact_at_a_free_edge_is_said(place):
     said = run("wide", "drive.path=height -3.2 nm")
     wide = asperity.load("wide")
