@@ -53,6 +53,7 @@ io::Json check_json(const Case& c, const Communicator& world) {
         all["sweep"].push_back(
             {{"key", variation.key}, {"values", variation.values}, {"where", variation.where}});
     }
+    all["effects"] = effects_json(c.effects);
     all["theory_needs_surface"] = theory_needs_surface(c);
     all["notes"] = io::Json::array();
     all["problems"] = io::Json::array();
@@ -135,7 +136,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
     if (given.json) {
         const io::Json all = check_json(c, world);
         if (world.root()) fmt::print("{}\n", io::json_text(all));
-        return io::exit_code::done;
+        return all["problems"].empty() ? io::exit_code::done : io::exit_code::scene;
     }
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root() || given.quiet) return io::exit_code::done;

@@ -228,10 +228,15 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
                        "loses\n");
 }
 
+nlohmann::ordered_json effects_json(const Effects& effects) {
+    io::Json all = io::Json::object();
+    for (const auto& [name, effect] : effects.list())
+        all[name] = {{"on", static_cast<bool>(effect)}, {"because", effect.why}};
+    return all;
+}
+
 nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
-    io::Json effects = io::Json::object(), bytes, seconds;
-    for (const auto& [name, effect] : c.effects.list())
-        effects[name] = {{"on", static_cast<bool>(effect)}, {"because", effect.why}};
+    io::Json bytes, seconds;
     constexpr std::array names = {"surface", "interface", "block", "kept", "rest", "maps"};
     static_assert(names.size() == Piece::parts);
     for (std::size_t part = 0; part < Piece::parts; ++part)
@@ -243,7 +248,7 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
     seconds["rest"] = plan.rest;
     seconds["altogether"] = seconds_altogether(plan);
     seconds["factor"] = plan.factor;
-    return {{"name", c.scene.name}, {"effects", effects},  {"ranks", c.ranks},
+    return {{"name", c.scene.name}, {"effects", effects_json(c.effects)},  {"ranks", c.ranks},
             {"threads", threads},   {"steps", plan.steps}, {"bytes", bytes},
             {"seconds", seconds},   {"ended", plan.ended}};
 }

@@ -35,6 +35,8 @@ struct Plan {
 /// reading files.
 Plan make_plan(const Case& c, int threads);
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
+/// Returns the effects for programs: {name: {"on", "because"}}.
+nlohmann::ordered_json effects_json(const Effects& effects);
 /// Returns the plan for programs: {"name", "effects": {name: {"on", "because"}}, "ranks",
 /// "threads", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
 /// "altogether", "available"}, "seconds": {"surface", "steps", "rest", "altogether", "factor"},

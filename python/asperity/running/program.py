@@ -125,7 +125,7 @@ def refuse_ranks() -> None:
                          '"mpirun -n 2"; for points on the ranks: --executor mpi')
 
 
-def call(arguments: Iterable[str], *, text: str | None = None, given: socket.socket | None = None) -> str:
+def call(arguments: Iterable[str], *, text: str | None = None, given: socket.socket | None = None, refusal: bool = False) -> str:
     """Runs the program to its end.
 
     Parameters
@@ -136,6 +136,8 @@ def call(arguments: Iterable[str], *, text: str | None = None, given: socket.soc
         Its standard input.
     given : socket.socket, optional
         Socket as its standard input.
+    refusal : bool
+        True: what it prints of a scene that it refuses (exit code 2) is an answer.
 
     Returns
     -------
@@ -156,7 +158,8 @@ def call(arguments: Iterable[str], *, text: str | None = None, given: socket.soc
     except OSError as error:
         raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
                                "check that it is installed") from None
-    raise_for(done.returncode, done.stderr)
+    if not (refusal and done.returncode == SceneError.code and done.stdout):
+        raise_for(done.returncode, done.stderr)
     return done.stdout
 
 
@@ -212,7 +215,7 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     Returns
     -------
     dict[str, Any]
-        The scene as it would be used: name, scene, sweep, notes, problems, longest_timestep (fs), edge_pinning (the factor by
+        The scene as it would be used: name, scene, sweep, effects, notes, problems, longest_timestep (fs), edge_pinning (the factor by
         which a coarse spacing increases the pull-off force of a sphere).
 
     Raises
@@ -220,7 +223,7 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     Error
         The file cannot be read.
     """
-    return json.loads(call(["check", scene, *sets(overrides), "--json"]))
+    return json.loads(call(["check", scene, *sets(overrides), "--json"], refusal=True))
 
 
 def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
