@@ -173,10 +173,12 @@ inline constexpr Quantity result_quantities[] = {
      "longer drifts; what follows are means after the running-in"},
     {"segments[].running_in", "Å", "",
      "distance left out at the beginning, with which the variance of the mean friction is least"},
-    {"segments[].steady_friction", "eV/Å", per::block, "force against the slide"},
+    {"segments[].steady_friction", "eV/Å", per::block,
+     "force against the slide; of a steady slide of a viscoelastic block what is dissipated over "
+     "the distance, which is more accurate"},
     {"segments[].steady_friction_error", "eV/Å", per::block,
-     "its standard error, by blocking, as of the following ones; if that is larger, by how much it "
-     "differs from what is dissipated over the distance of a steady slide"},
+     "its standard error, by blocking, as of the following ones; if that is larger, by how much "
+     "what is dissipated differs from the work over the distance of a steady slide"},
     {"segments[].friction_stress", "MPa", "", "steady_friction over the area of the box"},
     {"segments[].friction_coefficient", "1", "",
      "steady_friction over the normal force; left out if that pulls"},

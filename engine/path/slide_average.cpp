@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 
 namespace asperity {
@@ -118,11 +119,12 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
         }
         return list;
     };
-    const std::vector<double> friction = rate(&SlidePoint::work);
+    const std::vector<double> work = rate(&SlidePoint::work), relaxed = rate(&SlidePoint::relaxed),
+                              lost = rate(&SlidePoint::lost);
     std::size_t first = 0;
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i <= bins / 2; ++i)
-        if (const double variance = variance_of_mean(friction, i); variance < smallest) {
+        if (const double variance = variance_of_mean(work, i); variance < smallest) {
             smallest = variance;
             first = i;
         }
@@ -131,18 +133,23 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     };
     SteadySlide s;
     s.running_in = from + static_cast<double>(first) * width;
-    s.friction = mean_from(friction, first);
-    s.friction_error = error_of_mean(rest(friction));
     const std::vector<double> contact = value(&SlidePoint::in_contact);
     s.in_contact = mean_from(contact, first);
     s.in_contact_error = error_of_mean(rest(contact));
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
-    s.relaxed = mean_from(rate(&SlidePoint::relaxed), first);
-    s.lost = mean_from(rate(&SlidePoint::lost), first);
+    s.relaxed = mean_from(relaxed, first);
+    s.lost = mean_from(lost, first);
     s.steady = is_steady(lengths);
+    std::vector<double> friction = work;
+    if (s.steady && s.relaxed > 0.0)
+        std::transform(relaxed.begin(), relaxed.end(), lost.begin(), friction.begin(),
+                       std::plus());
+    s.friction = mean_from(friction, first);
+    s.friction_error = error_of_mean(rest(friction));
     if (s.steady)
-        s.friction_error = std::max(s.friction_error, std::abs(s.friction - s.relaxed - s.lost));
+        s.friction_error = std::max(
+            s.friction_error, std::abs(mean_from(work, first) - s.relaxed - s.lost));
     return s;
 }
 

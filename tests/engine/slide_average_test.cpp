@@ -65,6 +65,16 @@ TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
     EXPECT_NEAR(means->friction_error, 0.2, 1e-9);
 }
 
+TEST(SlideAverage, FrictionOfAViscoelasticBlockIsWhatItDissipates) {
+    SlideAverage dissipates, elastic;
+    for (double at = 0.0; at <= 200.0; at += 0.5) {
+        dissipates.add({.distance = at, .work = 3.0 * at, .relaxed = 2.5 * at, .lost = 0.3 * at});
+        elastic.add({.distance = at, .work = 3.0 * at, .relaxed = 0.0, .lost = 2.8 * at});
+    }
+    EXPECT_NEAR(dissipates.means(lengths)->friction, 2.8, 1e-9);
+    EXPECT_NEAR(elastic.means(lengths)->friction, 3.0, 1e-9);
+}
+
 TEST(SlideAverage, ErrorsKnowHowFarForcesHangTogether) {
     // Noise that keeps its value over stretches of eight: independent ones are fewer than bins.
     std::mt19937 random(11);

@@ -139,7 +139,7 @@ def steady_slide(place, name, **keys):
 
 def test_friction_in_full_contact_is_that_of_the_loss_modulus_of_each_wave(tmp_path):
     velocity = 1e-4  # nanometres in a nanosecond: far below all waves' loss
-    slide, text = steady_slide(tmp_path, "full", drive__velocity=velocity, interface__adhesion=0)
+    slide, text = steady_slide(tmp_path, "full", drive__velocity=velocity, interface__adhesion=0, surface__q_max=4)
     assert slide["steady_contact_fraction"] == 1.0
     with h5py.File(tmp_path / "full/run.h5") as file:
         height = file["substrate/height"][:] / 10
@@ -148,7 +148,7 @@ def test_friction_in_full_contact_is_that_of_the_loss_modulus_of_each_wave(tmp_p
     qx, size = q[None, :], np.hypot(q[:, None], q[None, :])
     loss = sum(r * qx * velocity * t / (1 + (qx * velocity * t) ** 2) for r, t in ((3, 1), (3, 20), (3, 400)))
     stress = 0.5 * modulus * np.sum(size * qx * loss * np.abs(np.fft.fft2(height) / n**2) ** 2)
-    assert slide["friction_stress"] == pytest.approx(stress, rel=0.1)
+    assert slide["friction_stress"] == pytest.approx(stress, rel=0.02)  # waves of twelve sites and more, of the lattice's stiffness
     # A table of a page's width, and numbers that end where their errors do.
     table = [line for line in text.splitlines() if "meV/Å² (mJ/m²)" in line or line.strip().startswith("segment")]
     assert table and max(map(len, table)) <= 100
@@ -169,3 +169,17 @@ def test_friction_of_a_rough_wall_has_one_maximum(tmp_path):
             spent = s["stored"] + s["dissipated_in_block"] + s["lost"]
             assert s["work_of_drive"] == pytest.approx(spent, abs=1e-2 * s["work_of_drive"] + 2e-3)
             assert s["work_of_settling"] != 0.0
+
+
+@pytest.mark.parametrize("steps", [1, 2, 3, 5, 40])
+def test_a_steady_start_goes_on_with_the_same_bits(tmp_path, steps):
+    velocity = {"drive__velocity": 0.02}
+    whole, _ = steady_slide(tmp_path, "whole", **velocity)
+    sets = ["--set", f"drive.velocity={velocity['drive__velocity']}"]
+    run = [program.path(), "run", "rough.toml", "--out", "parts", *sets]
+    subprocess.run([*run, "--set", f"drive.max_steps={steps}"], cwd=tmp_path, capture_output=True, check=False)
+    assert json.loads((tmp_path / "parts/result.json").read_text())["run"]["stopped"] == "max_steps"
+    done = subprocess.run([*run, "--resume", "auto"], cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    resumed = json.loads((tmp_path / "parts/result.json").read_text())["segments"][-1]
+    assert resumed == whole and resumed["work_of_settling"] != 0.0
