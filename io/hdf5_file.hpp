@@ -71,11 +71,14 @@ public:
     std::optional<double> number_attribute(const std::string& object,
                                            const std::string& name) const;
 
-    /// Creates a data set of this shape and writes it; it must not exist yet. In this and the
-    /// following functions T is double, float, std::int64_t, std::int32_t or std::uint8_t.
+    /// Creates a data set of this shape and writes it; it must not exist yet. A compressed one is
+    /// stored without loss by the filters shuffle and deflate, in blocks of rows, if the library
+    /// has them. In this and the following functions T is double, float, std::int64_t,
+    /// std::int32_t or std::uint8_t.
     template <class T>
-    void write(const std::string& dataset, const Shape& shape, std::span<const T> data) {
-        make_dataset<T>(dataset, shape);
+    void write(const std::string& dataset, const Shape& shape, std::span<const T> data,
+               bool compressed = false) {
+        create(dataset, type(T()), shape, compressed);
         write_slab(dataset, Shape(shape.size(), 0), shape, data);
     }
     /// Creates a data set to be filled by write_slab or, if it has no rows yet ({0, ...}), by
@@ -124,7 +127,8 @@ private:
     static std::uint64_t volume(const Shape& shape);
 
     /// Creates a data set and the groups above it.
-    void create(const std::string& dataset, std::int64_t type, const Shape& shape);
+    void create(const std::string& dataset, std::int64_t type, const Shape& shape,
+                bool compressed = false);
     /// Transfers a block from or to memory, which holds so many values.
     void transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
                   const Shape& count, std::size_t values, void* read_into,

@@ -2,6 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "io/quantities.hpp"
 
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 
 namespace asperity::io {
@@ -21,15 +26,57 @@ bool matches(std::string_view name, std::string_view path) {
     return between.find_first_of("/@") == std::string_view::npos;
 }
 
-std::string rows(std::span<const Quantity> quantities) {
-    std::string text;
-    for (const Quantity& q : quantities)
-        text += fmt::format("| `{}` | {} | {} | {} |\n", q.name, q.unit, q.per, q.meaning);
-    return text;
+/// A part of the page of results: the quantities whose names begin with one of these words.
+struct Topic {
+    std::string_view title;
+    std::vector<std::string_view> words;
+};
+
+const std::vector<Topic>& result_topics() {
+    static const std::vector<Topic> topics = {
+        {"Works, energies and areas",
+         {"delta_gamma", "binding_energy", "binding_energy_uncertainty", "pair_binding_energy",
+          "work_of_interface", "work_of_drive", "lost", "kinetic", "dissipated_in_block", "stored",
+          "contact_fraction", "repulsive_fraction", "relaxed"}},
+        {"Forces, spheres and instruments",
+         {"approach_force", "pull_off_force", "jkr", "contact_radius", "instrument"}},
+        {"Segments, slides and friction", {"segments"}},
+        {"Instabilities", {"dissipated"}},
+        {"Theories", {"theory"}},
+        {"Energy balance", {"energy"}},
+        {"Surface, block and interface", {"surface", "block", "interface"}},
+        {"Name, run and failure", {"name", "run", "failure", "digest"}}};
+    return topics;
 }
 
-std::string table(std::span<const Quantity> quantities) {
-    return "| name | unit | per, or of | meaning |\n|---|---|---|---|\n" + rows(quantities);
+const std::vector<Topic>& run_topics() {
+    static const std::vector<Topic> topics = {{"Series along the path", {"series"}},
+                                              {"Maps of states", {"fields"}},
+                                              {"Substrate", {"substrate"}},
+                                              {"Profile of a theory, in theory.h5", {"profile"}}};
+    return topics;
+}
+
+std::string_view first_word(std::string_view name) {
+    return name.substr(0, name.find_first_of("./@[*"));
+}
+
+/// Returns a table for each topic. Throws std::logic_error if a quantity belongs to none.
+std::string tables(std::span<const Quantity> quantities, const std::vector<Topic>& topics) {
+    std::string text;
+    std::size_t written = 0;
+    for (const Topic& topic : topics) {
+        text += fmt::format(
+            "\n### {}\n\n| name | unit | per, or of | meaning |\n|---|---|---|---|\n", topic.title);
+        for (const Quantity& q : quantities) {
+            if (std::ranges::find(topic.words, first_word(q.name)) == topic.words.end()) continue;
+            text += fmt::format("| `{}` | {} | {} | {} |\n", q.name, q.unit, q.per, q.meaning);
+            ++written;
+        }
+    }
+    if (written != quantities.size())
+        throw std::logic_error("a quantity is in no topic of the page of results, or in two");
+    return text;
 }
 
 } // namespace
@@ -42,6 +89,8 @@ const Quantity* run_quantity(std::string_view path) {
 }
 
 std::string result_markdown(std::span<const Quantity> series) {
+    std::vector<Quantity> run(series.begin(), series.end());
+    run.insert(run.end(), std::begin(run_quantities), std::end(run_quantities));
     return "# Results\n\n"
            "Written by `asperity defaults --results`; do not edit. A run writes two files to its "
            "directory:\n`result.json`, its numbers, and `run.h5` (HDF5), the series along its "
@@ -51,13 +100,13 @@ std::string result_markdown(std::span<const Quantity> series) {
            "each\nelement of a list. `scene` holds the scene with its defaults filled in "
            "([scene.md](scene.md)).\n`units` holds the unit of every value at the same place as "
            "the value, for a list once for all its\nelements; `1` marks a pure number, an empty "
-           "text what is no number.\n\n" +
-           table(result_quantities) +
+           "text what is no number.\n" +
+           tables(result_quantities, result_topics()) +
            "\n## run.h5\n\n"
            "Each data set has its `unit` and a `description` as attributes. `/` has the scene as "
            "TOML (`scene`),\nand `version` and `git` of the program that wrote it. A trajectory "
-           "is in `/particles`, as H5MD wants it.\n`@` leads to an attribute.\n\n" +
-           table(series) + rows(run_quantities);
+           "is in `/particles`, as H5MD wants it.\n`@` leads to an attribute.\n" +
+           tables(run, run_topics());
 }
 
 } // namespace asperity::io

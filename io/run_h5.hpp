@@ -29,11 +29,11 @@ void describe(Hdf5File& file, const std::string& dataset);
 /// Gives a data set the unit and description of a quantity of another table.
 void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
-/// Writes a new data set with its unit and description.
+/// Writes a new data set with its unit and description; a map is compressed.
 template <class T>
 void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
                      const std::vector<T>& data) {
-    file.write<T>(dataset, shape, data);
+    file.write<T>(dataset, shape, data, shape.size() > 1);
     describe(file, dataset);
 }
 

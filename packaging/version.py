@@ -11,7 +11,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[1]
 HOME = ("CMakeLists.txt", r"(?m)(^project\(asperity VERSION )([\d.]+)")
 COPIES = (("CITATION.cff", r"(?m)(^version: )([\d.]+)"), ("packaging/conda/recipe.yaml", r'(?m)(^  version: ")([\d.]+)'),
-          ("packaging/spack/package.py", r'(?m)(^    version\(")([\d.]+)'), ("packaging/asperity.def", r"(asperity_)([\d.]+)(?=_)"))
+          ("packaging/spack/package.py", r'(?m)(^    version\(")([\d.]+)'),
+          ("packaging/spack/package.py", r"(dev-build asperity@)([\d.]+)"), ("packaging/asperity.def", r"(asperity_)([\d.]+)(?=_)"))
 
 
 def main(words):

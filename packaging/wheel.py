@@ -49,7 +49,7 @@ def hdf5(work):
     off = ("BUILD_SHARED_LIBS", "BUILD_TESTING", "HDF5_BUILD_TOOLS", "HDF5_BUILD_EXAMPLES", "HDF5_BUILD_HL_LIB", "HDF5_BUILD_CPP_LIB")
     run("cmake", "-G", "Ninja", "-S", source, "-B", work / "hdf5-build", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DHDF5_ENABLE_Z_LIB_SUPPORT=ON", "-DCMAKE_C_FLAGS=-w", *(f"-D{name}=OFF" for name in off),
-        stdout=subprocess.DEVNULL)
+        stdout=subprocess.DEVNULL, cwd=work)  # a probe of HDF5 leaves a file where CMake is started
     run("cmake", "--build", work / "hdf5-build", "--target", "install", stdout=subprocess.DEVNULL)
     (prefix / "COPYING").write_text((source / "COPYING").read_text())
     return prefix

@@ -124,6 +124,19 @@ def terminal(table):
     return "\n".join([title, "  " + note, "", line(header), rule, *map(line, rows), ""])
 
 
+# Columns that a page leaves to the file, in this order, until eight are left.
+LEFT_TO_THE_FILE = ("M nodes/s", "GFLOP/s", "steps/s", "here: communication", "sums", "observe", "interpolate", "exchange and sums")
+
+
+def columns_shown(header):
+    """Returns the numbers, from 1, of the columns that a page shows."""
+    shown = list(header)
+    for name in LEFT_TO_THE_FILE:
+        if len(shown) > 8 and name in shown:
+            shown.remove(name)
+    return [number for number, name in enumerate(header, 1) if name in shown]
+
+
 def published(some, folder):
     """Tables as files, data/performance/TITLE.csv, and as parts of the page."""
     parts = []
@@ -132,7 +145,9 @@ def published(some, folder):
         with open(folder / "data/performance" / f"{name}.csv", "w", newline="") as file:
             csv.writer(file, lineterminator="\n").writerows([header, *rows])
         link = f"../data/performance/{name}.csv"
-        parts.append(f"### {title}\n\n{note} ([CSV]({link}))\n\n{block(link, folder / 'reports/performance.md')}\n")
+        shown = columns_shown(header)
+        some_columns = "" if len(shown) == len(header) else " columns=" + ",".join(map(str, shown))
+        parts.append(f"### {title}\n\n{note} ([CSV]({link}))\n\n{block(link + some_columns, folder / 'reports/performance.md')}\n")
     return "\n".join(parts)
 
 

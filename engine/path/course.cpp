@@ -82,9 +82,10 @@ void Course::begin(std::size_t segment, const StepRecord& now, double seconds) {
     if (case_.path()[segment].kind == Segment::approach) descent_.clear();
 }
 
-/// Returns the place along approach and pull-off, Å: what the drive moves.
+/// Returns the place along approach and pull-off, Å: what the drive moves, and of a spring its far
+/// end, as the top plane hardly moves while a soft spring is stretched.
 double Course::place(const StepRecord& now) const {
-    return case_.simulation.drive.control == Control::mean_height ? now.mean_height : now.top;
+    return case_.simulation.drive.control == Control::mean_height ? now.mean_height : now.drive;
 }
 
 /// Returns the share of an approach's time at which the last one came to this place, 0 to 1.

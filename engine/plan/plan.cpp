@@ -85,6 +85,13 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     return bytes * here + tables * piece.table * (whole - here);
 }
 
+/// Returns the bytes of the maps of a state for a site: seven numbers and a mark, and the work of
+/// adhesion if it is a field.
+double bytes_of_maps(const InterfaceOptions& interface) { return interface.adhesion ? 65.0 : 57.0; }
+
+/// Returns the largest memory of a rank, bytes.
+double bytes_of_largest_rank(const Plan& plan) { return std::ranges::max(plan.bytes_of_rank); }
+
 /// Returns the largest memory of all ranks together, bytes.
 double bytes_at_once(const Plan& plan) {
     return std::accumulate(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end(), 0.0);
@@ -136,6 +143,9 @@ Plan make_plan(const Case& c, int threads) {
         plan.bytes_of_rank.push_back(std::accumulate(bytes.begin(), bytes.end(), 0.0) -
                                      std::min(bytes[Piece::rest], bytes[Piece::maps]));
     }
+    const double here = std::pow(c.simulation.block.sites, 2);
+    plan.state_bytes = bytes_of_maps(c.simulation.interface) * here;
+    if (c.output.trajectory) plan.frame_bytes = (c.output.velocities ? 24.0 : 12.0) * here;
     if (!timed) return plan;
     const Piece& piece = pieces.back();
 
@@ -208,7 +218,16 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     fmt::print(to, "\n");
     if (c.effects.relaxation) print_scales(to, c, plan.start);
     const io::AvailableMemory there = io::available_memory();
+    if (c.ranks > 1) {
+        const Tile tile = c.grid(0).tile(0);
+        fmt::print(to, "ranks       {} and {} x {} sites each, at most\n",
+                   memory_text(bytes_of_largest_rank(plan)), tile.nx, tile.ny);
+    }
     fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
+    fmt::print(to, "run.h5      {} for the maps of a state, which are compressed to about half{}\n",
+               memory_text(plan.state_bytes),
+               plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes))
+                                      : "");
     if (bytes > there.bytes)
         fmt::print(to, "            The run does not fit into this machine: `asperity run` will "
                        "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
@@ -242,15 +261,25 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
     for (std::size_t part = 0; part < Piece::parts; ++part)
         bytes[names[part]] = plan.bytes[part];
     bytes["altogether"] = bytes_at_once(plan);
+    bytes["rank"] = bytes_of_largest_rank(plan);
     bytes["available"] = io::available_memory().bytes;
+    bytes["state"] = plan.state_bytes;
+    bytes["frame"] = plan.frame_bytes;
+    const Tile tile = c.grid(0).tile(0);
     seconds["surface"] = plan.making;
     seconds["steps"] = plan.moving;
     seconds["rest"] = plan.rest;
     seconds["altogether"] = seconds_altogether(plan);
     seconds["factor"] = plan.factor;
-    return {{"name", c.scene.name}, {"effects", effects_json(c.effects)},  {"ranks", c.ranks},
-            {"threads", threads},   {"steps", plan.steps}, {"bytes", bytes},
-            {"seconds", seconds},   {"ended", plan.ended}};
+    return {{"name", c.scene.name},
+            {"effects", effects_json(c.effects)},
+            {"ranks", c.ranks},
+            {"threads", threads},
+            {"sites_of_rank", {tile.nx, tile.ny}},
+            {"steps", plan.steps},
+            {"bytes", bytes},
+            {"seconds", seconds},
+            {"ended", plan.ended}};
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {

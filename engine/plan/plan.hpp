@@ -21,6 +21,8 @@ namespace asperity {
 struct Plan {
     std::array<double, Piece::parts> bytes{}; ///< memory of each part, all ranks together
     std::vector<double> bytes_of_rank;        ///< largest memory that each rank holds at once
+    double state_bytes = 0.0; ///< maps of a state in run.h5 before they are compressed
+    double frame_bytes = 0.0; ///< frame of the trajectory in run.h5; 0: none is written
     // Seconds of idle processors, without messages between machines:
     double making = 0.0; ///< surface, tables and block
     double moving = 0.0; ///< time steps
@@ -38,10 +40,11 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
 /// Returns the effects for programs: {name: {"on", "because"}}.
 nlohmann::ordered_json effects_json(const Effects& effects);
 /// Returns the plan for programs: {"name", "effects": {name: {"on", "because"}}, "ranks",
-/// "threads", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
-/// "altogether", "available"}, "seconds": {"surface", "steps", "rest", "altogether", "factor"},
-/// "ended"}, named as the members of Plan; altogether: largest bytes at once, and seconds of the
-/// whole run.
+/// "threads", "sites_of_rank", "steps", "bytes": {"surface", "interface", "block", "kept", "rest",
+/// "maps", "altogether", "rank", "available", "state", "frame"}, "seconds": {"surface", "steps",
+/// "rest", "altogether", "factor"}, "ended"}, named as the members of Plan; altogether: largest
+/// bytes at once, and seconds of the whole run; rank: largest bytes of a rank; state, frame: in
+/// run.h5, before compression.
 nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not

@@ -3,7 +3,7 @@
 #
 #     mkdir -p REPO/packages/asperity && cp packaging/spack/package.py REPO/packages/asperity/
 #     spack repo add REPO
-#     spack dev-build asperity@0.1.0          # in the source tree
+#     spack dev-build asperity@0.2.0          # in the source tree
 #
 # REPO is a repository of packages of yours (`spack repo create`).
 from spack.package import *
@@ -26,7 +26,7 @@ class Asperity(CMakePackage):
     depends_on("cmake@3.25:", type="build")
     depends_on("ninja", type="build")
     depends_on("pkgconfig", type="build")
-    depends_on("python@3.9:", type=("build", "run"))
+    depends_on("python@3.11:", type=("build", "run"))
 
     depends_on("mpi@3:")
     depends_on("hdf5@1.10:")

@@ -11,6 +11,7 @@
 #include "support/run_scene.hpp"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <omp.h>
 
 #include <cmath>
@@ -56,6 +57,19 @@ TEST(Plan, RanksShareTheBlockAndHaveTheSurfaceEach) {
         EXPECT_GT(shared.bytes[part], alone.bytes[part]) << "halos; tables that each rank has";
         EXPECT_LT(shared.bytes[part], 1.6 * alone.bytes[part]);
     }
+}
+
+TEST(Plan, ARankAndTheFilesAreThere) {
+    const Case c = case_with({"surface.sites=96", "output.trajectory=10"}, 4);
+    const Plan plan = make_plan(c, 1);
+    const auto json = plan_json(c, 1, plan);
+    EXPECT_EQ(json["sites_of_rank"], (nlohmann::ordered_json{48, 48}));
+    const double rank = json["bytes"]["rank"], all = json["bytes"]["altogether"];
+    EXPECT_GT(rank, 0.25 * all);
+    EXPECT_LT(rank, 0.5 * all);
+    EXPECT_EQ(json["bytes"]["state"], 57.0 * 96 * 96);
+    EXPECT_EQ(json["bytes"]["frame"], 12.0 * 96 * 96);
+    EXPECT_EQ(make_plan(case_with({"surface.sites=96"}), 0).frame_bytes, 0.0);
 }
 
 TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {

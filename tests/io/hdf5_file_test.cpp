@@ -78,6 +78,27 @@ TEST(Hdf5File, PlaneByPlane) {
     EXPECT_THROW(file.write_slab<double>("/v", {0, 0}, {2, 2}, part), FileError);
 }
 
+TEST(Hdf5File, ACompressedMapIsSmallerAndTheSame) {
+    const Scratch scratch;
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    std::vector<double> map(300 * 200, 0.0); // several blocks of rows, the last one in part
+    for (std::size_t i = 0; i < map.size(); i += 20)
+        map[i] = 1.0 / static_cast<double>(i + 1);
+    file.write<double>("/plain", {300, 200}, map);
+    file.write<double>("/packed", {300, 200}, map, true);
+    file.write<double>("/row", {1, 2}, std::vector<double>{1.0, 2.0}, true);
+    file.close();
+    const Hdf5File reading(scratch / "a.h5", Hdf5File::Mode::read);
+    EXPECT_EQ(reading.read<double>("/packed"), map);
+    EXPECT_EQ(reading.read<double>("/row"), (std::vector<double>{1.0, 2.0}));
+    EXPECT_EQ(reading.stored_bytes("/plain"), 8 * map.size());
+    EXPECT_LT(reading.stored_bytes("/packed"), reading.stored_bytes("/plain") / 3);
+    std::vector<double> part(4);
+    reading.read_slab<double>("/packed", {163, 19}, {2, 2}, part); // over the edge of two blocks
+    EXPECT_EQ(part, (std::vector<double>{map[163 * 200 + 19], map[163 * 200 + 20],
+                                         map[164 * 200 + 19], map[164 * 200 + 20]}));
+}
+
 TEST(Hdf5File, GrowingRows) {
     const Scratch scratch;
     Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);

@@ -403,3 +403,11 @@ def test_statistics_are_those_of_surface_topography(instruments, tmp_path, name)
         assert file["spectrum/realised"][:] / 1e4 == pytest.approx(c, rel=1e-6)
     assert json.load(open(tmp_path / "out/result.json"))["surface"]["rms"] == pytest.approx(
         10 * periodic.rms_height_from_area(), rel=1e-6)
+
+
+def test_no_size_is_made_up_for_a_map_that_does_not_tell_its_unit(tmp_path):
+    """A scene would take the heights for nm and the width for Å."""
+    (tmp_path / "m.csv").write_text("x,y,z\n" + "\n".join(f"{x},{y},{x * y % 7}" for x in range(20) for y in range(20)) + "\n")
+    said = convert(tmp_path / "m.csv", tmp_path / "m.h5")
+    assert said.startswith("20 x 20 points, 20 x 20 of an unknown unit, heights in an unknown unit (set surface.file_unit)")
+    assert "refuses" not in said and " nm" not in said

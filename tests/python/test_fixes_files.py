@@ -3,7 +3,9 @@
 """Whoever follows the fix of a message about a map or a file of atoms has a file that is read as he meant it: every message of
 the catalogue on files that a scene names, that `asperity convert` reads and of which `asperity adhesion` makes a scene."""
 
+import gzip
 import re
+import zipfile
 from pathlib import Path
 
 import h5py
@@ -60,6 +62,14 @@ def hdf5(sets=None, **attributes):
 
 def npz(**arrays):
     return lambda file: np.savez(file, **arrays)
+
+
+def archive(member):
+    """Returns what writes a zip file with one member, as office programs do."""
+    def write(file):
+        with zipfile.ZipFile(file, "w") as out:
+            out.writestr(member, "<xml/>")
+    return write
 
 
 def write(name, content):
@@ -221,6 +231,12 @@ OF_FILES = [
     ("take another channel", as_file, ("m.csv", points(above="x(nm) y(nm) phase(deg) z(nm)\n").replace("\n", " 1\n").replace("(nm) 1", "(nm)"), "1"),
      ("m.csv", points(above="x(nm) y(nm) phase(deg) z(nm)\n").replace("\n", " 1\n").replace("(nm) 1", "(nm)"), "2")),
     ("export the heights, as text with a header", as_file, ("m.png", b"\x89PNG\r\n\x1a\n"), ("m.txt", text(above=GWYDDION))),
+    ("is a spreadsheet(?s:.*)export the heights as text: a matrix of numbers", as_file, ("m.xlsx", archive("xl/workbook.xml")), ("m.txt", text())),
+    ("is a text of an office program(?s:.*)export the heights as text", as_file, ("m.docx", archive("word/document.xml")), ("m.txt", text())),
+    ("is a PDF document(?s:.*)or lines of x, y and z", as_file, ("m.pdf", b"%PDF-1.5\n"), ("m.txt", points())),
+    ("is packed by gzip(?s:.*)unpack it", as_file, ("m.txt.gz", gzip.compress(text().encode())), ("m.txt", text())),
+    ("is empty(?s:.*)export it again", as_file, ("m.txt", ""), ("m.txt", text())),
+    ("is a damaged archive(?s:.*)copy or export it again", as_file, ("m.npz", b"PK\x03\x04 and no more"), ("m.npz", npz(a=HEIGHTS))),
     ("check the path", lambda name: read_heights(name), ("gone.txt",), None),
     ("one of them is meant(?s:.*)leave one out", as_heights, ("m.h5", hdf5({"a": HEIGHTS, "b": HEIGHTS}), "m.h5:/a", "b"), ("m.h5", hdf5({"a": HEIGHTS, "b": HEIGHTS}), "m.h5:/a")),
     ("correct the file; what --size", as_file, ("m.h5", hdf5({"a": HEIGHTS, "b": HEIGHTS}, size_x=0.0, size_y=0.0), "1"), ("m.h5", hdf5({"a": HEIGHTS, "b": HEIGHTS}, size_x=8.0, size_y=8.0), "1")),

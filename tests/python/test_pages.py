@@ -85,6 +85,15 @@ def test_what_a_code_host_would_not_show_is_found(text):
     assert list(words_of_sphinx(text))
 
 
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
+def test_a_table_has_eight_columns_at_most(page):
+    tokens = RENDERER.parse(page.read_text())
+    heads = [i for i, token in enumerate(tokens) if token.type == "thead_open"]
+    wide = [tokens[i].map[0] + 1 for i in heads if sum(t.type == "th_open" for t in tokens[i:tokens.index(next(
+        t for t in tokens[i:] if t.type == "thead_close"))]) > 8]
+    assert wide == [], f"{page.name}: lines of tables of more than eight columns"
+
+
 def test_tables_are_those_of_their_files():
     done = subprocess.run([sys.executable, ROOT / "docs/tables.py", "--check"], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr

@@ -39,6 +39,29 @@ from .text import of_text
 
 PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b"BM"}
 """How files of colours begin. TIFF is one of the formats of instruments."""
+PACKED = {"a PDF document": b"%PDF", "packed by gzip": b"\x1f\x8b", "packed by xz": b"\xfd7zXZ", "a file of MS Office": b"\xd0\xcf\x11\xe0"}
+"""How files begin in which no reader looks for heights."""
+OFFICE = {"a spreadsheet": ("xl/", "content.xml"), "a text of an office program": ("word/",)}
+"""What the archives of office programs hold."""
+
+
+def _refuse_other_files(path: Path, head: bytes) -> None:
+    """Raises InputOutputError for a file that no reader of maps takes: pictures, documents, archives, an empty file."""
+    for kind, first in PICTURES.items():
+        if head.startswith(first):
+            raise refuse(path, f"is a picture ({kind}), not a map of heights", "its colours are no heights",
+                         "export the heights, as text with a header or in the instrument's own format")
+    if not head:
+        raise refuse(path, "is empty", "it has no bytes", "export it again")
+    kind = next((kind for kind, first in PACKED.items() if head.startswith(first)), None)
+    if head.startswith(b"PK"):
+        if not zipfile.is_zipfile(path):
+            raise refuse(path, "is a damaged archive", "it begins as a zip file and does not end as one", "copy or export it again")
+        names = zipfile.ZipFile(path).namelist()
+        kind = next((kind for kind, parts in OFFICE.items() if any(name.startswith(parts) for name in names)), None)
+    if kind:
+        raise refuse(path, f"is {kind}, not a map of heights", "", "unpack it" if "packed" in kind else
+                     "export the heights as text: a matrix of numbers, or lines of x, y and z")
 
 
 def _instrument(path: Path) -> tuple[list[Channel], int]:
@@ -81,10 +104,7 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
     try:
         with path.open("rb") as file:
             head = file.read(8)
-        for kind, first in PICTURES.items():
-            if head.startswith(first):
-                raise refuse(path, f"is a picture ({kind}), not a map of heights", "its colours are no heights",
-                             "export the heights, as text with a header or in the instrument's own format")
+        _refuse_other_files(path, head)
         known = next((kind for kind, first in map_arrays.MAGIC.items() if head.startswith(first)), None)
         default = None
         with contextlib.ExitStack() as opened:
@@ -152,6 +172,7 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
     """Asks the program what may be wrong with the map in a file that convert() wrote: line noise, an implausible size and
     the like; if no scene takes the map as it is, returns the reason."""
     size, unit = found.get("size"), found.get("size_unit") or found.get("unit")
+    made_up = found.get("unit") is None or not (size and is_length(unit))  # a size or a unit that the file does not tell
     n = max(2, min(found["heights"].shape))
     keys = {"kind": "file", "file": str(file.resolve()), "file_missing": "fill", "file_crop": "middle", "sites": n,
             "resample": "band-limited", "spacing": 1.0}
@@ -167,8 +188,9 @@ def _doubts(file: Path, found: dict[str, Any]) -> list[str]:
         try:
             return list(program.surface(str(scene))["doubts"])
         except Error as error:
-            return ["a scene refuses it as it is: " + "; ".join(one[name] for one in error.listed for name in ("what", "why", "fix")
-                                                                if one[name])]
+            listed = [one for one in error.listed if not (made_up and str(one["what"]).startswith("surface.file:"))]
+            said = "; ".join(one[name] for one in listed for name in ("what", "why", "fix") if one[name])
+            return ["a scene refuses it as it is: " + said] if said else []
 
 
 def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:
@@ -225,7 +247,7 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
                 size = _size(source, found)
                 attributes.update(dict(zip(("size_x", "size_y"), size)))
                 unit = found.get("unit") or "an unknown unit (set surface.file_unit)"
-                said = " x ".join(f"{s:g}" for s in size) + " " + (found.get("size_unit") or unit)
+                said = " x ".join(f"{s:g}" for s in size) + " " + (found.get("size_unit") or found.get("unit") or "of an unknown unit")
                 text = (f"{heights.shape[1]} x {heights.shape[0]} points, "
                         f"{said if size else 'of unknown size (set surface.file_size)'}, heights in {unit}; points without "
                         f"a height: {int(numpy.isnan(heights).sum())}")
