@@ -29,11 +29,22 @@ void describe(Hdf5File& file, const std::string& dataset);
 /// Gives a data set the unit and description of a quantity of another table.
 void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
-/// Writes a new data set with its unit and description; a map is compressed.
+/// Returns true if a quarter of the values at least repeat the one before them, as zeros of
+/// pressure and marks of contact do. Such a map takes a tenth of its room or less when compressed,
+/// at several hundred MB/s; heights and gaps take 0.75 to 0.86 at a quarter of that pace.
+template <class T>
+bool is_repetitive(const std::vector<T>& values) {
+    std::size_t repeats = 0;
+    for (std::size_t i = 1; i < values.size(); ++i)
+        repeats += values[i] == values[i - 1];
+    return 4 * repeats >= values.size() && repeats > 0;
+}
+
+/// Writes a new data set with its unit and description; a map that is repetitive is compressed.
 template <class T>
 void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
                      const std::vector<T>& data) {
-    file.write<T>(dataset, shape, data, shape.size() > 1);
+    file.write<T>(dataset, shape, data, shape.size() > 1 && is_repetitive(data));
     describe(file, dataset);
 }
 

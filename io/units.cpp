@@ -59,8 +59,8 @@ constexpr Symbol symbols[] = {
 };
 
 constexpr std::pair<std::string_view, int> prefixes[] = {
-    {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"\u00B5", -6}, {"\u03BC", -6},
-    {"m", -3},  {"c", -2},  {"k", 3},  {"M", 6},  {"G", 9},       {"T", 12},
+    {"a", -18}, {"f", -15}, {"p", -12}, {"n", -9}, {"u", -6}, {"\u00B5", -6}, {"\u03BC", -6},
+    {"m", -3},  {"c", -2},  {"k", 3},   {"M", 6},  {"G", 9},  {"T", 12},
 };
 
 std::optional<Unit> find_symbol(std::string_view name) {

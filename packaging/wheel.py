@@ -46,10 +46,11 @@ def hdf5(work):
     run("apt-get", *options, "source", "-qq", "--download-only", "hdf5", cwd=work)
     run("tar", "-xf", *work.glob("hdf5_*.orig.tar.*"), cwd=work)
     (source,) = (file.parent for file in work.glob("hdf5-*/COPYING"))
+    (work / "hdf5-build").mkdir(exist_ok=True)
     off = ("BUILD_SHARED_LIBS", "BUILD_TESTING", "HDF5_BUILD_TOOLS", "HDF5_BUILD_EXAMPLES", "HDF5_BUILD_HL_LIB", "HDF5_BUILD_CPP_LIB")
     run("cmake", "-G", "Ninja", "-S", source, "-B", work / "hdf5-build", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_INSTALL_PREFIX={prefix}",
         "-DCMAKE_POSITION_INDEPENDENT_CODE=ON", "-DHDF5_ENABLE_Z_LIB_SUPPORT=ON", "-DCMAKE_C_FLAGS=-w", *(f"-D{name}=OFF" for name in off),
-        stdout=subprocess.DEVNULL, cwd=work)  # a probe of HDF5 leaves a file where CMake is started
+        stdout=subprocess.DEVNULL, cwd=work / "hdf5-build")  # a probe of HDF5 writes where CMake is started, and is read in the build
     run("cmake", "--build", work / "hdf5-build", "--target", "install", stdout=subprocess.DEVNULL)
     (prefix / "COPYING").write_text((source / "COPYING").read_text())
     return prefix

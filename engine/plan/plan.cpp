@@ -224,7 +224,7 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
                    memory_text(bytes_of_largest_rank(plan)), tile.nx, tile.ny);
     }
     fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
-    fmt::print(to, "run.h5      {} for the maps of a state, which are compressed to about half{}\n",
+    fmt::print(to, "run.h5      {} for the maps of a state, before compression{}\n",
                memory_text(plan.state_bytes),
                plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes))
                                       : "");

@@ -30,7 +30,7 @@ SYMBOLS: dict[str, tuple[tuple[int, ...], float, int, bool]] = {
     "Hz": (_RATE, 1.0, 0, True), "%": (_NUMBER, 1.0, -2, False), "1": (_NUMBER, 1.0, 0, False)}
 """Of each symbol the powers of length, mass, time and temperature, a number and a power of ten (SI), and whether it takes
 prefixes. io/units.cpp has the same table, by which the program reads quantities."""
-PREFIXES = {"f": -15, "p": -12, "n": -9, "u": -6, "\u00b5": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
+PREFIXES = {"a": -18, "f": -15, "p": -12, "n": -9, "u": -6, "\u00b5": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
 SPELLINGS = {"⁰": "^0", "¹": "^1", "²": "^2", "³": "^3", "⁴": "^4", "⁵": "^5", "⁶": "^6", "⁷": "^7", "⁸": "^8", "⁹": "^9",
              "⁻^": "^-", "**": "^", "·": "*", "\u00c2\u00b5": "\u00b5", "Â²": "^2", "Ã\u0085": "Å"}
 """Other spellings: superscripts, a product's dot, and UTF-8 that a program took for Latin-1."""

@@ -46,7 +46,8 @@ std::vector<Look> looks_at(const std::vector<std::string>& keys) {
 void expect_fair(const std::vector<Look>& told, double by) {
     if (std::getenv("SHOW"))
         for (std::size_t i = 0; i < told.size(); i += std::max<std::size_t>(1, told.size() / 60))
-            std::printf("%8.2f %5.3f %8.2f  %8.2f\n", told[i].seconds, told[i].fraction, told[i].left, told.back().seconds - told[i].seconds);
+            std::printf("%8.2f %5.3f %8.2f  %8.2f\n", told[i].seconds, told[i].fraction,
+                        told[i].left, told.back().seconds - told[i].seconds);
     const double all = told.back().seconds;
     double worst = 0.0;
     for (std::size_t i = 1; i < told.size(); ++i) {
@@ -91,12 +92,11 @@ TEST(Course, OfASecondCycleLikeTheFirst) {
 
 TEST(Course, OfASoftSpring) {
     for (const char* stiffness : {"0.05 N/m", "1 N/m"})
-        expect_fair(
-            looks_at({"drive.mode=quasistatic", "interface.kind=wall", "interface.adhesion=50 mJ/m2",
-                      "interface.range=6 Å", "block.young=3", "block.poisson=0.3",
-                      "surface.kind=flat", "surface.radius=200 Å",
-                      std::string("drive.stiffness=") + stiffness}),
-            0.3);
+        expect_fair(looks_at({"drive.mode=quasistatic", "interface.kind=wall",
+                              "interface.adhesion=50 mJ/m2", "interface.range=6 Å", "block.young=3",
+                              "block.poisson=0.3", "surface.kind=flat", "surface.radius=200 Å",
+                              std::string("drive.stiffness=") + stiffness}),
+                    0.3);
 }
 
 TEST(Course, OfASlide) {

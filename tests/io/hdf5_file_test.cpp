@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
+#include "io/run_h5.hpp"
 
 #include "support/scratch.hpp"
 
@@ -97,6 +98,22 @@ TEST(Hdf5File, ACompressedMapIsSmallerAndTheSame) {
     reading.read_slab<double>("/packed", {163, 19}, {2, 2}, part); // over the edge of two blocks
     EXPECT_EQ(part, (std::vector<double>{map[163 * 200 + 19], map[163 * 200 + 20],
                                          map[164 * 200 + 19], map[164 * 200 + 20]}));
+}
+
+TEST(Hdf5File, MapsOfARunAreCompressedIfTheyRepeat) {
+    const Scratch scratch;
+    Hdf5File file(scratch / "a.h5", Hdf5File::Mode::create);
+    std::vector<double> pressure(100 * 100, 0.0), gap(pressure.size());
+    std::iota(gap.begin(), gap.end(), 0.5);
+    for (std::size_t i = 0; i < pressure.size(); i += 30)
+        pressure[i] = gap[i];
+    write_described(file, "/fields/relaxed/pressure", {100, 100}, pressure);
+    write_described(file, "/fields/relaxed/gap", {100, 100}, gap);
+    write_described(file, "/substrate/spectrum", {pressure.size()}, pressure);
+    EXPECT_LT(file.stored_bytes("/fields/relaxed/pressure"), 8 * pressure.size() / 4);
+    EXPECT_EQ(file.stored_bytes("/fields/relaxed/gap"), 8 * gap.size());
+    EXPECT_EQ(file.stored_bytes("/substrate/spectrum"), 8 * pressure.size()) << "no map";
+    EXPECT_EQ(file.read<double>("/fields/relaxed/pressure"), pressure);
 }
 
 TEST(Hdf5File, GrowingRows) {
