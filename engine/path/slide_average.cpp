@@ -143,13 +143,12 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.steady = is_steady(lengths);
     std::vector<double> friction = work;
     if (s.steady && s.relaxed > 0.0)
-        std::transform(relaxed.begin(), relaxed.end(), lost.begin(), friction.begin(),
-                       std::plus());
+        std::transform(relaxed.begin(), relaxed.end(), lost.begin(), friction.begin(), std::plus());
     s.friction = mean_from(friction, first);
     s.friction_error = error_of_mean(rest(friction));
     if (s.steady)
-        s.friction_error = std::max(
-            s.friction_error, std::abs(mean_from(work, first) - s.relaxed - s.lost));
+        s.friction_error =
+            std::max(s.friction_error, std::abs(mean_from(work, first) - s.relaxed - s.lost));
     return s;
 }
 

@@ -10,11 +10,11 @@
 // mean is the largest that bins, pairs of bins, fours and so on give (Flyvbjerg and Petersen, J.
 // Chem. Phys. 91, 461 (1989)).
 //
-// The friction of a steady slide is also what is dissipated over the distance, and of a viscoelastic
-// block that is the more accurate of the two: forces at the ends of steps have the rates there,
-// from the steps before, which are (q d)^2/3 too large for waves q in steps of d that are long
-// beside the relaxation times. It is the friction then; where work and dissipation differ by more
-// than the standard error, this is the error.
+// The friction of a steady slide is also what is dissipated over the distance, and of a
+// viscoelastic block that is the more accurate of the two: forces at the ends of steps have the
+// rates there, from the steps before, which are (q d)^2/3 too large for waves q in steps of d that
+// are long beside the relaxation times. It is the friction then; where work and dissipation differ
+// by more than the standard error, this is the error.
 //
 // A slide is steady if the mean friction over a correlation length of the map has changed by less
 // than a hundredth since the one before, and what a geometric series of the last two changes has

@@ -152,7 +152,8 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
             "  {} are dissipated in the viscoelastic block,\n"
             "  and {} are lost at instabilities.\n",
-            form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed), form.with_unit(lost));
+            form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed),
+            form.with_unit(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             fmt::print(to,
@@ -230,7 +231,8 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
         rows.push_back({form.named("stored", "segments[].stored"),
                         [&](const SegmentResults& s) { return form.energy(s.stored); }});
     rows.push_back(
-        {form.named("ends at", newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
+        {form.named("ends at",
+                    newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
          [=](const SegmentResults& s) { return number(s.force / unit, newtons ? 3 : 1); }});
     rows.push_back({form.named("mean height", "segments[].mean_height"),
                     [&](const SegmentResults& s) { return form.height(s.mean_height); }});
@@ -376,7 +378,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         };
         row("binding energy", "binding_energy", form.energy(state));
         if (!form.is_whole()) table.row({flat_text, over_flat(state)});
-        table.row({fmt::format("  convergence, {}", form.unit_of_uncertainty()), form.uncertainty(of("binding_energy_uncertainty"))});
+        table.row({fmt::format("  convergence, {}", form.unit_of_uncertainty()),
+                   form.uncertainty(of("binding_energy_uncertainty"))});
         row("energy of the pairs alone", "pair_binding_energy",
             form.energy(of("pair_binding_energy")));
         row("elastic energy stored", "relaxed.elastic_energy",
@@ -424,19 +427,19 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (c.guided()) print_segments(to, c, results);
     fmt::print(to, "\nHow to read it\n");
     if (state)
-        fmt::print(
-            to,
-            "  The state {} has a binding energy of {}{}:\n"
-            "  {} of the pairs across the interface, less {} of elastic energy in "
-            "the block.\n"
-            "  {} % of the block's surface atoms are in contact.\n",
-            at, form.with_unit(*state),
-            flat > 0.0 && !form.is_whole() ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
+        fmt::print(to,
+                   "  The state {} has a binding energy of {}{}:\n"
+                   "  {} of the pairs across the interface, less {} of elastic energy in "
+                   "the block.\n"
+                   "  {} % of the block's surface atoms are in contact.\n",
+                   at, form.with_unit(*state),
+                   flat > 0.0 && !form.is_whole()
+                       ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
                                      anywhere ? "one flat layer of the block's lattice"
                                               : "two flat surfaces")
                        : std::string(),
-            form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
-            io::number(100.0 * *of("contact_fraction"), 1));
+                   form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
+                   io::number(100.0 * *of("contact_fraction"), 1));
     if (state && flat > 0.0 && !form.is_whole() && *state < no_adhesion * flat)
         fmt::print(to,
                    "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n",

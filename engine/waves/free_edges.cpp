@@ -19,9 +19,10 @@ namespace {
 
 constexpr double smoothing = 1.9; ///< s over the spacing: erfc(s pi/a) is 1e-17
 
-constexpr double cut = 1.7; ///< c over the wave number 1/a: exp(-(pi/c)^6) is 1e-17
+constexpr double cut = 1.7;          ///< c over the wave number 1/a: exp(-(pi/c)^6) is 1e-17
 constexpr double table_step = 0.125; ///< step of the table of far displacements, spacings
-constexpr double least_phase = 5e-4; ///< phase up to which K is taken as constant: S of longer waves takes long
+constexpr double least_phase =
+    5e-4; ///< phase up to which K is taken as constant: S of longer waves takes long
 
 double phase_of(int n, int sites) { return 2.0 * std::numbers::pi * n / sites; }
 
@@ -109,8 +110,8 @@ std::vector<double> FreeEdges::added_far() const {
 #pragma omp parallel for schedule(static)
     for (std::size_t i = 0; i < table.size(); ++i)
         for (std::size_t j = 0; j < phase.size(); ++j)
-            table[i] += weight[j] * boost::math::cyl_bessel_j(
-                                        0, phase[j] * table_step * static_cast<double>(i));
+            table[i] += weight[j] * boost::math::cyl_bessel_j(0, phase[j] * table_step *
+                                                                     static_cast<double>(i));
     return table;
 }
 

@@ -158,7 +158,9 @@ TEST(FreeEdges, AnswerAForceOnLayersWithoutImages) {
     // boxes of 16, 40 and 96 sites the same, and that of the half-space far away.
     constexpr double F = 0.7, a = 2.6;
     const std::vector<std::vector<MaterialLayer>> columns{
-        {{{10.0, 0.3}, 4}}, {{{0.1, 0.3}, 4}}, {{{0.3, 0.45}, 6}, {{3.0, 0.2}, 6}, {{0.6, 0.3}, 6}}};
+        {{{10.0, 0.3}, 4}},
+        {{{0.1, 0.3}, 4}},
+        {{{0.3, 0.45}, 6}, {{3.0, 0.2}, 6}, {{0.6, 0.3}, 6}}};
     for (const std::vector<MaterialLayer>& layers : columns) {
         const auto on_layers = [&](int sites) {
             BlockOptions o = free_block(sites, a * sites, 1.0);
@@ -238,8 +240,7 @@ TEST(FreeEdges, OfASphereOnACoating) {
         o.layers = {{{10.0 * o.young, o.poisson}, 13}};
         Free c(o, paraboloid(sites, o.edge(), R), hard_wall(o, 3e3), 0.01);
         c.block.set_uniform(0.0);
-        depths[wide - 1] =
-            -c.relax(Constraint::load(F), 1e-5 * F / (38 * 38), Start::anywhere).top;
+        depths[wide - 1] = -c.relax(Constraint::load(F), 1e-5 * F / (38 * 38), Start::anywhere).top;
     }
     EXPECT_NEAR(depths[0], depths[1], 1e-3 * depths[1]);
     EXPECT_LT(depths[1], 0.8 * 0.084728);
