@@ -53,14 +53,14 @@ def _refuse_other_files(path: Path, head: bytes) -> None:
                          "export the heights, as text with a header or in the instrument's own format")
     if not head:
         raise refuse(path, "is empty", "it has no bytes", "export it again")
-    kind = next((kind for kind, first in PACKED.items() if head.startswith(first)), None)
+    found = next((kind for kind, first in PACKED.items() if head.startswith(first)), None)
     if head.startswith(b"PK"):
         if not zipfile.is_zipfile(path):
             raise refuse(path, "is a damaged archive", "it begins as a zip file and does not end as one", "copy or export it again")
         names = zipfile.ZipFile(path).namelist()
-        kind = next((kind for kind, parts in OFFICE.items() if any(name.startswith(parts) for name in names)), None)
-    if kind:
-        raise refuse(path, f"is {kind}, not a map of heights", "", "unpack it" if "packed" in kind else
+        found = next((kind for kind, parts in OFFICE.items() if any(name.startswith(parts) for name in names)), None)
+    if found:
+        raise refuse(path, f"is {found}, not a map of heights", "", "unpack it" if "packed" in found else
                      "export the heights as text: a matrix of numbers, or lines of x, y and z")
 
 

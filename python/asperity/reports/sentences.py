@@ -248,7 +248,8 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block is viscoelastic (block.prony)")):
         if (value := run.number(key)) is not None:
             if run.in_newtons:
-                add(*whole(run, value).split(), name, note)
+                energy_lost, unit = whole(run, value).split()
+                add(energy_lost, unit, name, note)
             else:
                 add(f"{value:.4g}", "meV/Å²", name, f"{millijoules(value)} mJ/m²; {note}")
     if not run.in_newtons:
