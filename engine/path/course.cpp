@@ -20,6 +20,8 @@ constexpr double at_strongest = 0.6;
 constexpr double trusted_part = 0.2;
 /// A changed estimate of the time left is followed within this share of the time so far.
 constexpr double following = 0.15;
+/// Most by which the time left grows, s a second: a larger estimate is come to in time.
+constexpr double steepest = 3.0;
 /// Most by which the part that is done is told to be larger than by the weights of the segments.
 constexpr double ahead = 0.05;
 
@@ -212,7 +214,9 @@ void Course::look(std::size_t segment, const StepRecord& now, double seconds) {
         left_ = estimate;
     } else {
         const double expected = std::max(0.0, left_ - since);
-        left_ = expected + (estimate - expected) * -std::expm1(-since / (following * seconds));
+        left_ =
+            std::min(expected + (estimate - expected) * -std::expm1(-since / (following * seconds)),
+                     left_ + steepest * since);
     }
     const double all = seconds + left_;
     const double of_time = all > 0.0 ? base_ + (1.0 - base_) * seconds / all : base_;

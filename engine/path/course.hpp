@@ -30,7 +30,7 @@ public:
     /// Returns the part of the whole time that has passed, 0 to 0.99. It never falls.
     double fraction() const { return fraction_; }
     /// Returns the time left, s; negative: not known yet. It follows a changed estimate within a
-    /// part of the time so far and does not jump.
+    /// part of the time so far, and grows by three seconds a second at most.
     double left() const { return left_; }
 
 private:
