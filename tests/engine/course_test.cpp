@@ -86,15 +86,6 @@ TEST(Course, OfASecondCycleLikeTheFirst) {
                 0.1);
 }
 
-TEST(Course, OfASoftSpring) {
-    for (const char* stiffness : {"0.05 N/m", "1 N/m"})
-        expect_fair(looks_at({"drive.mode=quasistatic", "interface.kind=wall",
-                              "interface.adhesion=50 mJ/m2", "interface.range=6 Å", "block.young=3",
-                              "block.poisson=0.3", "surface.kind=flat", "surface.radius=200 Å",
-                              std::string("drive.stiffness=") + stiffness}),
-                    0.3);
-}
-
 TEST(Course, OfASlide) {
     expect_fair(
         looks_at({"drive.mode=quasistatic",
