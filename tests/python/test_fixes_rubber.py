@@ -10,7 +10,7 @@ import pytest
 
 import asperity
 from following import followed, not_followed
-from test_prony import MODULI, OMEGA, REFUSED, fitted, text
+from test_prony import MODULI, OMEGA, REFUSED, TWO, fitted, text
 
 SOURCES = ("maps/master_curve.py", "studies/prony.py", "scene/scene_files")
 EXCUSED = {"cannot be read...check the path and its permissions": "whoever tests may read all files, and finds those that he names"}
@@ -34,6 +34,7 @@ CASES = (  # what is said, the bad call, the good one
     ("--frequency-unit (Hz)", (text("omega, E' (MPa), E'' (MPa)"), {}), (text("omega, E' (MPa), E'' (MPa)"), {"frequency_unit": "{0}"})),
     ("take the row out, or export it again", (text() + "0, 1, 1\n", {}), (text(), {})),
     ("export the master curve, or its shift factors with it", (REFUSED["several temperatures"], {}), (text(), {})),
+    ("take one of the two columns out, or correct its unit", (REFUSED["two frequencies that differ"], {}), (TWO, {})),
     ("measure more", (REFUSED["has too few points"], {}), (text(), {})),
     ("take these rows out", (BENT, {}), ("".join(BENT.splitlines(True)[:21] + BENT.splitlines(True)[22:]), {})),
     ("say --modulus (E)", (text("omega (rad/s), storage modulus (MPa), loss modulus (MPa)"), {}),

@@ -98,6 +98,8 @@ def test_noise_is_the_error_of_the_fit(place):
 
 
 FALLING = MODULI.real[::-1] + 1j * MODULI.imag
+TWO = text("f (Hz), E' (MPa), E'' (MPa), omega (rad/s)", scale=(1 / (2 * math.pi), 1.0)).splitlines()
+TWO = "\n".join([TWO[0], *(f"{line}, {w:.12g}" for line, w in zip(TWO[1:], OMEGA))]) + "\n"
 REFUSED = {
     "is no master curve": "nothing\n", "does not say what its columns are": text("a, b, c"), "has too few points": text(omega=OMEGA[:4]),
     "does not say the unit of 'frequency'": text("frequency, E' (MPa), E'' (MPa)"),
@@ -107,7 +109,7 @@ REFUSED = {
     "is not described by branches": text(moduli=2 + 1j * np.ones(41)), "has no relaxed modulus": text(moduli=MODULI - 2),
     "several temperatures": "T (°C); f (Hz); E' (MPa); E'' (MPa)\n" + "\n".join(f"{20 + k};{k + 1};{10 + k};1" for k in range(9)),
     "the commas may be decimal points": text(separator=",", decimal=","), "is no row of numbers": text() + "1, two, 3\n",
-    "the line has too few numbers": text() + "1, 2\n"}
+    "the line has too few numbers": text() + "1, 2\n", "two frequencies that differ": TWO.replace("f (Hz)", "f (kHz)")}
 
 
 @pytest.mark.parametrize("says", REFUSED)

@@ -171,6 +171,19 @@ def test_friction_of_a_rough_wall_has_one_maximum(tmp_path):
             assert s["work_of_settling"] != 0.0
 
 
+@pytest.mark.parametrize("velocity", [1e-5, 1e-4])
+def test_work_is_what_is_dissipated_and_lost(tmp_path, velocity):
+    rough = {"drive__velocity": velocity, "drive__load": '"4 MPa"', "interface__adhesion": 0}
+    fine, _ = steady_slide(tmp_path, "fine", drive__tolerance=1e-6, **rough)
+    spent = fine["stored"] + fine["dissipated_in_block"] + fine["lost"]
+    assert fine["work_of_drive"] == pytest.approx(spent, rel=1e-3)
+    # With the default tolerance and longer steps the friction is the same, within its error.
+    coarse, _ = steady_slide(tmp_path, "coarse", **rough)
+    assert coarse["friction_coefficient"] == pytest.approx(fine["friction_coefficient"], rel=0.015)
+    assert abs(coarse["friction_coefficient"] - fine["friction_coefficient"]) < \
+        coarse["friction_coefficient_error"] + fine["friction_coefficient_error"]
+
+
 @pytest.mark.parametrize("steps", [1, 2, 3, 5, 40])
 def test_a_steady_start_goes_on_with_the_same_bits(tmp_path, steps):
     velocity = {"drive__velocity": 0.02}

@@ -46,7 +46,7 @@ OFFICE = {"a spreadsheet": ("xl/", "content.xml"), "a text of an office program"
 
 
 def _refuse_other_files(path: Path, head: bytes) -> None:
-    """Raises InputOutputError for a file that no reader of maps takes: pictures, documents, archives, an empty file."""
+    """Refuses a file that no reader of maps takes: a picture, a document, an archive, an empty file. Raises InputOutputError."""
     for kind, first in PICTURES.items():
         if head.startswith(first):
             raise refuse(path, f"is a picture ({kind}), not a map of heights", "its colours are no heights",

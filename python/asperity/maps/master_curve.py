@@ -23,6 +23,8 @@ COMMENTS = ("#", "%", "//", "!")
 FEWEST_POINTS = 6
 FALL = 0.1
 """So much may the storage modulus fall behind its largest value at lower frequencies, as measured curves do."""
+SAME_FREQUENCY = 0.01
+"""Difference of two columns of frequencies that are one, over them."""
 ONE_TEMPERATURE = 2.0
 """K: temperatures closer than this are one."""
 
@@ -266,6 +268,13 @@ def _curve(path: Path, columns: list[_Column], at: dict[str, int], values: np.nd
              "storage modulus": column("storage") * _scale(path, columns[at["storage"]], given[1], "modulus")}
     parts["loss modulus"] = column("loss") * _scale(path, columns[at["loss"]], given[1], "modulus") if "loss" in at else \
         column("tan") * parts["storage modulus"]
+    if {"angular", "frequency"} <= set(at):
+        both = [column(role) * _scale(path, columns[at[role]], given[0], "frequency") for role in ("angular", "frequency")]
+        differs = np.abs(both[0] - both[1]) > SAME_FREQUENCY * np.abs(both[0])
+        if differs.any():
+            wrong = int(np.argmax(differs))
+            raise refuse(f"{path}:{lines[wrong]}", "has two frequencies that differ", f"{both[0][wrong]:.4g} and {both[1][wrong]:.4g} rad/s",
+                         "take one of the two columns out, or correct its unit")
     notes = [] if "loss" in at else ["the loss modulus is tan δ times the storage modulus"]
     if "shift" in at and along != "reduced":
         parts["shift factor aT"] = column("shift")
