@@ -6,7 +6,6 @@
 //
 // Pairs are with a map of heights over a square lattice, or with atoms anywhere. Four sweeps:
 //   reference  every site against every substrate atom in reach by an explicit loop over pairs,
-//   reference  every site against every substrate atom in reach by an explicit loop over pairs,
 //              scalar: the other three are tested against it;
 //   lattice    both sides are the same lattice, so the neighbours of a site are known offsets: SIMD
 //              over sites, sums in registers over the offsets in a fixed order;

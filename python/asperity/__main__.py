@@ -22,7 +22,7 @@ from .commands.command_line import parsers
 from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .running import program
 from .running.scene import STANDARD_INPUT, scene_file
-from .terminal import Voice, launched
+from .terminal import Voice, launched, sleep_soon
 from .units import is_unit
 
 
@@ -213,8 +213,7 @@ def main(words: list[str]) -> int:
 def entry() -> int:
     """Runs the program `asperity` of a wheel: study commands here, the others in the compiled module. Returns the exit code."""
     words = sys.argv[1:]
-    if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
-        os.environ.setdefault("GOMP_SPINCOUNT", "3000")
+    sleep_soon(os.environ)
     try:
         from . import _engine
     except ImportError:  # the package alone, beside a program that is elsewhere

@@ -12,7 +12,7 @@ import re
 import shutil
 import sys
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, MutableMapping
 from typing import Any
 
 from .errors import SceneError
@@ -190,6 +190,19 @@ def launched() -> tuple[int, bool]:
         if size in os.environ:
             return int(os.environ.get(rank, "0")), int(os.environ[size]) > 1
     return int(os.environ.get("PMIX_RANK", "0")), "PMIX_RANK" in os.environ
+
+
+def sleep_soon(environment: MutableMapping[str, str]) -> None:
+    """Sets an environment in which waiting threads of OpenMP sleep soon, as the script `asperity` does, unless OMP_WAIT_POLICY is set.
+
+    Parameters
+    ----------
+    environment : MutableMapping[str, str]
+        Environment of the program; changed.
+    """
+    if "OMP_WAIT_POLICY" not in environment:
+        environment.setdefault("GOMP_SPINCOUNT", "3000")
+        environment.setdefault("KMP_BLOCKTIME", "0")
 
 
 def environment_alone() -> dict[str, str]:

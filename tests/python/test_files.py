@@ -12,6 +12,7 @@ import re
 import shutil
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 
@@ -267,6 +268,38 @@ def test_the_heights_of_a_scene_are_kept(results, tmp_path):
     before = there(place)
     command("surface", "s.toml", "--out", "out", cwd=place, expect=2, says="out/heights.h5, which the command reads")
     assert there(place) == before
+
+
+def test_digests_of_python_are_those_of_the_program(tmp_path):
+    """Each reads what the other has sealed, JSON and HDF5, and refuses it when the digest is not right."""
+    out, scene = tmp_path / "out", tmp_path / "s.toml"
+    scene.write_text(SCENE)
+    command("surface", "s.toml", "--out", "out", cwd=tmp_path)
+    record = json.loads((out / store.RECORD).read_text())["files"]
+    assert store.json_is_whole((out / store.RECORD).read_bytes()) is True
+    assert store.hdf5_is_whole(out / "heights.h5") is True
+    assert record["heights.h5"] == store._digest_of(out / "heights.h5")
+    assert record["result.json"] == store._digest_of(out / "result.json")
+
+    heights = tmp_path / "map.h5"
+    with h5py.File(heights, "w") as file:
+        file["heights"] = np.random.default_rng(1).normal(size=(16, 16))
+    bare = heights.read_bytes()
+    store.seal_hdf5(heights)
+    scene.write_text(SCENE.replace("rms = 0.6", 'kind = "file"\nfile = "map.h5"'))
+    command("surface", "s.toml", "--out", "read", cwd=tmp_path)
+    sealed = heights.read_bytes()
+    heights.write_bytes(bare + sealed[len(bare):-8] + bytes([sealed[-8] ^ 1]) + sealed[-7:])
+    command("surface", "s.toml", "--out", "damaged", cwd=tmp_path, expect=2, says="digest")
+
+    empty = {"files": {"heights.h5": store.UNFINISHED}}  # of a command that was killed
+    (out / store.RECORD).write_text(store.sealed_json(empty))
+    (out / "result.json").unlink()
+    scene.write_text(SCENE)
+    command("surface", "s.toml", "--out", "out", cwd=tmp_path)
+    (out / store.RECORD).write_text(store.sealed_json(empty).replace("heights", "Heights"))
+    (out / "result.json").unlink()
+    command("surface", "s.toml", "--out", "out", cwd=tmp_path, expect=2, says="is no record of the files that Asperity wrote")
 
 
 # Single files.

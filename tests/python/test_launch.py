@@ -12,7 +12,7 @@ import pytest
 
 import asperity
 import asperity.running.runs
-from asperity.running import program
+from asperity.running import pool, program
 from conftest import BOUND, SMALL
 
 
@@ -52,3 +52,28 @@ def test_ranks_share_the_processors_that_they_may_all_use(ranks):
         places = json.dumps([first] + [others] * (ranks - 1))
         said = subprocess.run(words, env={**free, "PROCESSORS": places}, capture_output=True, text=True, timeout=60)
         assert f"ranks      {ranks}\n  threads    {max(1, len(first) // sharing)} a rank" in said.stdout, (places, said)
+
+
+@pytest.mark.parametrize("policy", ["", "active"])
+def test_waiting_threads_of_runs_sleep(tmp_path, monkeypatch, policy):
+    """Runs of a pool share the processors; one run alone spins as briefly as with the script. A policy of the user holds."""
+    monkeypatch.delenv("OMP_WAIT_POLICY", raising=False)
+    monkeypatch.setenv("GOMP_SPINCOUNT", "3000")
+    if policy:
+        monkeypatch.setenv("OMP_WAIT_POLICY", policy)
+    going, place = tmp_path / "going", tmp_path / "point"
+    going.touch()
+    assert pool.run_task(["sh", "-c", "env"], str(tmp_path), str(place), "1", False, str(going)).code == 0
+    told = (place / pool.LOG).read_text().splitlines()
+    assert f"OMP_WAIT_POLICY={policy or 'passive'}" in told
+    assert ("GOMP_SPINCOUNT=3000" in told) == bool(policy)
+
+    monkeypatch.delenv("GOMP_SPINCOUNT")
+    seen = tmp_path / "seen"
+    shell = tmp_path / "program"
+    shell.write_text(f"#!/bin/sh\nenv > {seen}\nexit 2\n")
+    shell.chmod(0o755)
+    monkeypatch.setattr(program, "path", lambda: str(shell))
+    with pytest.raises(asperity.Error):
+        asperity.run(SMALL, out=tmp_path / "run")
+    assert ("GOMP_SPINCOUNT=3000" in seen.read_text().splitlines()) == (not policy)

@@ -23,6 +23,13 @@ def axes():
     return Figure().add_subplot()
 
 
+@pytest.mark.parametrize("rows, drawn", [(0, False), (1, False), (2, True)])
+def test_a_curve_needs_two_rows_of_every_column(rows, drawn):
+    run = SimpleNamespace(series={"force": np.arange(rows), "time": np.arange(rows)})
+    assert bool(run_plots._columns(run, "force", "time")) == drawn
+    assert not run_plots._columns(run, "force", "no such column")
+
+
 def test_forces_of_flat_solids_are_stresses(path_run):
     ax = path_run.plot.separation(axes())
     curves = {c.label: c for c in style.drawn(ax).curves}

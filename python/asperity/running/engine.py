@@ -22,7 +22,7 @@ import numpy
 
 from ..errors import Error, InputOutputError, SceneError, UnknownName
 from ..files import store
-from ..terminal import Progress, number
+from ..terminal import Progress, number, sleep_soon
 from ..units import GIGAPASCAL
 from . import lock, program
 from .scene import Overrides, SceneLike, assignments, scene_file
@@ -44,8 +44,7 @@ def load() -> Any:
             file = folder / ("_engine" + ending)
             if not file.is_file():
                 continue
-            if "OMP_WAIT_POLICY" not in os.environ:  # threads that wait sleep soon, as with the script `asperity`
-                os.environ.setdefault("GOMP_SPINCOUNT", "3000")
+            sleep_soon(os.environ)
             spec = importlib.util.spec_from_file_location(NAME, file)
             assert spec and spec.loader
             module = importlib.util.module_from_spec(spec)

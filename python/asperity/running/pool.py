@@ -268,6 +268,10 @@ def _run(words: list[str], folder: str, out: store.Outputs, threads: str, overru
     environment = environment_alone()
     if threads and (overrule or "OMP_NUM_THREADS" not in environment):
         environment["OMP_NUM_THREADS"] = threads
+    # Runs share the processors: a thread that spins while it waits takes them from the threads of the other runs.
+    if "OMP_WAIT_POLICY" not in environment:
+        environment["OMP_WAIT_POLICY"] = "passive"
+        environment.pop("GOMP_SPINCOUNT", None)  # of the script `asperity`; it would hold over the policy
     parent, is_run = os.getpid(), words[1] == "run"  # else a launcher
 
     def prepare() -> None:  # in the child: a signal that comes early waits until the run can catch it

@@ -15,7 +15,7 @@ from pathlib import Path
 from ..errors import InputOutputError, SceneError
 from ..files import store
 from ..results.result import Result
-from ..terminal import progress_shown
+from ..terminal import progress_shown, sleep_soon
 from . import program
 from .scene import Overrides, SceneLike, assignments, scene_file
 
@@ -77,10 +77,12 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
         place = store.numbered(first, Path.exists) if out is None else store.chosen(str(out), "")
         words = [*launcher(ranks), program.path(), "run", file, "--out", str(place), "--progress", "json",
                  *program.sets(assignments(overrides))]
+        environment = dict(os.environ)
+        sleep_soon(environment)
         said, shown = [], progress_shown(progress)
         try:
             child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                     start_new_session=True, text=True, encoding="utf-8", errors="replace")
+                                     env=environment, start_new_session=True, text=True, encoding="utf-8", errors="replace")
         except OSError as error:
             raise InputOutputError(words[0], "cannot be started", error.strerror or str(error),
                                    "check that it is installed") from None
