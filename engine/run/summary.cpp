@@ -239,8 +239,12 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     rows.push_back(
         {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
     if (c.effects.sliding)
-        rows.push_back({form.named("friction", "segments[].friction"),
-                        [](const SegmentResults& s) { return number(s.lateral_mean, 2); }});
+        rows.push_back(
+            {newtons ? std::string("friction, nN") : form.named("friction", "segments[].friction"),
+             [=](const SegmentResults& s) {
+                 const Number f = s.lateral_mean;
+                 return number(f && newtons ? Number(*f / unit) : f, 2);
+             }});
     constexpr std::size_t side_by_side = 3;
     const auto& all = results.segments;
     for (std::size_t first = 0; first < all.size(); first += side_by_side) {
@@ -419,8 +423,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         else
             table.row({form.named("largest attraction", "pull_off_force"),
                        number(of("approach_force"), 1), number(of("pull_off_force"), 1)});
-        if (c.radius())
-            row("  as a JKR sphere", "jkr.approach", of("jkr.approach"), of("jkr.pull_off"));
+        const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
+        if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
+            table.row({"  as a JKR sphere, meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out)});
         fmt::print(to, "\n");
         table.print(to);
     }

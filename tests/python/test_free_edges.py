@@ -84,11 +84,14 @@ def test_a_tip_is_read_in_nanonewtons(place):
     assert tip.instrument.pull_off_force == pytest.approx(tip.pull_off_force * 1.602176634, rel=1e-12)
     # Energies are those of the whole contact, and heights in nm, on the terminal and in the report.
     energies, heights = said[said.index("path  "):].split("How to read it")[0], [f"{0.1 * s.mean_height:.3f}" for s in tip.segments]
-    assert "meV" not in energies and "mean height, nm" in energies
+    assert all("meV" not in line or "JKR" in line for line in energies.splitlines()) and "mean height, nm" in energies
     assert all(text in energies for text in heights)
     for s in tip.segments:
         assert f"{s.work_of_drive * 1e-3 * tip.edge**2 * 0.1602176634:.4g}" in energies, energies
     assert tip.instrument.energy_lost == pytest.approx(tip.dissipated.energy * 0.1602176634, rel=1e-9)
+    # A work of adhesion by JKR is one over an area.
+    jkr = next(line for line in energies.splitlines() if "JKR" in line)
+    assert "meV/Å² (mJ/m²)" in jkr and f"({tip.jkr.pull_off * 16.021766:.1f})" in jkr, jkr
     command("report", "tip")
     page = (place / "tip" / "report.html").read_text()
     table = page[page.rindex("Segments of the path"):].split("</table>")[0]

@@ -27,7 +27,7 @@ from ..results.result import Result, Values
 from ..running import program
 from ..running.scene import scene_file, toml_of
 from ..theories.sphere import RATIOS, jkr, maugis
-from ..units import ELECTRONVOLT, MILLIJOULE, conversion
+from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
 from .map_scene import named, read_square, with_unit
 from .stated_number import NAN, Found, Number
 
@@ -335,14 +335,14 @@ def _curve(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarr
     series = result.series
     zero = series["closest"][0]
     return (0.1 * (zero + series["drive_displacement"]), 0.1 * (zero + series["top_displacement"]),
-            1e10 * ELECTRONVOLT * 1e9 * series["force"], series["segment"])
+            series["force"] / NANONEWTON, series["segment"])
 
 
 def _measured(result: Result, contact: Contact) -> _Measured:
     drive, tip, force, segment = _curve(result)
     inwards = np.flatnonzero(segment == 0)
     lost = np.diff(result.series["dissipated"][inwards])
-    joules = ELECTRONVOLT * 1e18  # 1 eV in aJ
+    joules = 1 / ATTOJOULE
     values = {"pull_off_force": float(-force[segment == 1].min()), "jump_in_distance": NAN,
               "contact_radius": result.number("instrument.contact_radius", NAN),
               "lost": joules * float(result.series["dissipated"][-1])}
