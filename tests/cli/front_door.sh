@@ -46,7 +46,8 @@ stand_in apt-get 'echo "apt-get $*" >>calls; touch installed'
 stand_in sudo 'exit 1'
 stand_in id 'echo "${WHO:-1000}"'
 # Like cmake, where GoogleTest is missing (and, with the file fftw-is-missing, FFTW) until apt-get was called.
-stand_in cmake 'cd - >/dev/null; echo "cmake $* in $OLDPWD" >>calls; lacks=; packages=
+# What the preset sets is in a file (cmake --preset NAME -N).
+stand_in cmake 'cd - >/dev/null; [[ "$*" != *" -N" ]] || { cat preset-sets 2>/dev/null; exit 0; }; echo "cmake $* in $OLDPWD" >>calls; lacks=; packages=
     [ -e installed ] || { [ ! -e fftw-is-missing ] || { lacks=FFTW packages=" libfftw3-dev"; }
         [[ "$*" != *TESTS=ON* ]] || { lacks="${lacks:+$lacks, }GoogleTest" packages+=" libgtest-dev"; } }
     cd - >/dev/null; mkdir -p build/release/engine
@@ -112,6 +113,14 @@ grep -m 1 ^cmake calls | grep -q "LEVELS=native" || fail "a first build has all 
 grep ^cmake calls | tail -n 1 | grep -q "LEVELS=all" || fail "tests are of one level: $(cat calls)"
 expect 0 run
 [ "$(grep -c ^cmake calls)" -eq 5 ] || fail "a run after the tests configures anew: $(cat calls)"
+
+# What the preset sets is left as it is: those of the sanitizers have one level of kernels and no device.
+printf '  %s="%s"\n' ASPERITY_LEVELS none ASPERITY_PERF OFF >preset-sets
+mv calls kept && rm -r "../a house/build"
+expect 0 test
+grep -q "TESTS=ON" calls || fail "tests are not built: $(cat calls)"
+! grep -Eq "LEVELS|PERF" calls || fail "the settings of the preset are overridden: $(cat calls)"
+mv kept calls && rm preset-sets
 
 # Without CMake, Ninja and a compiler, all that a build needs is named at once; so it is where there is no apt-get.
 mkdir bare
