@@ -13,6 +13,7 @@
 #pragma once
 
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 
@@ -415,14 +416,17 @@ inline constexpr Quantity run_quantities[] = {
 /// The name of a quantity of result.json; a name that is not in the table does not compile.
 struct Key {
     consteval Key(const char* name) : quantity(&find(name)) {}
+    /// Returns the key of a name that is composed at run time. Throws if the table has none.
+    static Key composed(std::string_view name) { return Key(find(name)); }
     const Quantity* quantity;
 
 private:
     static constexpr const Quantity& find(std::string_view name) {
         for (const Quantity& q : result_quantities)
             if (q.name == name) return q;
-        throw "no quantity of that name in result_quantities";
+        throw std::logic_error("no quantity of that name in result_quantities");
     }
+    constexpr explicit Key(const Quantity& q) : quantity(&q) {}
 };
 
 inline std::string_view unit_of(Key key) { return key.quantity->unit; }

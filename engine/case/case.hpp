@@ -44,9 +44,7 @@ struct Case {
     TheoryOptions theory;
     std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
-    std::optional<std::uint32_t> table_digest;    ///< digest of the numbers in these files
-    std::optional<std::uint32_t> adhesion_digest; ///< digest of the field of adhesion
-    std::string adhesion_file; ///< file of the field of adhesion, as found; empty: none
+    std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
     /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
     /// over the work of adhesion
     std::optional<double> table_error;
@@ -75,8 +73,11 @@ struct Case {
     /// Returns the segments of the path; never empty in a valid scene.
     const std::vector<Segment>& path() const { return simulation.drive.path; }
     /// Returns the paths of the files that were read: the scene, the map or the atoms, tables,
-    /// the branches, the field of adhesion.
+    /// the branches, maps of the sites.
     std::vector<std::string> inputs() const;
+    /// Returns the digests of the numbers in tables and in maps of the sites, by the keys that name
+    /// them: "interface.table", "interface.adhesion".
+    std::vector<std::pair<std::string, std::uint32_t>> digests() const;
     bool has(Segment::Kind kind) const;
     /// Returns true if the path has segments other than approach and pull-off.
     bool guided() const;

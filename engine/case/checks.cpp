@@ -83,7 +83,7 @@ void check_path(const Case& c, io::Problems& problems) {
                 refuse("over a map with free edges",
                        "the map moves periodically, and its edges would move along",
                        "take surface.boundary = \"periodic\"");
-            if (!c.scene.interface.adhesion_field.empty())
+            if (c.scene.interface.adhesion_map.given())
                 refuse("over a field of the work of adhesion",
                        "the heights move under the block, and the field would stay",
                        "give interface.adhesion a number");
@@ -287,10 +287,10 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
-    if (!interface.adhesion_field.empty() && pairs)
+    if (interface.adhesion_map.given() && pairs)
         problems.add("interface.adhesion",
                      fmt::format("= \"{}\" without a wall that has a law of its own",
-                                 interface.adhesion_field),
+                                 interface.adhesion_map.source),
                      "pairs of atoms, and walls of smeared atoms, have the work of adhesion of "
                      "their potential",
                      "take interface.kind = \"wall\" with another law than \"smeared\" on a "

@@ -95,10 +95,10 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
-    const std::string& field = s.interface.adhesion_field;
-    e.adhesion_map = {!field.empty(), field.empty()
-                                          ? "interface.adhesion is no field"
-                                          : fmt::format("interface.adhesion = \"{}\"", field)};
+    const Scene::SiteMapKeys& field = s.interface.adhesion_map;
+    e.adhesion_map = {field.given(), field.given()
+                                         ? fmt::format("interface.adhesion = \"{}\"", field.source)
+                                         : "interface.adhesion is no field"};
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 #include "engine/case/resolving.hpp"
+#include "engine/case/site_map.hpp"
 #include "engine/case/spacing_limits.hpp"
 #include "engine/case/wall_shape.hpp"
 
@@ -110,6 +111,7 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
         block.layers.push_back({{young * units::gigapascal, poisson},
                                 static_cast<int>(std::lround(thickness / block.spacing))});
     block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
+    if (!dynamic) block.top_spring = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
     block.free_edges = scene.has_free_edges() && !dynamic;
     return block;
 }
@@ -164,13 +166,12 @@ void fill_interface(Case& c) {
         options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
     }
     if (options.adhesion) { // the mean of equal sites is exactly that of one
-        auto field = std::make_shared<AdhesionMap>(*options.adhesion);
+        const int across = options.adhesion->sites;
         double below = 0.0;
-        for (int y = 0; y < field->sites; ++y)
-            for (int x = 0; x < field->sites; ++x)
-                below += 1.0 - field->factor(*options.wall, x, y);
-        field->mean_factor = 1.0 - below / static_cast<double>(field->work.size());
-        options.adhesion = std::move(field);
+        for (int y = 0; y < across; ++y)
+            for (int x = 0; x < across; ++x)
+                below += 1.0 - options.adhesion_factor(x, y);
+        options.mean_adhesion_factor = 1.0 - below / (static_cast<double>(across) * across);
     }
 }
 
@@ -370,9 +371,30 @@ void look_at_ranks(Case& c, io::Problems& refused) {
     }
 }
 
+/// Fills in the maps of the sites that the scene has, and their largest values in the scene.
+void find_site_maps(Case& c, io::Problems& problems) {
+    Scene::Interface& keys = c.scene.interface;
+    if (!keys.adhesion_map.given()) return;
+    constexpr const char* key = "interface.adhesion";
+    const auto map = site_map(
+        c, keys.adhesion_map,
+        {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
+         "a work of adhesion is zero or more: a site repels at contact alone"},
+        problems);
+    if (!map) return;
+    if (keys.shape_repels() && map->least == 0.0)
+        return problems.add(
+            key, fmt::format("= \"{}\" is 0 at some sites", map->source),
+            "the law (interface.law) repels by itself, and the work of adhesion multiplies "
+            "its repulsion too: nothing would repel there",
+            "take a small work of adhesion in place of 0, or law = \"exponential\"");
+    keys.adhesion = map->largest;
+    c.simulation.interface.adhesion = map;
+}
+
 /// Derives all consequences of keys that do not contradict each other.
 void derive(Case& c, io::Problems& problems) {
-    find_adhesion_field(c, problems);
+    find_site_maps(c, problems);
     if (!problems.empty()) return;
     io::Problems refused = c.scene.problems();
     refuse_unsupported(c, refused);
@@ -415,11 +437,20 @@ ProcessGrid Case::grid(int rank) const {
     return ProcessGrid(ranks, rank, simulation.block.sites, static_cast<int>(levels.size()));
 }
 
+std::vector<std::pair<std::string, std::uint32_t>> Case::digests() const {
+    std::vector<std::pair<std::string, std::uint32_t>> all;
+    if (table_digest) all.emplace_back("interface.table", *table_digest);
+    for (const auto& map : simulation.interface.site_maps())
+        all.emplace_back("interface." + map->name, map->digest);
+    return all;
+}
+
 std::vector<std::string> Case::inputs() const {
     std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
     files.insert(files.end(), table_files.begin(), table_files.end());
     if (!scene.fit.found.empty()) files.push_back(scene.fit.found);
-    if (!adhesion_file.empty()) files.push_back(adhesion_file.substr(0, adhesion_file.find(":/")));
+    for (const auto& map : simulation.interface.site_maps())
+        if (!map->file.empty()) files.push_back(map->file.substr(0, map->file.find(":/")));
     return files;
 }
 

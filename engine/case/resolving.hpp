@@ -12,10 +12,6 @@ namespace asperity {
 /// Fills in the types and the potentials of simulation.interface from interface.potential and
 /// interface.pairs.
 void find_potentials(Case& c, io::Problems& problems);
-/// Reads or computes the field of interface.adhesion, if the scene has one: fills in
-/// simulation.interface.adhesion except mean_factor, and its largest value in the scene. Adds the
-/// mistakes to problems.
-void find_adhesion_field(Case& c, io::Problems& problems);
 /// Compares the errors of tables of potentials with the work of adhesion: fills in table_error,
 /// adds notes. Returns false, with problems, if a table is too coarse or too noisy.
 bool check_tables(Case& c, io::Problems& problems);

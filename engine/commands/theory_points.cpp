@@ -159,7 +159,7 @@ int theory_points_command(const TheoryPoints& what) {
             if (what.runnable) examine(c);
             point = what.runnable ? simulated_point(c, surfaces, what.profile)
                                   : point_json(c, surfaces, what.profile);
-            if (what.runnable && (c.surface.reads_file() || c.table_digest || c.adhesion_digest)) {
+            if (what.runnable && (c.surface.reads_file() || !c.digests().empty())) {
                 // Present contents of the files.
                 const Json now = surface_result(c, surfaces.of(c)).json();
                 for (const char* part : {"surface", "interface"})

@@ -244,9 +244,14 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
                                         : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
                                                        (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
             maps.gap.push_back(reference_height_ + displacement.z(x, y) - below);
-            if (options_.adhesion)
-                maps.adhesion.push_back(options_.adhesion->at(tile_.x0 + x, tile_.y0 + y));
         }
+    for (const auto& map : options_.site_maps()) {
+        std::vector<double>& values = maps.of_sites.emplace_back(map->name, 0).second;
+        values.reserve(count);
+        for (int y = 0; y < tile_.ny; ++y)
+            for (int x = 0; x < tile_.nx; ++x)
+                values.push_back(map->at(tile_.x0 + x, tile_.y0 + y));
+    }
     return maps;
 }
 

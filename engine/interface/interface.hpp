@@ -32,6 +32,8 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -51,8 +53,8 @@ struct InterfaceMaps {
     /// hole.
     std::vector<double> gap;
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
-    /// Work of adhesion of the site, meV/Å^2; empty: that of all sites is one
-    std::vector<double> adhesion;
+    /// Values of each map of the sites (InterfaceOptions::site_maps()), by its name.
+    std::vector<std::pair<std::string, std::vector<double>>> of_sites;
 };
 
 /// Cuts a map of across x across sites to its first n x n sites.

@@ -29,16 +29,15 @@ OverWall::OverWall(const HeightMap& map, const Tile& tile, const InterfaceOption
                               ? std::numeric_limits<double>::quiet_NaN()
                               : map.at(tile.x0 + x, tile.y0 + y);
     if (!options.adhesion) return;
-    const AdhesionMap& field = *options.adhesion;
-    if (field.sites != n)
+    if (const int across = options.adhesion->sites; across != n)
         throw std::invalid_argument(
             fmt::format("interface: {} x {} sites have a field of {} x {} works of adhesion", n, n,
-                        field.sites, field.sites));
+                        across, across));
     factor_ = Field<double>(tile, 1, 0);
     const PlaneView<double> factor = factor_.plane(0);
     for (int y = 0; y < tile.ny; ++y)
         for (int x = 0; x < tile.nx; ++x)
-            factor(x, y) = field.factor(law_, tile.x0 + x, tile.y0 + y);
+            factor(x, y) = options.adhesion_factor(tile.x0 + x, tile.y0 + y);
 }
 
 double OverWall::stiffness_at(int x, int y, double gap) const {

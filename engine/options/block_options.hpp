@@ -53,7 +53,9 @@ struct BlockOptions : Material {
     /// Layers of a block at rest, from its surface upwards; the block's own material is above them.
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
-    bool free_edges = false;     ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
+    /// Stiffness of the spring that holds the top plane of a block at rest, eV/Å^2; 0: none.
+    double top_spring = 0.0;
+    bool free_edges = false; ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }

@@ -7,24 +7,37 @@
 
 namespace asperity {
 
-double AdhesionMap::factor(const WallLaw& law, int x, int y) const {
+SiteMap SiteMap::corner(int across) const {
+    SiteMap part = *this;
+    part.sites = across;
+    part.values.clear();
+    for (int y = 0; y < across; ++y)
+        for (int x = 0; x < across; ++x)
+            part.values.push_back(at(x, y));
+    return part;
+}
+
+std::vector<std::shared_ptr<const SiteMap>> InterfaceOptions::site_maps() const {
+    std::vector<std::shared_ptr<const SiteMap>> maps;
+    for (const auto& map : {adhesion})
+        if (map) maps.push_back(map);
+    return maps;
+}
+
+void InterfaceOptions::crop_site_maps(int across) {
+    for (auto* const map : {&adhesion})
+        if (*map) *map = std::make_shared<SiteMap>((*map)->corner(across));
+}
+
+double InterfaceOptions::adhesion_factor(int x, int y) const {
     return std::visit(
         [&]<class Law>(const Law& of_largest) {
             if constexpr (ScaledBySite<Law>)
-                if (largest > 0.0) return of_largest.factor_of(at(x, y) / largest);
+                if (adhesion && adhesion->largest > 0.0)
+                    return of_largest.factor_of(adhesion->at(x, y) / adhesion->largest);
             return 1.0;
         },
-        law);
-}
-
-AdhesionMap AdhesionMap::corner(int across) const {
-    AdhesionMap part = *this;
-    part.sites = across;
-    part.work.clear();
-    for (int y = 0; y < across; ++y)
-        for (int x = 0; x < across; ++x)
-            part.work.push_back(at(x, y));
-    return part;
+        *wall);
 }
 
 WallLaw mean_wall(const InterfaceOptions& options) {
@@ -32,7 +45,7 @@ WallLaw mean_wall(const InterfaceOptions& options) {
     return std::visit(
         [&]<class Law>(const Law& law) -> WallLaw {
             if constexpr (ScaledBySite<Law>)
-                return law.scaled(options.adhesion->mean_factor);
+                return law.scaled(options.mean_adhesion_factor);
             else
                 return law;
         },

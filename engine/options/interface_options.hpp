@@ -7,6 +7,7 @@
 #include "kernels/interface_kernels.hpp"
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,32 +21,35 @@ class WallShape;
 /// Methods of finding pairs. The reference loop is for tests; rows hold for any spacing.
 enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
-/// Work of adhesion of each site over a wall (a field of sites).
-struct AdhesionMap {
-    std::string name;         ///< file or formula, as the scene gives it
-    int sites = 0;            ///< number of sites across the box
-    std::vector<double> work; ///< work[y * sites + x], meV/Å^2
-    double largest = 0.0;     ///< largest of them, that of InterfaceOptions::wall
-    double mean_factor = 1.0; ///< mean of factor() over the sites
+/// A number for each site of the box, from a map or a formula (a field of sites).
+struct SiteMap {
+    std::string name;           ///< name in results: "adhesion"
+    std::string source;         ///< file or formula, as the scene gives it
+    std::string file;           ///< file as found; empty: a formula
+    std::uint32_t digest = 0;   ///< digest of the values of the whole box
+    int sites = 0;              ///< number of sites across the box
+    std::vector<double> values; ///< values[y * sites + x], in the unit of the scene's key
+    double least = 0.0;         ///< least value of the whole box
+    double largest = 0.0;       ///< largest value of the whole box
 
-    /// Returns the work of adhesion of site (x, y), meV/Å^2; 0 beyond the box.
+    /// Returns the value of site (x, y); 0 beyond the box.
     double at(int x, int y) const {
         if (x >= sites || y >= sites) return 0.0;
-        return work[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
-                    static_cast<std::size_t>(x)];
+        return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
+                      static_cast<std::size_t>(x)];
     }
     /// Returns the part of so many sites across.
-    AdhesionMap corner(int across) const;
-    /// Returns the factor of the law of site (x, y) of the box (kernels/wall_law.hpp).
-    double factor(const WallLaw& law, int x, int y) const;
+    SiteMap corner(int across) const;
 };
 
 /// Options of the interface.
 struct InterfaceOptions {
     std::optional<WallLaw> wall = {};            ///< wall in place of atoms
     std::shared_ptr<const WallShape> shape = {}; ///< shape that this law reads; null: none
-    /// Work of adhesion of each site over the wall; null: that of the law
-    std::shared_ptr<const AdhesionMap> adhesion = {};
+    /// Work of adhesion of each site over the wall, meV/Å^2, the largest that of the law; null:
+    /// that of the law
+    std::shared_ptr<const SiteMap> adhesion = {};
+    double mean_adhesion_factor = 1.0; ///< mean of adhesion_factor() over the sites
     PairPotential potential;
     /// Potentials of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
     std::vector<PairPotential> by_type = {};
@@ -59,6 +63,13 @@ struct InterfaceOptions {
     InterfaceMethod method = InterfaceMethod::automatic;
     /// Skip offsets or atoms beyond reach; false: visit all (bitwise identical; for tests).
     bool skip = true;
+
+    /// Returns the maps of the sites that the interface has.
+    std::vector<std::shared_ptr<const SiteMap>> site_maps() const;
+    /// Replaces each map of the sites by its part of so many sites across.
+    void crop_site_maps(int across);
+    /// Returns the factor of the law of site (x, y) over the wall (kernels/wall_law.hpp).
+    double adhesion_factor(int x, int y) const;
 
     PairTable pairs() const {
         if (by_type.empty()) return potential;

@@ -14,7 +14,6 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
     : Path(c, surface), grid_(c.grid(ranks.rank())),
       interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, !c.effects.lateral) {
-    if (c.effects.spring) block_.set_machine(c.simulation.drive.stiffness);
     before_first_.mean_height = interface_.reference_height();
 }
 

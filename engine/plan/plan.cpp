@@ -85,9 +85,11 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     return bytes * here + tables * piece.table * (whole - here);
 }
 
-/// Returns the bytes of the maps of a state for a site: seven numbers and a mark, and the work of
-/// adhesion if it is a field.
-double bytes_of_maps(const InterfaceOptions& interface) { return interface.adhesion ? 65.0 : 57.0; }
+/// Returns the bytes of the maps of a state for a site: seven numbers and a mark, and those that
+/// the interface reads.
+double bytes_of_maps(const InterfaceOptions& interface) {
+    return 57.0 + 8.0 * static_cast<double>(interface.site_maps().size());
+}
 
 /// Returns the largest memory of a rank, bytes.
 double bytes_of_largest_rank(const Plan& plan) { return std::ranges::max(plan.bytes_of_rank); }

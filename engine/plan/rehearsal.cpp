@@ -74,8 +74,7 @@ Case piece_of(const Case& c, int sites, bool timed) {
         surface.rolloff = std::max(1.0, surface.rolloff * fraction);
         surface.cutoff = std::max(surface.rolloff, surface.cutoff * fraction);
     }
-    if (auto& field = piece.simulation.interface.adhesion)
-        field = std::make_shared<AdhesionMap>(field->corner(sites));
+    piece.simulation.interface.crop_site_maps(sites);
     const double ratio = static_cast<double>(block.sites) / surface.sites;
     block.sites = sites;
     surface.sites = substrate_sites(sites, ratio);

@@ -230,7 +230,8 @@ io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
     put("gap", gap);
     put("pressure", of_box(whole(ranks, grid, maps.pressure)));
     put("distance", of_box(whole(ranks, grid, maps.distance)));
-    if (interface.options().adhesion) put("adhesion", of_box(whole(ranks, grid, maps.adhesion)));
+    for (const auto& [name, values] : maps.of_sites)
+        put(name.c_str(), of_box(whole(ranks, grid, values)));
     put("u_x", of_box(gather_plane(ranks, grid, 0, layer.x)));
     put("u_y", of_box(gather_plane(ranks, grid, 0, layer.y)));
     put("u_z", of_box(gather_plane(ranks, grid, 0, layer.z)));

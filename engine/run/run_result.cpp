@@ -216,12 +216,12 @@ io::Result surface_result(const Case& c, const Surface& surface) {
     add_surface(surface, result);
     if (!c.scene.fit.file.empty()) result.set("block.prony_file", c.scene.fit.file);
     if (c.scene.fit.rms_error) result.set("block.prony_error", *c.scene.fit.rms_error);
-    if (c.table_digest) result.set("interface.table_digest", io::digest_text(*c.table_digest));
-    if (const auto& field = c.simulation.interface.adhesion) {
-        result.set("interface.adhesion_digest", io::digest_text(*c.adhesion_digest));
-        result.set("interface.adhesion_least",
-                   *std::min_element(field->work.begin(), field->work.end()));
-        result.set("interface.adhesion_largest", field->largest);
+    for (const auto& [key, digest] : c.digests())
+        result.set(io::Key::composed(key + "_digest"), io::digest_text(digest));
+    for (const auto& map : c.simulation.interface.site_maps()) {
+        const std::string key = "interface." + map->name;
+        result.set(io::Key::composed(key + "_least"), map->least);
+        result.set(io::Key::composed(key + "_largest"), map->largest);
     }
     if (c.table_error) result.set("interface.table_error", *c.table_error);
     return result;
@@ -267,8 +267,8 @@ std::string physics_of(const Case& c, const Surface& surface) {
     if (c.radius()) part["output"]["series"] = c.output.series; // averaged over time
     part["output"]["velocities"] = c.output.trajectory && c.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
-    if (c.table_digest) part["interface"]["content_of_tables"] = *c.table_digest;
-    if (c.adhesion_digest) part["interface"]["content_of_adhesion"] = *c.adhesion_digest;
+    for (const auto& [key, digest] : c.digests())
+        part["content_of_" + key] = digest;
     return io::json_text(part);
 }
 

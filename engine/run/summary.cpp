@@ -306,9 +306,8 @@ namespace {
 std::string wall_text(const Case& c) {
     const auto& field = c.simulation.interface.adhesion;
     if (!field) return "a wall; ";
-    return fmt::format("a wall; work of adhesion \"{}\", {} to {}; on average ", field->name,
-                       with_units(*std::min_element(field->work.begin(), field->work.end())),
-                       with_units(field->largest));
+    return fmt::format("a wall; work of adhesion \"{}\", {} to {}; on average ", field->source,
+                       with_units(field->least), with_units(field->largest));
 }
 
 } // namespace

@@ -43,6 +43,31 @@ void bind_potential(io::Schema& schema, P& potential, const std::vector<io::Sche
         });
 }
 
+/// Gives a key that may be a map of the sites what it needs, and adds the keys of its file.
+void bind_site_map(io::Schema& schema, io::Schema::Key& key, Scene::SiteMapKeys& map,
+                   const io::Schema::Need& need) {
+    key.needs = {need};
+    const std::string name = key.name, of = "interface." + name, unit = key.unit;
+    const io::Schema::Need given{[is_met = need.is_met, &map] { return is_met() && map.given(); },
+                                 of + " names no map of a wall"};
+    schema
+        .number_or(name + "_size", map.size, "auto", "Å", positive(),
+                   "edge of the map of " + of + "; \"auto\": what the file says, else the box")
+        .needs = {given};
+    schema.key(name + "_unit", map.unit, "its unit; \"auto\": what the file says, else " + unit)
+        .needs = {given};
+    schema
+        .choice<MapMissing>(name + "_missing", map.missing,
+                            {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
+                            "points of this map without a number: as surface.file_missing")
+        .needs = {given};
+    schema
+        .choice<MapCrop>(name + "_crop", map.crop,
+                         {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
+                         "such a map that is not square: as surface.file_crop")
+        .needs = {given};
+}
+
 /// Returns the first word of a member of drive.path.
 std::string segment_name(const std::string& member) {
     const std::size_t first = std::min(member.find_first_not_of(' '), member.size());
@@ -352,36 +377,18 @@ io::Schema bind(Scene& scene) {
                     "the smeared atoms have whatever potential interface.potential names",
                     "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
                     "scene does not say"});
-    schema
-        .number_or_text(
-            "adhesion", interface.adhesion, interface.adhesion_field, "meV/Å^2", at_least(0.0),
+    bind_site_map(
+        schema,
+        schema.number_or_text(
+            "adhesion", interface.adhesion, interface.adhesion_map.source, "meV/Å^2", at_least(0.0),
             "map.npy",
             "work of adhesion of flat surfaces, Δγ, of a wall that is not smeared; 0: no "
             "attraction. One "
             "for each site: a map, in a file as surface.file takes it, or a formula, \"stripes LOW "
             "HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", \"rings MEAN AMPLITUDE PERIOD\" or "
             "\"patches LOW HIGH LENGTH SEED\" (random, with this correlation length), as in "
-            "\"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\"")
-        .needs = {needs.adhesion};
-    schema
-        .number_or("adhesion_size", interface.adhesion_size, "auto", "Å", positive(),
-                   "edge of the map of interface.adhesion; \"auto\": what the file says, else the "
-                   "box")
-        .needs = {needs.adhesion_map};
-    schema
-        .key("adhesion_unit", interface.adhesion_unit,
-             "its unit; \"auto\": what the file says, else meV/Å^2")
-        .needs = {needs.adhesion_map};
-    schema
-        .choice<MapMissing>("adhesion_missing", interface.adhesion_missing,
-                            {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
-                            "points of this map without a number: as surface.file_missing")
-        .needs = {needs.adhesion_map};
-    schema
-        .choice<MapCrop>("adhesion_crop", interface.adhesion_crop,
-                         {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
-                         "such a map that is not square: as surface.file_crop")
-        .needs = {needs.adhesion_map};
+            "\"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\""),
+        interface.adhesion_map, needs.adhesion);
     schema.number("range", interface.range, "Å", positive(), "of these laws").needs = {
         needs.ranged};
     schema.number("exponent", interface.exponent, "", io::Range{1.0, 100.0}, "of law = \"power\"")

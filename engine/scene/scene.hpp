@@ -106,6 +106,17 @@ struct Scene {
         std::optional<double> rms_error; ///< error of the fit, over the moduli measured
     } fit;
 
+    /// Keys of a number that may differ from site to site (engine/case/site_map.hpp).
+    struct SiteMapKeys {
+        std::string source; ///< file of a map, or a formula; empty: one number for all sites
+        std::optional<double> size; ///< edge of the map, Å; empty: as surface.file_size
+        std::string unit = "auto";  ///< unit of the map; "auto": that of the file, else the key's
+        MapMissing missing = MapMissing::refuse;
+        MapCrop crop = MapCrop::none;
+
+        bool given() const { return !source.empty(); }
+    };
+
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
         int potential = 0; ///< index of a kind of PairPotential
@@ -119,16 +130,9 @@ struct Scene {
         bool frictionless = false;
         WallLawKind law = WallLawKind::exponential; ///< law of a wall
         double adhesion = 100.0;                    ///< meV/Å^2, of all laws but the smeared one
-        /// Work of adhesion of each site: a file of a map, or a formula (engine/case/
-        /// adhesion_field.cpp); empty: one for all. A case has its largest value in `adhesion`.
-        std::string adhesion_field;
-        std::optional<double> adhesion_size; ///< edge of that map, Å; empty: as surface.file_size
-        std::string adhesion_unit =
-            "auto"; ///< unit of that map; "auto": that of the file, else meV/Å^2
-        MapMissing adhesion_missing = MapMissing::refuse;
-        MapCrop adhesion_crop = MapCrop::none;
-        double range = 1.0;    ///< Å, of these laws but a table
-        double exponent = 3.0; ///< exponent of the law "power"
+        SiteMapKeys adhesion_map; ///< of each site; a case has its largest value in `adhesion`
+        double range = 1.0;       ///< Å, of these laws but a table
+        double exponent = 3.0;    ///< exponent of the law "power"
         /// GPa/Å, of a law whose shape begins where the solids touch; empty: derived from the block
         std::optional<double> stiffness;
         EdgePinning edge_pinning = EdgePinning::refuse;

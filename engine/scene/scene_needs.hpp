@@ -54,9 +54,6 @@ struct Needs {
                                     !scene.interface.pairs.empty();
                },
                "neither interface.potential nor interface.law is \"table\""};
-    Need adhesion_map{
-        [this] { return adhesion.is_met() && !scene.interface.adhesion_field.empty(); },
-        "interface.adhesion names no map of a wall"};
     Need pairs{[this] { return !adhesion.is_met(); }, "the wall has a law of its own"};
     Need dynamic{[this] { return scene.is_dynamic(); }, "no time passes on this path"};
     Need time{[this] {

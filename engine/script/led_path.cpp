@@ -54,8 +54,6 @@ LedPath::LedPath(const Case& c)
       interface_(surface_, grid_.tile(0), case_.simulation.block.spacing,
                  case_.simulation.interface),
       block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
-    if (const double spring = case_.simulation.drive.stiffness; spring > 0.0)
-        block_.set_machine(spring);
     before_.mean_height = interface_.reference_height();
 }
 

@@ -113,8 +113,8 @@ std::string SteppedPath::description() const {
                       {"file", fs::absolute(source_.file).string()},
                       {"overrides", source_.overrides}};
     if (surface_.file_digest) scene["content_of_surface.file"] = *surface_.file_digest;
-    if (case_.table_digest) scene["content_of_tables"] = *case_.table_digest;
-    if (case_.adhesion_digest) scene["content_of_adhesion"] = *case_.adhesion_digest;
+    for (const auto& [key, digest] : case_.digests())
+        scene["content_of_" + key] = digest;
     return io::json_text(io::Json{{"simulation", scene}});
 }
 

@@ -185,20 +185,21 @@ double Response::stiffest_wave() const {
 
 double Response::held_stiffness() const {
     const double block = factor_ * table_.uniform();
-    if (!machine_) return block;
-    const double sites = slab_.sites, machine = *machine_ / (sites * sites);
+    if (options_.top_spring == 0.0) return block;
+    const double sites = slab_.sites, machine = options_.top_spring / (sites * sites);
     return block * machine / (block + machine);
 }
 
 double Response::top() const {
     if (!constraint_.is_top())
         return mean_height() - (constraint_.stretches ? constraint_.load() / spring() : 0.0);
-    return constraint_.value + (machine_ ? top_force() / *machine_ : 0.0);
+    return constraint_.value +
+           (options_.top_spring > 0.0 ? top_force() / options_.top_spring : 0.0);
 }
 
 double Response::drive() const {
     if (constraint_.is_top()) return constraint_.value;
-    return top() - (machine_ ? constraint_.load() / *machine_ : 0.0);
+    return top() - (options_.top_spring > 0.0 ? constraint_.load() / options_.top_spring : 0.0);
 }
 
 double Response::mean_height() const {
@@ -237,9 +238,9 @@ BlockEnergies Response::energies() const {
     if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
     BlockEnergies energies{.elastic = 0.5 * (twice + load * load / spring())};
-    if (machine_) {
+    if (options_.top_spring > 0.0) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
-        energies.machine = 0.5 * force * force / *machine_;
+        energies.machine = 0.5 * force * force / options_.top_spring;
     }
     if (memory_)
         energies.branches = memory_->energies(

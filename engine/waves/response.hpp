@@ -215,7 +215,6 @@ protected:
     double factor_ = 1.0; ///< factor of branches on S
     /// Factors of branches on S, wave by wave, instead; factor_ is then 1.
     std::optional<MovingPattern> pattern_;
-    std::optional<double> machine_; ///< stiffness of the spring that holds the top plane, eV/Å^2
 
 private:
     /// Replaces a field by what change(b, waves) makes of the N^2 u_q of each block b.

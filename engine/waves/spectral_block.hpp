@@ -33,9 +33,6 @@ public:
         constrain(constraint);
         apply_constraint();
     }
-    /// Sets the stiffness of the spring that holds the top plane, eV/Å^2. The block has no
-    /// branches.
-    void set_machine(double stiffness) { machine_ = stiffness; }
 
     /// Begins a step of dt, fs, of a viscoelastic block from the state and the constraint as they
     /// are; an infinite step leaves the block relaxed, without memory. last: length of the step

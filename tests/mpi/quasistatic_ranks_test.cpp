@@ -40,11 +40,11 @@ InterfaceOptions interface_of(const Kind& kind) {
     InterfaceOptions o = test::paper_interface();
     o.wall = kind.wall;
     if (kind.field) {
-        auto field = std::make_shared<AdhesionMap>();
+        auto field = std::make_shared<SiteMap>();
         field->sites = sites;
         field->largest = sites * sites;
         for (int i = 1; i <= sites * sites; ++i)
-            field->work.push_back(i * 7 % 256 + 1);
+            field->values.push_back(i * 7 % 256 + 1);
         o.adhesion = field;
     }
     o.slides = kind.slides;

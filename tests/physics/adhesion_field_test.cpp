@@ -30,16 +30,17 @@ constexpr int sites = 16;
 /// A wall with this law, and works of adhesion that are so many times the law's.
 InterfaceOptions with_field(const WallLaw& wall, const std::vector<double>& part) {
     InterfaceOptions o = test::over(wall);
-    auto field = std::make_shared<AdhesionMap>();
+    auto field = std::make_shared<SiteMap>();
+    field->name = "adhesion";
     field->sites = static_cast<int>(std::lround(std::sqrt(static_cast<double>(part.size()))));
     field->largest = 1.0;
-    field->work = part;
+    field->values = part;
+    o.adhesion = field;
     double sum = 0.0;
     for (int y = 0; y < field->sites; ++y)
         for (int x = 0; x < field->sites; ++x)
-            sum += field->factor(wall, x, y);
-    field->mean_factor = sum / static_cast<double>(part.size());
-    o.adhesion = std::move(field);
+            sum += o.adhesion_factor(x, y);
+    o.mean_adhesion_factor = sum / static_cast<double>(part.size());
     return o;
 }
 
@@ -58,7 +59,7 @@ Case case_of(const std::vector<std::string>& keys) {
     all.insert(all.end(), keys.begin(), keys.end());
     return read_case_text("[surface]\nsites = 32\nkind = \"flat\"\n", "field.toml", all);
 }
-const AdhesionMap& field_of(const Case& c) { return *c.simulation.interface.adhesion; }
+const SiteMap& field_of(const Case& c) { return *c.simulation.interface.adhesion; }
 
 /// Returns the text of the problems of a scene; empty if it has none.
 std::string problems_of(const std::vector<std::string>& keys) {
@@ -140,7 +141,8 @@ TEST(AdhesionField, EachSiteHasItsLaw) {
         }
     EXPECT_NEAR(sums.energy.value(), energy, 1e-9);
     const InterfaceMaps maps = c.interface.maps(c.block.lowest_layer());
-    EXPECT_EQ(maps.adhesion, part);
+    ASSERT_EQ(maps.of_sites.size(), 1u);
+    EXPECT_EQ(maps.of_sites[0].second, part);
 }
 
 /// Flat rigid surfaces: the mean of the works, and no more.
@@ -173,11 +175,11 @@ TEST(AdhesionField, ForceIsTheGradient) {
 
 TEST(AdhesionField, Formulas) {
     const double edge = 32 * a;
-    const auto count = [](const AdhesionMap& map, double value) {
-        return std::count(map.work.begin(), map.work.end(), value);
+    const auto count = [](const SiteMap& map, double value) {
+        return std::count(map.values.begin(), map.values.end(), value);
     };
     const Case stripes = case_of({"interface.adhesion=stripes 10 mJ/m^2 50 mJ/m^2 2.08 nm"});
-    const AdhesionMap& s = field_of(stripes);
+    const SiteMap& s = field_of(stripes);
     EXPECT_EQ(s.sites, 32);
     EXPECT_NEAR(s.largest, 50.0 / 16.02176634, 1e-9);
     EXPECT_EQ(count(s, s.largest), 512);
@@ -186,12 +188,12 @@ TEST(AdhesionField, Formulas) {
     EXPECT_EQ(stripes.scene.interface.adhesion, s.largest);
     EXPECT_TRUE(stripes.notes.empty());
 
-    const AdhesionMap discs = field_of(case_of({"interface.adhesion=discs 1 2 10 41.6"}));
+    const SiteMap discs = field_of(case_of({"interface.adhesion=discs 1 2 10 41.6"}));
     EXPECT_NEAR(static_cast<double>(count(discs, 2.0)), 4 * std::numbers::pi * 100 / area, 12.0);
     EXPECT_EQ(discs.at(8, 8), 2.0);
     EXPECT_EQ(discs.at(0, 0), 1.0);
 
-    const AdhesionMap rings = field_of(case_of({"interface.adhesion=rings 10 0.4 20"}));
+    const SiteMap rings = field_of(case_of({"interface.adhesion=rings 10 0.4 20"}));
     EXPECT_DOUBLE_EQ(rings.at(16, 16), 14.0);
     for (const int x : {3, 19, 30}) {
         const double r = std::hypot(x - 16, 9 - 16) * a;
@@ -200,11 +202,12 @@ TEST(AdhesionField, Formulas) {
 
     const std::vector<std::string> patches = {"surface.sites=128",
                                               "interface.adhesion=patches 1 3 15 7"};
-    const AdhesionMap random = field_of(case_of(patches));
+    const SiteMap random = field_of(case_of(patches));
     EXPECT_EQ(count(random, 3.0), 128 * 64);
-    EXPECT_EQ(random.work, field_of(case_of(patches)).work);
-    EXPECT_NE(random.work,
-              field_of(case_of({"surface.sites=128", "interface.adhesion=patches 1 3 15 8"})).work);
+    EXPECT_EQ(random.values, field_of(case_of(patches)).values);
+    EXPECT_NE(
+        random.values,
+        field_of(case_of({"surface.sites=128", "interface.adhesion=patches 1 3 15 8"})).values);
     // Signs of a Gaussian field are correlated by (2/pi) asin C.
     for (const int lag : {2, 5}) {
         double sum = 0.0;
@@ -232,13 +235,13 @@ TEST(AdhesionField, Files) {
     EXPECT_EQ(field_of(plain).at(2, 3), 10.0);
     EXPECT_EQ(field_of(plain).at(2, 4), 40.0);
     EXPECT_EQ(plain.inputs().back(), map);
-    ASSERT_TRUE(plain.adhesion_digest);
-    const AdhesionMap joule = field_of(case_of(keys(map, {"interface.adhesion_unit=mJ/m^2"})));
+    ASSERT_TRUE(field_of(plain).digest);
+    const SiteMap joule = field_of(case_of(keys(map, {"interface.adhesion_unit=mJ/m^2"})));
     EXPECT_NEAR(joule.at(0, 0), 40.0 / 16.02176634, 1e-9);
     // The middle of a wider map, and of one that is not square.
     const std::string wide = file_of(scratch, "wide.txt", 64, 64, "10");
-    const AdhesionMap middle = field_of(case_of(keys(wide, {"interface.adhesion_size=166.4"})));
-    EXPECT_EQ(middle.work, std::vector<double>(32 * 32, 40.0));
+    const SiteMap middle = field_of(case_of(keys(wide, {"interface.adhesion_size=166.4"})));
+    EXPECT_EQ(middle.values, std::vector<double>(32 * 32, 40.0));
     const std::string high = file_of(scratch, "high.txt", 34, 32, "10");
     EXPECT_NE(problems_of(keys(high)).find("interface.adhesion_crop = \"middle\""),
               std::string::npos);

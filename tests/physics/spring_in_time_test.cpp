@@ -123,9 +123,9 @@ TEST(SpringInTime, ComesToRestInTheStaticState) {
         EXPECT_NEAR(moving.machine_energy, 0.5 * stiffness * std::pow(moving.top - moving.drive, 2),
                     1e-12);
 
+        o.block.top_spring = stiffness;
         test::PathCase rest(o.block, test::reference_surface("n8_b_rms1.0"));
         rest.interface.set_reference_height(5.0);
-        rest.block.set_machine(stiffness);
         copy_layer(std::as_const(s).block().lowest_layer(), rest.block.layer().plane(0));
         RelaxOptions near;
         near.start = Start::near;

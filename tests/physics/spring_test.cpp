@@ -17,13 +17,17 @@ namespace {
 constexpr double range = 1.3;    ///< of the wall's attraction, Å
 constexpr double adhesion = 0.7; ///< eV for each site
 
+/// Returns the options of a block whose top plane a spring holds; 0: none.
+BlockOptions on_spring(BlockOptions block, double spring) {
+    block.top_spring = spring;
+    return block;
+}
+
 /// A block over a wall without curvature or roughness, which stays flat; spring 0: none.
 struct Flat : test::PathCase {
     explicit Flat(double spring = 0.0)
-        : PathCase(test::paper_block(4, 4, 0), test::flat_surface(4),
-                   ExponentialWall(adhesion, range, 24.0)) {
-        if (spring > 0.0) block.set_machine(spring);
-    }
+        : PathCase(on_spring(test::paper_block(4, 4, 0), spring), test::flat_surface(4),
+                   ExponentialWall(adhesion, range, 24.0)) {}
 };
 
 /// Returns the stiffness of springs in series.
@@ -116,8 +120,8 @@ TEST(Spring, InAStablePathOnlyMovesTheDrive) {
     // state is that of a top plane at D + F/k.
     test::PathCase stiff(test::paper_block(8, 2, 0), test::wave(8, 0.8),
                          ExponentialWall(0.02, range, 24.0));
-    test::PathCase soft(stiff.options, test::wave(8, 0.8), ExponentialWall(0.02, range, 24.0));
-    soft.block.set_machine(5.0 * stiff.sites() * 0.02 / (range * range));
+    test::PathCase soft(on_spring(stiff.options, 5.0 * stiff.sites() * 0.02 / (range * range)),
+                        test::wave(8, 0.8), ExponentialWall(0.02, range, 24.0));
     test::KeptPath path = soft.path(1e-6);
     path.start();
     for (const StepRecord& point : test::follow(path, {Segment::height, -2.0 - 0.5, 0, ""})) {

@@ -1,18 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-//
-// The work of adhesion of each site: a map from a file, or a formula. Lengths are those of the box;
-// a pattern repeats with it, so its period is rounded to a whole part of the edge.
-//
-//     stripes LOW HIGH PERIOD         half a period of each along x
-//     discs LOW HIGH RADIUS DISTANCE  discs of HIGH on a square lattice, LOW between them
-//     rings MEAN AMPLITUDE PERIOD     MEAN (1 + AMPLITUDE cos(2 pi r / PERIOD)), r from the middle
-//                                     of the box, where the cap of surface.radius has its apex
-//     patches LOW HIGH LENGTH SEED    HIGH at half of the sites: where a Gaussian random field of
-//                                     autocorrelation exp(-r^2 / LENGTH^2) exceeds its median
-#include "engine/case/resolving.hpp"
+#include "engine/case/site_map.hpp"
+
 #include "engine/case/site_field.hpp"
 #include "engine/scene/heights.hpp"
+#include "engine/scene/scene_files.hpp"
 #include "io/error.hpp"
 #include "io/files.hpp"
 #include "io/units.hpp"
@@ -38,8 +30,6 @@ namespace asperity {
 
 namespace {
 
-constexpr const char* key = "interface.adhesion";
-constexpr const char* unit = "meV/Å^2";
 constexpr double pi = std::numbers::pi;
 
 /// A formula: its name and its numbers, with their units in the engine.
@@ -49,22 +39,21 @@ struct Formula {
     std::string form, example;
 };
 
-const std::vector<Formula>& formulas() {
-    static const std::vector<Formula> all = {
-        {"stripes",
-         {unit, unit, "Å"},
-         "stripes LOW HIGH PERIOD",
-         "stripes 10 mJ/m^2 50 mJ/m^2 20 nm"},
-        {"discs",
-         {unit, unit, "Å", "Å"},
-         "discs LOW HIGH RADIUS DISTANCE",
-         "discs 10 mJ/m^2 50 mJ/m^2 5 nm 20 nm"},
-        {"rings", {unit, "", "Å"}, "rings MEAN AMPLITUDE PERIOD", "rings 50 mJ/m^2 0.2 10 nm"},
-        {"patches",
-         {unit, unit, "Å", ""},
-         "patches LOW HIGH LENGTH SEED",
-         "patches 10 mJ/m^2 50 mJ/m^2 5 nm 1"}};
-    return all;
+std::vector<Formula> formulas_of(const SiteQuantity& of) {
+    const std::string &unit = of.unit, both = of.low + " " + of.high;
+    return {{"stripes", {unit, unit, "Å"}, "stripes LOW HIGH PERIOD", "stripes " + both + " 20 nm"},
+            {"discs",
+             {unit, unit, "Å", "Å"},
+             "discs LOW HIGH RADIUS DISTANCE",
+             "discs " + both + " 5 nm 20 nm"},
+            {"rings",
+             {unit, "", "Å"},
+             "rings MEAN AMPLITUDE PERIOD",
+             "rings " + of.high + " 0.2 10 nm"},
+            {"patches",
+             {unit, unit, "Å", ""},
+             "patches LOW HIGH LENGTH SEED",
+             "patches " + both + " 5 nm 1"}};
 }
 
 /// Error of a formula, in words that follow the key and its value.
@@ -72,8 +61,9 @@ struct BadFormula {
     std::string what, why, fix;
 };
 
-/// Returns the numbers of a formula. Throws BadFormula.
-std::vector<double> numbers_of(const Formula& formula, const std::string& text) {
+/// Returns the numbers of a formula of a quantity. Throws BadFormula.
+std::vector<double> numbers_of(const Formula& formula, const std::string& text,
+                               const SiteQuantity& of) {
     std::istringstream words(text.substr(formula.name.size()));
     std::vector<std::string> quantities;
     for (std::string word; words >> word;)
@@ -94,11 +84,11 @@ std::vector<double> numbers_of(const Formula& formula, const std::string& text) 
         if (!read.why.empty())
             throw BadFormula{fmt::format("has '{}'", quantities[i]), read.why, fix};
         if (!std::isfinite(read.value) || read.value < 0.0 || (length && read.value == 0.0))
-            throw BadFormula{fmt::format("has '{}'", quantities[i]),
-                             length
-                                 ? "a length is above zero"
-                                 : "a work of adhesion, an amplitude and a seed are zero or more",
-                             fix};
+            throw BadFormula{
+                fmt::format("has '{}'", quantities[i]),
+                length ? "a length is above zero"
+                       : fmt::format("a {}, an amplitude and a seed are zero or more", of.words),
+                fix};
         numbers.push_back(read.value);
     }
     return numbers;
@@ -155,10 +145,11 @@ std::vector<double> random_field(const Square& box, double length, std::uint64_t
     return field;
 }
 
-/// Returns the field of a formula, meV/Å^2. Throws BadFormula.
-std::vector<double> values_of(const Formula& formula, const std::string& text, const Square& box,
+/// Returns the values of a formula on the sites of the box. Throws BadFormula.
+std::vector<double> values_of(const Formula& formula, const std::string& text,
+                              const SiteQuantity& of, const Square& box,
                               std::vector<std::string>& notes) {
-    const std::vector<double> p = numbers_of(formula, text);
+    const std::vector<double> p = numbers_of(formula, text, of);
     const auto period_of = [&](double asked) {
         const double used = fitting(asked, box);
         if (asked > box.edge())
@@ -166,9 +157,10 @@ std::vector<double> values_of(const Formula& formula, const std::string& text, c
                              fmt::format("the box is {:.6g} Å wide, and repeats", box.edge()),
                              "take a shorter period or a wider box"};
         if (std::abs(used - asked) > 1e-9 * asked)
-            notes.push_back(fmt::format("{}: the period of {:.6g} Å is {:.6g} Å, of which {:.0f} "
-                                        "fit into the box",
-                                        key, asked, used, box.edge() / used));
+            notes.push_back(
+                fmt::format("interface.{}: the period of {:.6g} Å is {:.6g} Å, of which {:.0f} "
+                            "fit into the box",
+                            of.name, asked, used, box.edge() / used));
         return used;
     };
     // A site on the border of two stripes is on its far side, however x / period is rounded.
@@ -190,9 +182,10 @@ std::vector<double> values_of(const Formula& formula, const std::string& text, c
     }
     if (formula.name == "rings") {
         if (p[1] > 1.0)
-            throw BadFormula{fmt::format("has an amplitude of {:.6g}", p[1]),
-                             "above 1 the work of adhesion would be negative between the rings",
-                             "take an amplitude from 0 to 1"};
+            throw BadFormula{
+                fmt::format("has an amplitude of {:.6g}", p[1]),
+                fmt::format("above 1 the {} would be negative between the rings", of.words),
+                "take an amplitude from 0 to 1"};
         const double middle = 0.5 * box.edge();
         return box.of([&](double x, double y) {
             const double r = std::hypot(x - middle, y - middle);
@@ -210,19 +203,19 @@ std::vector<double> values_of(const Formula& formula, const std::string& text, c
     return values;
 }
 
-/// Returns the field of a file, meV/Å^2, on the sites of the box. Throws io::SceneError.
-std::vector<double> values_of_file(Case& c, const Square& box) {
-    const Scene::Interface& keys = c.scene.interface;
-    io::HeightMap map =
-        read_field({keys.adhesion_field,
-                    c.adhesion_file,
-                    {keys.adhesion_unit,
-                     keys.adhesion_missing == MapMissing::fill,
-                     keys.adhesion_crop == MapCrop::middle,
-                     keys.adhesion_size,
-                     false,
-                     {"work of adhesion", "adhesion", unit, key, "energy per area"}}},
-                   Communicator());
+/// Returns the values of a file on the sites of the box. Throws io::SceneError.
+std::vector<double> values_of_file(Case& c, const Scene::SiteMapKeys& keys, const std::string& file,
+                                   const SiteQuantity& of, const Square& box) {
+    const std::string key = "interface." + of.name;
+    io::HeightMap map = read_field({keys.source,
+                                    file,
+                                    {keys.unit,
+                                     keys.missing == MapMissing::fill,
+                                     keys.crop == MapCrop::middle,
+                                     keys.size,
+                                     false,
+                                     {of.words, of.name, of.unit, key, of.dimension}}},
+                                   Communicator());
     SurfaceOptions covered;
     covered.sites = box.sites;
     covered.length = box.edge();
@@ -230,16 +223,16 @@ std::vector<double> values_of_file(Case& c, const Square& box) {
     const int points = static_cast<int>(map.rows), whole = sites_of_map(covered);
     const auto refuse = [&](const std::string& what, const std::string& why,
                             const std::string& fix) {
-        throw io::SceneError(
-            io::Problem{c.scene.positions.where(key),
-                        fmt::format("{} = \"{}\" {}", key, keys.adhesion_field, what), why, fix});
+        throw io::SceneError(io::Problem{c.scene.positions.where(key),
+                                         fmt::format("{} = \"{}\" {}", key, keys.source, what), why,
+                                         fix});
     };
     if (whole < box.sites)
         refuse(fmt::format("is {:.6g} Å wide", *map.width),
                fmt::format("the box is {:.6g} Å wide", box.edge()),
                fmt::format("take surface.spacing = {:.10g}, or stretch the map on purpose with "
-                           "interface.adhesion_size = {:.6g}",
-                           *map.width / box.sites, box.edge()));
+                           "{}_size = {:.6g}",
+                           *map.width / box.sites, key, box.edge()));
     const bool resampled = c.scene.surface.kind == SurfaceKind::file &&
                            c.scene.surface.resample == Resample::band_limited;
     if (points != whole && !resampled)
@@ -250,8 +243,7 @@ std::vector<double> values_of_file(Case& c, const Square& box) {
     const auto [least, largest] = std::minmax_element(values.begin(), values.end());
     const double low = *least, high = *largest;
     if (low < 0.0)
-        refuse(fmt::format("has a value of {:.4g} {}", low, unit),
-               "a work of adhesion is zero or more: a site repels at contact alone",
+        refuse(fmt::format("has a value of {:.4g} {}", low, of.unit), of.negative,
                "set the negative values of the map to 0 before, or correct its zero");
     if (points != whole) {
         values = heights::resample(values, points, points, whole);
@@ -273,57 +265,52 @@ std::vector<double> values_of_file(Case& c, const Square& box) {
 
 } // namespace
 
-void find_adhesion_field(Case& c, io::Problems& problems) {
-    const std::string& text = c.scene.interface.adhesion_field;
-    if (text.empty()) return;
+std::shared_ptr<const SiteMap> site_map(Case& c, const Scene::SiteMapKeys& keys,
+                                        const SiteQuantity& of, io::Problems& problems) {
+    const std::string &text = keys.source, key = "interface." + of.name;
     const Square box{c.scene.surface.sites, c.scene.surface.spacing};
-    auto field = std::make_shared<AdhesionMap>();
-    field->name = text;
-    field->sites = box.sites;
-    const auto formula = std::find_if(formulas().begin(), formulas().end(), [&](const Formula& f) {
+    auto map = std::make_shared<SiteMap>();
+    map->name = of.name;
+    map->source = text;
+    map->sites = box.sites;
+    const std::vector<Formula> formulas = formulas_of(of);
+    const auto formula = std::find_if(formulas.begin(), formulas.end(), [&](const Formula& f) {
         return text == f.name || text.starts_with(f.name + " ");
     });
     try {
-        if (formula != formulas().end()) {
-            field->work = values_of(*formula, text, box, c.notes);
+        if (formula != formulas.end()) {
+            map->values = values_of(*formula, text, of, box, c.notes);
         } else {
             const std::size_t colon = text.find(":/");
-            c.adhesion_file = find_beside_scene(c.scene, text.substr(0, colon), key);
-            if (c.adhesion_file.empty())
+            map->file = find_beside_scene(c.scene, text.substr(0, colon), key);
+            if (map->file.empty())
                 throw BadFormula{"is neither a file nor a formula",
-                                 "a map of the work of adhesion is looked for beside the scene and "
-                                 "in the working directory; formulas are stripes, discs, rings and "
-                                 "patches",
+                                 fmt::format("a map of the {} is looked for beside the scene and "
+                                             "in the working directory; formulas are stripes, "
+                                             "discs, rings and patches",
+                                             of.words),
                                  fmt::format("give the path of a map, or write, for example, "
                                              "\"{}\"",
-                                             formulas().front().example)};
-            if (colon != std::string::npos) c.adhesion_file += text.substr(colon);
-            field->work = values_of_file(c, box);
+                                             formulas.front().example)};
+            if (colon != std::string::npos) map->file += text.substr(colon);
+            map->values = values_of_file(c, keys, map->file, of, box);
         }
     } catch (const BadFormula& bad) {
         problems.add(key, fmt::format("= \"{}\" {}", text, bad.what), bad.why, bad.fix);
-        return;
+        return nullptr;
     } catch (const io::SceneError& error) {
         for (const io::Problem& problem : error.problems())
             problems.add(problem);
-        return;
+        return nullptr;
     } catch (const std::invalid_argument& error) { // thrown for its size
         problems.add(key, std::string(": ") + error.what());
-        return;
+        return nullptr;
     }
-    if (c.scene.interface.shape_repels() &&
-        *std::min_element(field->work.begin(), field->work.end()) == 0.0) {
-        problems.add(
-            key, fmt::format("= \"{}\" is 0 at some sites", text),
-            "the law (interface.law) repels by itself, and the work of adhesion multiplies "
-            "its repulsion too: nothing would repel there",
-            "take a small work of adhesion in place of 0, or law = \"exponential\"");
-        return;
-    }
-    field->largest = *std::max_element(field->work.begin(), field->work.end());
-    c.adhesion_digest = io::digest_of(std::as_bytes(std::span(std::as_const(field->work))));
-    c.scene.interface.adhesion = field->largest;
-    c.simulation.interface.adhesion = std::move(field);
+    const auto [least, largest] = std::minmax_element(map->values.begin(), map->values.end());
+    map->least = *least;
+    map->largest = *largest;
+    map->digest = io::digest_of(std::as_bytes(std::span(std::as_const(map->values))));
+    return map;
 }
 
 } // namespace asperity

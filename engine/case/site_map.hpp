@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: 2026 The Asperity authors
+// SPDX-License-Identifier: MIT
+//
+// Maps of the sites: a number for each site, from a file or a formula. Lengths are those of the
+// box; a pattern repeats with it, so its period is rounded to a whole part of the edge.
+//
+//     stripes LOW HIGH PERIOD         half a period of each along x
+//     discs LOW HIGH RADIUS DISTANCE  discs of HIGH on a square lattice, LOW between them
+//     rings MEAN AMPLITUDE PERIOD     MEAN (1 + AMPLITUDE cos(2 pi r / PERIOD)), r from the middle
+//                                     of the box, where the cap of surface.radius has its apex
+//     patches LOW HIGH LENGTH SEED    HIGH at half of the sites: where a Gaussian random field of
+//                                     autocorrelation exp(-r^2 / LENGTH^2) exceeds its median
+#pragma once
+
+#include "engine/case/case.hpp"
+
+#include <memory>
+#include <string>
+
+namespace asperity {
+
+/// Quantity of a map of the sites, which is zero or more at each.
+struct SiteQuantity {
+    std::string name;      ///< name in results: "adhesion", of the key interface.adhesion
+    std::string words;     ///< "work of adhesion"
+    std::string dimension; ///< "energy per area"
+    std::string unit;      ///< unit of the key
+    std::string low, high; ///< values of an example: "10 mJ/m^2"
+    std::string negative;  ///< reason why a value is not negative
+};
+
+/// Reads or computes a map of the sites and adds its notes to the case. Returns null, with the
+/// mistakes in problems, if it has some.
+std::shared_ptr<const SiteMap> site_map(Case& c, const Scene::SiteMapKeys& keys,
+                                        const SiteQuantity& quantity, io::Problems& problems);
+
+} // namespace asperity
