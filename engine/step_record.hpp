@@ -22,10 +22,8 @@ struct ContactCount {
     }
 };
 
-/// Global numbers of a step or point, bitwise identical on every rank. Energies in eV.
-struct StepRecord : ContactCount {
-    long long step = 0;       ///< number of the step, or of the point of a quasi-static path
-    double time = 0.0;        ///< fs
+/// Place of the block at a step or point, and the forces on it.
+struct PlaceAndForces {
     double top = 0.0;         ///< displacement of the top plane, Å
     double drive = 0.0;       ///< displacement of the far end of the spring that holds it, Å
     double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
@@ -34,18 +32,54 @@ struct StepRecord : ContactCount {
     // Numbers along x and y, of a path that slides; else 0.
     std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
     std::array<double, 2> lateral_force{}; ///< force of the substrate on the lowest layer, eV/Å
-    // Numbers of observed steps only, like the contacts:
-    bool observed = false;
-    double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("top", top);
+        v("drive", drive);
+        v("mean_height", mean_height);
+        v("force", force);
+        v("top_force", top_force);
+        v("slide", slide);
+        v("lateral_force", lateral_force);
+    }
+};
+
+/// Energies of an observed step or of a point, eV.
+struct Energies {
+    double interface_energy = 0.0; ///< U_LJ
+    double elastic_energy = 0.0;   ///< U_el, with branches and the spring that holds the top plane
+    double kinetic_energy = 0.0;   ///< zero at rest
     /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m: with it the energies are
     /// what the leapfrog conserves over springs (thermostat.hpp).
     double time_step_energy = 0.0;
+    double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
+    double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
+
+    /// Returns the energy of the solids.
+    double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("interface_energy", interface_energy);
+        v("elastic_energy", elastic_energy);
+        v("kinetic_energy", kinetic_energy);
+        v("time_step_energy", time_step_energy);
+        v("branch_energy", branch_energy);
+        v("machine_energy", machine_energy);
+    }
+};
+
+/// Global numbers of a step or point, bitwise identical on every rank. Energies in eV.
+struct StepRecord : ContactCount, PlaceAndForces, Energies {
+    long long step = 0; ///< number of the step, or of the point of a quasi-static path
+    double time = 0.0;  ///< fs
+    // Numbers of observed steps only, like the contacts and the energies:
+    bool observed = false;
     /// Work of the drive and of forces from outside on the solids, from rest apart: it includes the
     /// energy of the block at the start, and that of values written to its fields.
     double work = 0.0;
-    double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
-    double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
-    double relaxed = 0.0;        ///< energy dissipated by the branches since the start
+    double relaxed = 0.0; ///< energy dissipated by the branches since the start
     /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
     /// the energy dissipated at instabilities.
     double damped = 0.0;
@@ -54,29 +88,16 @@ struct StepRecord : ContactCount {
     /// of the energies and of the work so far.
     double residual = 0.0;
 
-    double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
-
     /// Passes the members to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
         v("step", step);
         v("time", time);
-        v("top", top);
-        v("drive", drive);
-        v("mean_height", mean_height);
-        v("force", force);
-        v("top_force", top_force);
-        v("slide", slide);
-        v("lateral_force", lateral_force);
+        PlaceAndForces::visit(v);
         v("observed", observed);
-        v("interface_energy", interface_energy);
-        v("elastic_energy", elastic_energy);
-        v("kinetic_energy", kinetic_energy);
-        v("time_step_energy", time_step_energy);
+        Energies::visit(v);
         ContactCount::visit(v);
         v("work", work);
-        v("branch_energy", branch_energy);
-        v("machine_energy", machine_energy);
         v("relaxed", relaxed);
         v("damped", damped);
         v("interface_work", interface_work);

@@ -179,20 +179,21 @@ void Simulation::enter_in_ledger() {
     const double sites = static_cast<double>(options_.block.sites);
     const double top = top_.z_before(options_.dt), drive = top_.drive_before(options_.dt);
     const double spring = top_spring_.stiffness * (drive - top);
-    StepTotals now{.top = top,
-                   .drive = top_spring_ ? drive : top,
-                   .mean_height = interface_.reference_height() + lowest / (sites * sites),
-                   .force = force,
-                   .top_force = top_force,
-                   .drive_force = top_spring_ ? -spring : top_force,
-                   .dissipated = dissipated + sums_.top.dissipated,
-                   .drag = top_.machine.z * (dragged + sums_.top.dragged),
-                   .heat = heat,
-                   .interface_energy = interface_energy,
-                   .elastic_energy = elastic + 0.5 * spring * (drive - top),
-                   .kinetic_energy = kinetic + sums_.top.kinetic,
-                   .time_step_energy = thermostat_ ? of_step : 0.0,
-                   .machine_energy = 0.5 * spring * (drive - top)};
+    const double in_spring = 0.5 * spring * (drive - top);
+    StepTotals now{{.top = top,
+                    .drive = top_spring_ ? drive : top,
+                    .mean_height = interface_.reference_height() + lowest / (sites * sites),
+                    .force = force,
+                    .top_force = top_force},
+                   {.interface_energy = interface_energy,
+                    .elastic_energy = elastic + in_spring,
+                    .kinetic_energy = kinetic + sums_.top.kinetic,
+                    .time_step_energy = thermostat_ ? of_step : 0.0,
+                    .machine_energy = in_spring},
+                   top_spring_ ? -spring : top_force,
+                   dissipated + sums_.top.dissipated,
+                   top_.machine.z * (dragged + sums_.top.dragged),
+                   heat};
     if (slides()) {
         now.slide = interface_.place();
         now.lateral_force = global_sums(communicator(), sums_.lateral);

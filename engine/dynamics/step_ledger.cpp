@@ -31,22 +31,12 @@ void StepLedger::enter(const StepTotals& now, StepRecord& record) {
     has_previous_ = true;
     pending_ = {now.dissipated, now.drag, now.heat, now.drive_force};
 
-    record.top = now.top;
-    record.drive = now.drive;
-    record.mean_height = now.mean_height;
-    record.force = now.force;
-    record.top_force = now.top_force;
-    record.slide = now.slide;
-    record.lateral_force = now.lateral_force;
+    static_cast<PlaceAndForces&>(record) = now;
     if (record.observed) balance_energies(now, record);
 }
 
 void StepLedger::balance_energies(const StepTotals& now, StepRecord& record) {
-    record.interface_energy = now.interface_energy;
-    record.elastic_energy = now.elastic_energy;
-    record.kinetic_energy = now.kinetic_energy;
-    record.time_step_energy = now.time_step_energy;
-    record.machine_energy = now.machine_energy;
+    static_cast<Energies&>(record) = now;
     const double energy = record.energy() + record.time_step_energy;
     if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
     record.work = balance_.work() + *energy_brought_;

@@ -40,19 +40,11 @@ struct EnergyBalance {
     }
 };
 
-/// Amounts of a step, summed over all ranks.
-struct StepTotals {
-    double top = 0.0, drive = 0.0, mean_height = 0.0; ///< Å
-    double force = 0.0, top_force = 0.0;              ///< eV/Å
-    double drive_force = 0.0;                         ///< force on the machine along z, eV/Å
-    double dissipated = 0.0, drag = 0.0, heat = 0.0;  ///< eV
+/// Amounts of a step, summed over all ranks; the energies at an observed step only.
+struct StepTotals : PlaceAndForces, Energies {
+    double drive_force = 0.0;                        ///< force on the machine along z, eV/Å
+    double dissipated = 0.0, drag = 0.0, heat = 0.0; ///< eV
     double external = 0.0; ///< work of forces from outside since the step before, eV
-    /// Place over the substrate, Å, and force of the substrate, eV/Å; of a path that slides
-    std::array<double, 2> slide{}, lateral_force{};
-    // Energies at an observed step, eV:
-    double interface_energy = 0.0, elastic_energy = 0.0, kinetic_energy = 0.0;
-    double time_step_energy = 0.0; ///< zero without a temperature (thermostat.hpp)
-    double machine_energy = 0.0;   ///< part of elastic_energy in the spring that holds the top
 };
 
 /// Ledger of the steps of a simulation.

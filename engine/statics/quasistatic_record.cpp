@@ -98,10 +98,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.force = state.force;
     record_.top_force = state.top_force;
     record_.observed = true;
-    record_.interface_energy = state.interface_energy;
-    record_.elastic_energy = state.elastic_energy;
-    record_.branch_energy = state.branches.stored;
-    record_.machine_energy = state.machine_energy;
+    static_cast<Energies&>(record_) = state;
     static_cast<ContactCount&>(record_) = state;
     const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
     scale_ = std::max(

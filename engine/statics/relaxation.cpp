@@ -252,7 +252,8 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     const BlockEnergies energies = block.energies();
     state.branches = energies.branches;
     state.machine_energy = energies.machine;
-    state.elastic_energy = energies.elastic + state.machine_energy + state.branches.stored;
+    state.branch_energy = state.branches.stored;
+    state.elastic_energy = energies.elastic + state.machine_energy + state.branch_energy;
     state.top = block.top();
     state.mean_height = block.mean_height_of_box();
     static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());

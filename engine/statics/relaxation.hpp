@@ -125,19 +125,16 @@ struct RelaxationConstants {
     static constexpr double single_precision_error = 4e-6;
 };
 
-struct RelaxedState : ContactCount {
+struct RelaxedState : ContactCount, Energies {
     bool converged = false;
     bool interrupted = false; ///< report() asked for it
     bool jumped = false;      ///< abandoned: the force has left its window
     bool balanced = true;     ///< the forces add up to what is prescribed
     long long iterations = 0;
-    double residual = 0.0;         ///< eV/Å
-    double rounding = 0.0;         ///< estimate of the residual left by rounding, eV/Å
-    double interface_energy = 0.0; ///< U_LJ, eV
-    double elastic_energy = 0.0;   ///< U_el, that of branches and of the machine included, eV
-    double machine_energy = 0.0;   ///< energy of the spring that holds the top plane, eV
-    BranchEnergies branches{};     ///< energy of branches, and their dissipation in the step
-    double force = 0.0;            ///< total normal force on the lowest layer, eV/Å
+    double residual = 0.0;     ///< eV/Å
+    double rounding = 0.0;     ///< estimate of the residual left by rounding, eV/Å
+    BranchEnergies branches{}; ///< energy of branches, and their dissipation in the step
+    double force = 0.0;        ///< total normal force on the lowest layer, eV/Å
     /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
     /// that this takes, which is `force`.
     double top_force = 0.0;
