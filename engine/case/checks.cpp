@@ -33,7 +33,8 @@ void check_path(const Case& c, io::Problems& problems) {
     const bool wall = c.scene.interface.kind == InterfaceKind::wall;
     for (std::size_t i = 0; i < c.path().size(); ++i) {
         const Segment& segment = c.path()[i];
-        const auto refuse = [&](const std::string& why_not, const char* why, const char* instead) {
+        const auto refuse = [&](const std::string& why_not, const char* why,
+                                const std::string& instead) {
             problems.add("drive.path", fmt::format("has \"{}\" {}", segment.text, why_not), why,
                          instead);
         };
@@ -83,10 +84,10 @@ void check_path(const Case& c, io::Problems& problems) {
                 refuse("over a map with free edges",
                        "the map moves periodically, and its edges would move along",
                        "take surface.boundary = \"periodic\"");
-            if (c.scene.interface.adhesion_map.given())
-                refuse("over a field of the work of adhesion",
+            for (const SiteMapKeys* map : c.scene.interface.site_maps())
+                refuse(fmt::format("over a field of the {}", map->of.words),
                        "the heights move under the block, and the field would stay",
-                       "give interface.adhesion a number");
+                       fmt::format("give interface.{} a number", map->of.name));
             if (wall && c.effects.dynamic)
                 refuse("over a wall on a dynamic path",
                        "a wall moves under a block that is in force balance",
@@ -287,14 +288,17 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
-    if (interface.adhesion_map.given() && pairs)
-        problems.add("interface.adhesion",
-                     fmt::format("= \"{}\" without a wall that has a law of its own",
-                                 interface.adhesion_map.source),
-                     "pairs of atoms, and walls of smeared atoms, have the work of adhesion of "
-                     "their potential",
-                     "take interface.kind = \"wall\" with another law than \"smeared\" on a "
-                     "quasi-static path, or leave adhesion out");
+    for (const SiteMapKeys* map : interface.site_maps())
+        if (pairs)
+            problems.add(
+                fmt::format("interface.{}", map->of.name),
+                fmt::format("= \"{}\" without a wall that has a law of its own", map->source),
+                fmt::format("pairs of atoms, and walls of smeared atoms, have the {} of "
+                            "their potential",
+                            map->of.words),
+                fmt::format("take interface.kind = \"wall\" with another law than "
+                            "\"smeared\" on a quasi-static path, or leave {} out",
+                            map->of.name));
     if (interface.has_adhesion() && interface.shape_repels() && interface.adhesion == 0.0)
         problems.add("interface.adhesion", "= 0 meV/Å^2 with a law that repels by itself",
                      "the work of adhesion multiplies its repulsion too, and nothing would repel",

@@ -39,7 +39,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"temperature", temperature}, {"finite strain", finite_strain},
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail},
-            {"adhesion of each site", adhesion_map}, {"curvature", curvature},
+            {"numbers of each site", site_maps}, {"curvature", curvature},
             {"free edges", free_edges}, {"viscoelastic block", branches}, {"layers", layers},
             {"surface stress", surface_stress}, {"spring of the machine", spring},
             {"relaxation", relaxation},
@@ -95,10 +95,13 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
-    const Scene::SiteMapKeys& field = s.interface.adhesion_map;
-    e.adhesion_map = {field.given(), field.given()
-                                         ? fmt::format("interface.adhesion = \"{}\"", field.source)
-                                         : "interface.adhesion is no field"};
+    for (const SiteMapKeys* map : s.interface.site_maps()) {
+        e.site_maps.on = true;
+        e.site_maps.why +=
+            fmt::format("{}interface.{} = \"{}\"", e.site_maps.why.empty() ? "" : ", ",
+                        map->of.name, map->source);
+    }
+    if (!e.site_maps) e.site_maps.why = "interface.adhesion is no field";
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
@@ -158,10 +161,11 @@ NoTheory no_theory(const Scene& scene, const Effects& effects) {
     if (effects.free_edges)
         return none("surface.boundary", "the substrate ends at the edges of the box",
                     "of endless surfaces", "take boundary = \"periodic\"");
-    if (effects.adhesion_map)
-        return none("interface.adhesion", "the work of adhesion differs from site to site",
-                    "of one work of adhesion",
-                    "give interface.adhesion a number, for example the mean");
+    for (const SiteMapKeys* map : scene.interface.site_maps())
+        return none(fmt::format("interface.{}", map->of.name),
+                    fmt::format("the {} differs from site to site", map->of.words),
+                    fmt::format("of one {}", map->of.words),
+                    fmt::format("give interface.{} a number, for example the mean", map->of.name));
     if (effects.layers)
         return none(
             "block.layers", "the block has layers", one_modulus,

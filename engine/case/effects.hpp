@@ -36,7 +36,7 @@ struct Effects {
         skipping,       ///< sites beyond the interaction range are left out of the sweep
         sliding,        ///< slides of the block over the substrate
         tail,           ///< continuum correction beyond the cutoff
-        adhesion_map,   ///< a work of adhesion for each site
+        site_maps,      ///< numbers of the interface that differ from site to site
         curvature,      ///< a spherical cap under the roughness
         branches,       ///< memory of a viscoelastic block
         free_edges,     ///< a box without periodic images

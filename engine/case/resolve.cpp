@@ -376,11 +376,7 @@ void find_site_maps(Case& c, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
     if (!keys.adhesion_map.given()) return;
     constexpr const char* key = "interface.adhesion";
-    const auto map = site_map(
-        c, keys.adhesion_map,
-        {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
-         "a work of adhesion is zero or more: a site repels at contact alone"},
-        problems);
+    const auto map = site_map(c, keys.adhesion_map, problems);
     if (!map) return;
     if (keys.shape_repels() && map->least == 0.0)
         return problems.add(

@@ -40,20 +40,18 @@ struct Formula {
 };
 
 std::vector<Formula> formulas_of(const SiteQuantity& of) {
-    const std::string &unit = of.unit, both = of.low + " " + of.high;
-    return {{"stripes", {unit, unit, "Å"}, "stripes LOW HIGH PERIOD", "stripes " + both + " 20 nm"},
-            {"discs",
-             {unit, unit, "Å", "Å"},
-             "discs LOW HIGH RADIUS DISTANCE",
-             "discs " + both + " 5 nm 20 nm"},
-            {"rings",
-             {unit, "", "Å"},
-             "rings MEAN AMPLITUDE PERIOD",
-             "rings " + of.high + " 0.2 10 nm"},
-            {"patches",
-             {unit, unit, "Å", ""},
-             "patches LOW HIGH LENGTH SEED",
-             "patches " + both + " 5 nm 1"}};
+    const std::string unit = of.unit, high = of.high, both = fmt::format("{} {}", of.low, of.high);
+    return {
+        {"stripes", {unit, unit, "Å"}, "stripes LOW HIGH PERIOD", "stripes " + both + " 20 nm"},
+        {"discs",
+         {unit, unit, "Å", "Å"},
+         "discs LOW HIGH RADIUS DISTANCE",
+         "discs " + both + " 5 nm 20 nm"},
+        {"rings", {unit, "", "Å"}, "rings MEAN AMPLITUDE PERIOD", "rings " + high + " 0.2 10 nm"},
+        {"patches",
+         {unit, unit, "Å", ""},
+         "patches LOW HIGH LENGTH SEED",
+         "patches " + both + " 5 nm 1"}};
 }
 
 /// Error of a formula, in words that follow the key and its value.
@@ -204,9 +202,10 @@ std::vector<double> values_of(const Formula& formula, const std::string& text,
 }
 
 /// Returns the values of a file on the sites of the box. Throws io::SceneError.
-std::vector<double> values_of_file(Case& c, const Scene::SiteMapKeys& keys, const std::string& file,
-                                   const SiteQuantity& of, const Square& box) {
-    const std::string key = "interface." + of.name;
+std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::string& file,
+                                   const Square& box) {
+    const SiteQuantity& of = keys.of;
+    const std::string key = fmt::format("interface.{}", of.name);
     io::HeightMap map = read_field({keys.source,
                                     file,
                                     {keys.unit,
@@ -265,9 +264,9 @@ std::vector<double> values_of_file(Case& c, const Scene::SiteMapKeys& keys, cons
 
 } // namespace
 
-std::shared_ptr<const SiteMap> site_map(Case& c, const Scene::SiteMapKeys& keys,
-                                        const SiteQuantity& of, io::Problems& problems) {
-    const std::string &text = keys.source, key = "interface." + of.name;
+std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Problems& problems) {
+    const SiteQuantity& of = keys.of;
+    const std::string &text = keys.source, key = fmt::format("interface.{}", of.name);
     const Square box{c.scene.surface.sites, c.scene.surface.spacing};
     auto map = std::make_shared<SiteMap>();
     map->name = of.name;
@@ -293,7 +292,7 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const Scene::SiteMapKeys& keys,
                                              "\"{}\"",
                                              formulas.front().example)};
             if (colon != std::string::npos) map->file += text.substr(colon);
-            map->values = values_of_file(c, keys, map->file, of, box);
+            map->values = values_of_file(c, keys, map->file, box);
         }
     } catch (const BadFormula& bad) {
         problems.add(key, fmt::format("= \"{}\" {}", text, bad.what), bad.why, bad.fix);

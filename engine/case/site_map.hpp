@@ -15,23 +15,11 @@
 #include "engine/case/case.hpp"
 
 #include <memory>
-#include <string>
 
 namespace asperity {
 
-/// Quantity of a map of the sites, which is zero or more at each.
-struct SiteQuantity {
-    std::string name;      ///< name in results: "adhesion", of the key interface.adhesion
-    std::string words;     ///< "work of adhesion"
-    std::string dimension; ///< "energy per area"
-    std::string unit;      ///< unit of the key
-    std::string low, high; ///< values of an example: "10 mJ/m^2"
-    std::string negative;  ///< reason why a value is not negative
-};
-
 /// Reads or computes a map of the sites and adds its notes to the case. Returns null, with the
 /// mistakes in problems, if it has some.
-std::shared_ptr<const SiteMap> site_map(Case& c, const Scene::SiteMapKeys& keys,
-                                        const SiteQuantity& quantity, io::Problems& problems);
+std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Problems& problems);
 
 } // namespace asperity

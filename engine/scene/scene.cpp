@@ -44,7 +44,7 @@ void bind_potential(io::Schema& schema, P& potential, const std::vector<io::Sche
 }
 
 /// Gives a key that may be a map of the sites what it needs, and adds the keys of its file.
-void bind_site_map(io::Schema& schema, io::Schema::Key& key, Scene::SiteMapKeys& map,
+void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
                    const io::Schema::Need& need) {
     key.needs = {need};
     const std::string name = key.name, of = "interface." + name, unit = key.unit;

@@ -54,6 +54,29 @@ inline constexpr std::string_view after_approach = "after-approach:";
 /// Bounds of the numbers of sites and layers.
 inline constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
 
+/// Quantity of the interface that may differ from site to site; zero or more at each.
+struct SiteQuantity {
+    const char* name;       ///< name of its key, and in results: "adhesion"
+    const char* words;      ///< "work of adhesion"
+    const char* dimension;  ///< "energy per area"
+    const char* unit;       ///< unit of the key
+    const char *low, *high; ///< values of an example: "10 mJ/m^2"
+    const char* negative;   ///< reason why a value is not negative
+};
+
+/// Keys of such a quantity (engine/case/site_map.hpp).
+struct SiteMapKeys {
+    SiteQuantity of;
+    std::string source{};         ///< file of a map, or a formula; empty: one number for all sites
+    std::optional<double> size{}; ///< edge of the map, Å; empty: as surface.file_size
+    std::string unit = "auto";    ///< unit of the map; "auto": that of the file, else the key's
+    MapMissing missing = MapMissing::refuse;
+    MapCrop crop = MapCrop::none;
+
+    /// Returns true if the scene has a map.
+    bool given() const { return !source.empty(); }
+};
+
 /// A scene, with one struct for each section.
 struct Scene {
     struct Surface {
@@ -106,17 +129,6 @@ struct Scene {
         std::optional<double> rms_error; ///< error of the fit, over the moduli measured
     } fit;
 
-    /// Keys of a number that may differ from site to site (engine/case/site_map.hpp).
-    struct SiteMapKeys {
-        std::string source; ///< file of a map, or a formula; empty: one number for all sites
-        std::optional<double> size; ///< edge of the map, Å; empty: as surface.file_size
-        std::string unit = "auto";  ///< unit of the map; "auto": that of the file, else the key's
-        MapMissing missing = MapMissing::refuse;
-        MapCrop crop = MapCrop::none;
-
-        bool given() const { return !source.empty(); }
-    };
-
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
         int potential = 0; ///< index of a kind of PairPotential
@@ -130,13 +142,23 @@ struct Scene {
         bool frictionless = false;
         WallLawKind law = WallLawKind::exponential; ///< law of a wall
         double adhesion = 100.0;                    ///< meV/Å^2, of all laws but the smeared one
-        SiteMapKeys adhesion_map; ///< of each site; a case has its largest value in `adhesion`
-        double range = 1.0;       ///< Å, of these laws but a table
-        double exponent = 3.0;    ///< exponent of the law "power"
+        /// Work of adhesion of each site; a case has the largest in `adhesion`.
+        SiteMapKeys adhesion_map{
+            {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
+             "a work of adhesion is zero or more: a site repels at contact alone"}};
+        double range = 1.0;    ///< Å, of these laws but a table
+        double exponent = 3.0; ///< exponent of the law "power"
         /// GPa/Å, of a law whose shape begins where the solids touch; empty: derived from the block
         std::optional<double> stiffness;
         EdgePinning edge_pinning = EdgePinning::refuse;
 
+        /// Returns the keys that are maps of the sites.
+        std::vector<const SiteMapKeys*> site_maps() const {
+            std::vector<const SiteMapKeys*> given;
+            for (const SiteMapKeys* map : {&adhesion_map})
+                if (map->given()) given.push_back(map);
+            return given;
+        }
         /// Returns true for a wall whose law has a work of adhesion of its own.
         bool has_adhesion() const {
             return kind == InterfaceKind::wall && law != WallLawKind::smeared;

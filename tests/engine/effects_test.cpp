@@ -129,7 +129,7 @@ TEST(Effects, OffMakesNoCall) {
         {&Effects::sliding, moving, "drive.path=[\"approach\", \"slide x 1 Å\"]", "",
          "/series/slide_x"},
         {&Effects::branches, still, "block.prony=[[2.0, \"1 ns\"]]", "", "/series/branch_energy"},
-        {&Effects::adhesion_map,
+        {&Effects::site_maps,
          {"block.thickness=16", "drive.path=relax", "interface.kind=wall"},
          "interface.adhesion=stripes 1 9 20",
          "",

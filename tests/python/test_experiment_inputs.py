@@ -16,7 +16,7 @@ KEYS = {
     "surface.boundary": ("free", "free edges"),
     "block.layers": ('[["2 nm", "10 GPa", 0.3]]', "layers"),
     "block.surface_stress": ("0.05", "surface stress"),
-    "interface.adhesion": ("stripes 50 10 4nm", "adhesion of each site"),
+    "interface.adhesion": ("stripes 50 10 4nm", "numbers of each site"),
     "interface.law": ("dugdale", None),
 }
 SPHERE = {"surface.kind": "flat", "surface.radius": "50 nm", "surface.sites": "16", "surface.spacing": "1 nm", "block.thickness": "16"}
