@@ -41,7 +41,7 @@ struct Formula {
 
 std::vector<Formula> formulas_of(const SiteQuantity& of) {
     const std::string unit = of.unit, high = of.high, both = fmt::format("{} {}", of.low, of.high);
-    return {
+    std::vector<Formula> all = {
         {"stripes", {unit, unit, "Å"}, "stripes LOW HIGH PERIOD", "stripes " + both + " 20 nm"},
         {"discs",
          {unit, unit, "Å", "Å"},
@@ -52,6 +52,7 @@ std::vector<Formula> formulas_of(const SiteQuantity& of) {
          {unit, unit, "Å", ""},
          "patches LOW HIGH LENGTH SEED",
          "patches " + both + " 5 nm 1"}};
+    return all;
 }
 
 /// Error of a formula, in words that follow the key and its value.

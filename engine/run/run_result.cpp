@@ -267,8 +267,10 @@ std::string physics_of(const Case& c, const Surface& surface) {
     if (c.radius()) part["output"]["series"] = c.output.series; // averaged over time
     part["output"]["velocities"] = c.output.trajectory && c.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
-    for (const auto& [key, digest] : c.digests())
-        part["content_of_" + key] = digest;
+    for (const auto& [key, digest] : c.digests()) {
+        const std::size_t dot = key.find('.');
+        part[key.substr(0, dot)]["content_of_" + key.substr(dot + 1)] = digest;
+    }
     return io::json_text(part);
 }
 

@@ -244,16 +244,14 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     }
     const InterfaceSums& sums = minimiser.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
+    const BlockEnergies of_block = block.energies();
+    static_cast<Energies&>(state) = of_block;
+    state.branches = of_block.branches;
     state.interface_energy = values[0];
     state.force = values[1];
     // Largest values pass over what is not a number; sums do not.
     state.converged = state.converged && std::isfinite(values[0]) && std::isfinite(values[1]);
     state.top_force = block.constraint().is_mean_height() ? state.force : block.top_force();
-    const BlockEnergies energies = block.energies();
-    state.branches = energies.branches;
-    state.machine_energy = energies.machine;
-    state.branch_energy = state.branches.stored;
-    state.elastic_energy = energies.elastic + state.machine_energy + state.branch_energy;
     state.top = block.top();
     state.mean_height = block.mean_height_of_box();
     static_cast<ContactCount&>(state) = count_contacts(sums, block.communicator());

@@ -237,10 +237,11 @@ BlockEnergies Response::energies() const {
     double twice = dot(waves_, su);
     if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
-    BlockEnergies energies{.elastic = 0.5 * (twice + load * load / spring())};
+    BlockEnergies energies;
+    energies.elastic_energy = 0.5 * (twice + load * load / spring());
     if (options_.top_spring > 0.0) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
-        energies.machine = 0.5 * force * force / options_.top_spring;
+        energies.machine_energy = 0.5 * force * force / options_.top_spring;
     }
     if (memory_)
         energies.branches = memory_->energies(
@@ -248,6 +249,9 @@ BlockEnergies Response::energies() const {
             [&](const SiteField<double>& a, const SiteField<double>& b) {
                 return local_products(a, b);
             });
+    energies.branch_energy = energies.branches.stored;
+    energies.elastic_energy =
+        energies.elastic_energy + energies.machine_energy + energies.branch_energy;
     return energies;
 }
 

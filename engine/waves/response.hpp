@@ -38,6 +38,7 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
+#include "engine/step_record.hpp"
 #include "engine/waves/block_memory.hpp"
 #include "engine/waves/constraint.hpp"
 #include "engine/waves/moving_pattern.hpp"
@@ -61,11 +62,9 @@ struct Holder {
     double operator()(double mean_height) const { return stiffness * (mean_height - at) + force; }
 };
 
-/// Energies of the block, eV.
-struct BlockEnergies {
-    double elastic =
-        0.0; ///< U_el of the relaxed springs, and of what a load stretches the block by
-    double machine = 0.0; ///< energy of the spring that holds the top plane
+/// Energies of the block at rest, eV: of its springs, what a load stretches it by included, of its
+/// branches and of the spring that holds its top plane.
+struct BlockEnergies : Energies {
     BranchEnergies branches{};
 };
 

@@ -120,7 +120,8 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         const double scale = i % 2 ? 1.0 : 1e-3;
         block.begin_step(dt);
         block.set_uniform(scale * next);
-        const auto [elastic, machine, branches] = block.energies();
+        const BlockEnergies energies = block.energies();
+        const BranchEnergies& branches = energies.branches;
         const double rate = (scale * next - w) / dt;
         double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
         for (std::size_t k = 0; k < two.size(); ++k) {
@@ -133,7 +134,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         }
         EXPECT_NEAR(branches.stored, energy, 1e-12 * (1.0 + energy));
         EXPECT_GE(branches.dissipated, 0.0);
-        const double now = elastic + branches.stored;
+        const double now = energies.elastic_energy;
         EXPECT_NEAR(now - stored + branches.dissipated, work, 1e-11 * (1.0 + std::abs(work)))
             << "dt " << dt;
         stored = now;
@@ -389,6 +390,29 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
             expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period
         }
         EXPECT_NEAR(path.now().relaxed - before, expected, 2e-3 * expected) << period;
+    }
+}
+
+/// What an instability dissipates is told from what the block does where the step over it is short
+/// beside the shortest time of the block: on a path that is slow, but not so slow that its shortest
+/// step is long.
+TEST(Rate, LossesInStepsThatAreLongInTimeAreNotFollowed) {
+    BlockOptions options = relaxing(8, 24, {{3.0, 1000.0}, {1.0, 10000.0}});
+    options.young *= 0.2;
+    for (const double velocity : {1e-7, 1e-16}) {
+        test::PathCase c(options, test::self_affine(8, 0.6));
+        QuasistaticPath path = path_of(c, velocity, 1e-3, 0.5, top);
+        path.start();
+        for (const Segment& segment : {Segment{Segment::approach}, Segment{Segment::pull_off}}) {
+            path.begin(segment);
+            points_of(path);
+        }
+        const Dissipation& lost = path.dissipation();
+        ASSERT_GT(lost.events, 0) << velocity;
+        if (velocity < 1e-10)
+            EXPECT_NEAR(lost.not_followed, lost.total(), 1e-12 * lost.total());
+        else
+            EXPECT_EQ(lost.not_followed, 0.0);
     }
 }
 

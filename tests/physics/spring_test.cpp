@@ -47,8 +47,8 @@ TEST(Spring, IsInSeriesWithTheBlock) {
         EXPECT_NEAR(b.top_force(), -k * drive, 1e-12 * k);
         EXPECT_NEAR(spring * (drive - b.top()), -b.top_force(), 1e-10 * k) << "balance of the top";
         const BlockEnergies e = b.energies();
-        EXPECT_NEAR(e.machine, 0.5 * k * k / spring * drive * drive, 1e-12 * k);
-        EXPECT_NEAR(e.elastic + e.machine, 0.5 * k * drive * drive, 1e-12 * k);
+        EXPECT_NEAR(e.machine_energy, 0.5 * k * k / spring * drive * drive, 1e-12 * k);
+        EXPECT_NEAR(e.elastic_energy, 0.5 * k * drive * drive, 1e-12 * k);
         EXPECT_EQ(b.drive(), drive);
         const double load = 0.1 * block; // by which both are compressed
         b.hold(Constraint::load(load));
@@ -65,7 +65,7 @@ TEST(Spring, ThatIsRigidIsNone) {
     }
     EXPECT_NEAR(none.block.top_force(), rigid.block.top_force(), 1e-7);
     EXPECT_EQ(none.block.top(), -0.4);
-    EXPECT_EQ(none.block.energies().machine, 0.0);
+    EXPECT_EQ(none.block.energies().machine_energy, 0.0);
 }
 
 TEST(Spring, LetsTheBlockJumpInAtItsStiffnessTimesTheRange) {

@@ -164,7 +164,7 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
                     }
                     auto g = block.new_waves<double>();
                     const auto energy = [&] {
-                        return block.energies().elastic +
+                        return block.energies().elastic_energy +
                                interface
                                    .sweep(block.lowest_layer(), block.interface_force(),
                                           {.observe = true, .height = 3.7})
