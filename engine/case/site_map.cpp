@@ -187,7 +187,8 @@ std::vector<double> values_of(const Formula& formula, const std::string& text,
                 "take an amplitude from 0 to 1"};
         const double middle = 0.5 * box.edge();
         return box.of([&](double x, double y) {
-            const double r = std::hypot(x - middle, y - middle);
+            const double along_x = x - middle, along_y = y - middle;
+            const double r = std::sqrt(along_x * along_x + along_y * along_y);
             return p[0] * (1.0 + p[1] * std::cos(2.0 * pi * r / p[2]));
         });
     }

@@ -31,7 +31,8 @@ OverLattice::OverLattice(const HeightMap& map, const Tile& tile, double spacing,
         const double lateral = k / offsets.cuts_per_length + 1e-9 * spacing;
         for (int n = 1; n <= offsets.half; ++n) {
             const auto within = [&](int m) {
-                return std::hypot((m - 0.5) * spacing, (n - 0.5) * spacing) < lateral;
+                const double x = (m - 0.5) * spacing, y = (n - 0.5) * spacing;
+                return std::sqrt(x * x + y * y) < lateral;
             };
             int m = 0;
             while (m < offsets.half && within(m + 1))

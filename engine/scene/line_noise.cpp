@@ -76,7 +76,7 @@ struct Wave {
 };
 Wave wave_at(int i, int k, int n) {
     const double across = std::min(i, n - i), along = std::min(k, n - k);
-    return {along, across, std::hypot(along, across)};
+    return {along, across, std::sqrt(along * along + across * across)};
 }
 
 /// Returns sum q |h_q|^2 of the waves that `kept` x `kept` points hold, up to a factor.

@@ -62,8 +62,9 @@ FreeEdges::FreeEdges(const BlockOptions& block, int grid)
 double FreeEdges::compliance(int nx, int ny) const {
     const double far = *far_.wave(0, nx, ny);
     if (nx == 0 && ny == 0) return far + near_uniform();
+    const double phase_x = phase_of(nx, grid_), phase_y = phase_of(ny, grid_);
     return far + near(wave_phase(nx, grid_), wave_phase(ny, grid_),
-                      std::hypot(phase_of(nx, grid_), phase_of(ny, grid_)));
+                      std::sqrt(phase_x * phase_x + phase_y * phase_y));
 }
 
 double FreeEdges::near(WavePhase x, WavePhase y, double phase) const {

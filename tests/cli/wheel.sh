@@ -19,6 +19,7 @@ if [ -z "$wheel" ]; then
     /usr/bin/env python3 "$source/packaging/wheel.py" "$work/wheels" --work "$work" >"$work/wheel.log" 2>&1 || fail "wheel.py: $(tail -n 15 "$work/wheel.log")"
     wheel=$(tail -n 2 "$work/wheel.log" | head -n 1)
 fi
+wheel=$(realpath "$wheel")
 case $wheel in *-manylinux_*_x86_64.whl) ;; *) fail "no manylinux wheel: $wheel" ;; esac
 
 bare=$(mktemp -d "${TMPDIR:-/tmp}/asperity-wheel.XXXXXX") || exit 1
@@ -32,10 +33,18 @@ clean() { env -i HOME="$bare" PATH="$bare/env/bin:/usr/bin:/bin" OMP_NUM_THREADS
 module=$(echo env/lib/python3*/site-packages/asperity/_engine*.so)
 outside=$(clean ldd "$module" | awk '{ print $3 }' | grep -v "^$bare/" | grep -vE '/lib(c|m|z|dl|rt|pthread|stdc\+\+|gcc_s)[.]so' | grep .)
 [ -z "$outside" ] || fail "libraries from outside: $outside"
-[ "$(find env -name '_engine*.so' | wc -l)" = 1 ] && [ "$(find env -size +3M -path '*asperity*' | wc -l)" = 1 ] || fail "the engine is there twice"
-for licence in LICENSE HDF5.txt GPL-2.txt; do
-    [ -s env/lib/python3*/site-packages/asperity-*.dist-info/licenses/$licence ] || fail "no licence $licence"
-done
+python3 "$source/tests/cli/wheel_contents.py" "$wheel" || fail "contents"
+bad="$bare/bad/$(basename "$wheel")"
+mkdir bad
+python3 - "$wheel" "$bad" <<'END' || fail "a copy without a licence"
+import sys, zipfile
+wheel, bad = zipfile.ZipFile(sys.argv[1]), zipfile.ZipFile(sys.argv[2], "w")
+for name in wheel.namelist():
+    if not name.endswith("licenses/fftw3.txt"):
+        bad.writestr(name, wheel.read(name))
+END
+python3 "$source/tests/cli/wheel_contents.py" "$bad" >told && fail "a wheel without the licence of FFTW passes"
+grep -q "^no licence text of fftw3" told || fail "the message of a missing licence: $(cat told)"
 
 clean asperity scenes >/dev/null || fail "scenes"
 clean asperity run scenes/first-contact.toml --set surface.sites=32 drive.velocity=100 --progress off >first.txt || fail "run"
