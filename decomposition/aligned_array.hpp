@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Uninitialised arrays that start on a cache line, and the workspace that some of them come from.
+// Uninitialised arrays aligned to cache lines, and a workspace that reuses their memory.
 #pragma once
 
 #include <cstddef>
@@ -11,11 +11,11 @@
 
 namespace asperity {
 
-/// Memory for arrays that are made again and again: each relaxation makes its fields and waves
-/// anew, and fresh pages for them take up to a third of the time of a short one, a tenth of a path
-/// of 512 x 512 sites. Freed arrays are kept for the next arrays of the same size; the arrays in
-/// use and the kept arrays together never exceed the largest use so far. The owner of a workspace
-/// outlives its arrays. Callable from any thread.
+/// Memory for arrays that are made repeatedly. Each relaxation makes new fields and waves, and the
+/// page faults of fresh memory take up to a third of the time of a short relaxation, a tenth of a
+/// path of 512 x 512 sites. The workspace keeps freed arrays for the next arrays of the same size;
+/// used and kept arrays together never exceed the largest use so far. A workspace must outlive its
+/// arrays. Callable from any thread.
 class Workspace {
 public:
     Workspace() { kept_.reserve(256); }
@@ -28,7 +28,7 @@ public:
     /// Frees an array of take(), or keeps it for the next array of the same size. Arrays of more
     /// than 128 MB and of less than 64 KB are freed.
     void give_back(void* array, std::size_t bytes);
-    /// Frees the kept arrays, before work that needs memory of another kind.
+    /// Frees the kept arrays, so that other work can use the memory.
     void free_kept();
     std::size_t kept() const; ///< returns the size of the kept arrays, bytes
 
@@ -47,7 +47,7 @@ private:
 /// Returns uninitialised memory that starts on a cache line. Throws std::bad_alloc.
 void* new_aligned(std::size_t bytes);
 
-/// Frees an array, or gives it back to its workspace.
+/// Deleter that frees an array or returns it to its workspace.
 struct FreeAligned {
     std::size_t bytes = 0;
     Workspace* home = nullptr;
@@ -56,8 +56,8 @@ struct FreeAligned {
 template <class T>
 using AlignedArray = std::unique_ptr<T[], FreeAligned>;
 
-/// Returns an uninitialised array of so many values. home: workspace that it comes from; null:
-/// none. Throws std::bad_alloc.
+/// Returns an uninitialised array of `size` values. home: workspace to take the memory from;
+/// nullptr: none. Throws std::bad_alloc.
 template <class T>
 AlignedArray<T> aligned_array(std::size_t size, Workspace* home = nullptr) {
     const std::size_t bytes = size * sizeof(T);

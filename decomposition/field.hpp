@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Storage behind the views: one value per node of a tile, its halo, and padding for whole SIMD
-// vectors.
+// Storage of fields: one value per node of a tile, a halo, and padding to whole SIMD vectors.
 #pragma once
 
 #include "decomposition/aligned_array.hpp"
@@ -21,8 +20,8 @@
 
 namespace asperity {
 
-/// Asks for pages of 2 MB under a large array: a pass over a block touches a hundred rows at a
-/// time, each on another small page.
+/// Asks the system for pages of 2 MB for a large array, because a pass over a block touches a
+/// hundred rows at a time, each on a different small page.
 inline void prefer_large_pages([[maybe_unused]] void* data, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
     constexpr std::uintptr_t page = std::uintptr_t{2} << 20;
@@ -40,7 +39,7 @@ public:
     Field() = default;
 
     /// Makes a field of zeros. halo: width of the frame of nodes around the tile, at least
-    /// halo_width. home: workspace that its memory comes from; null: none.
+    /// halo_width; home: workspace to take the memory from, nullptr for none.
     Field(const Tile& tile, int planes, int halo = halo_width, Workspace* home = nullptr)
         : size_(size(tile, planes, halo)), halo_(halo) {
         const std::ptrdiff_t left = round_up(halo);
@@ -69,11 +68,11 @@ public:
     std::span<const T> storage() const { return {data_.get(), size_}; }
     bool empty() const { return !data_; }
     std::size_t bytes() const { return size_ * sizeof(T); }
-    /// Returns the bytes that a field of this shape would take.
+    /// Returns the memory of a field of this shape, bytes.
     static std::size_t bytes_for(const Tile& tile, int planes, int halo = halo_width) {
         return size(tile, planes, halo) * sizeof(T);
     }
-    /// Copies a field of the same shape, bit for bit.
+    /// Copies the values of a field of the same shape, halo and padding included.
     void copy_from(const Field& other) {
         for (std::size_t i = 0; i < size_; ++i)
             data_[i] = other.data_[i];
@@ -82,9 +81,8 @@ public:
 private:
     static constexpr std::ptrdiff_t line = 64 / static_cast<std::ptrdiff_t>(sizeof(T));
     static std::ptrdiff_t round_up(std::ptrdiff_t n) { return (n + line - 1) / line * line; }
-    /// Returns the length of a stored row. Behind the owned nodes lie the halo and the nodes that a
-    /// vector still touches if it starts at the last owned node and is read at an offset of the
-    /// halo.
+    /// Returns the length of a stored row: the owned nodes, the halo, and padding for a vector that
+    /// starts at the last owned node and is read at the largest offset.
     static std::ptrdiff_t row_length(const Tile& tile, int halo) {
         return round_up(halo) + round_up(tile.nx + halo + line);
     }

@@ -18,9 +18,9 @@ struct LargestSite {
     int x = 0, y = 0; ///< site in the whole box
 };
 
-/// Returns the site of the whole box with the largest value(x, y), a function of the tile's own
-/// sites that is not negative; a value that is not finite counts as the largest. Of equal values
-/// the first, row by row, is returned. Collective.
+/// Returns the site of the whole box with the largest value(x, y) >= 0, called for the sites of the
+/// rank's tile. A value that is not finite counts as the largest. If values are equal, the first
+/// site, row by row, is returned. Collective.
 template <class Value>
 LargestSite global_largest(const Communicator& ranks, const Tile& tile, const Value& value) {
     double worst = -1.0;

@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace detail {
 
-/// Sums each of `mine` over the ranks into values. bins: workspace for the bins of all sums.
+/// Sets values to the sums of `mine` over the ranks. bins: workspace for the bins of all sums.
 inline void global_sums(const Communicator& ranks, std::span<const ExactSum> mine,
                         std::span<double> bins, std::span<double> values) {
     for (std::size_t i = 0; i < mine.size(); ++i) {
@@ -45,7 +45,7 @@ std::array<double, n> global_sums(const Communicator& ranks, const std::array<Ex
     return values;
 }
 
-/// Returns the sums over all ranks with one reduction; their number is known only at run time.
+/// Returns the sums over all ranks with one reduction, for a number of sums known at run time.
 /// Collective.
 inline std::vector<double> global_sums(const Communicator& ranks,
                                        const std::vector<ExactSum>& mine) {

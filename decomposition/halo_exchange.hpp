@@ -4,9 +4,9 @@
 // Fills the halo of displacement fields: from neighbouring tiles if a level is cut, by periodic
 // wrapping if a rank holds it whole.
 //
-// Two phases, x then y (whose rows include the x halo just received, so corners come along), and in
-// each phase one message to each of the two neighbours that carries all levels. Values are copied,
-// never computed, so a halo node is the exact double of its owner.
+// The exchange has two phases, x then y; the rows sent along y include the halo received along x,
+// so that corners are filled too. In each phase one message with all levels goes to each of the two
+// neighbours. Values are copied, so that a halo node is bitwise equal to its owner.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -18,7 +18,7 @@
 
 namespace asperity {
 
-/// One field of the exchange: its planes [0, planes).
+/// A field whose planes [0, planes) are exchanged.
 struct HaloField {
     VolumeView<double> view;
     int planes = 0;
@@ -28,6 +28,7 @@ struct HaloField {
 /// Exchange of halos with the neighbouring tiles.
 class HaloExchange {
 public:
+    /// Copies both arguments.
     HaloExchange(const Communicator& communicator, const ProcessGrid& grid)
         : communicator_(communicator), grid_(grid) {}
 
@@ -47,16 +48,17 @@ private:
     std::size_t bytes_ = 0;
 };
 
-/// Copies every rank's footprint of a level's plane to every rank: the forces that fine tiles hand
-/// to a level that all ranks hold. Fields are in global coordinates of the level. Collective.
+/// Copies every rank's footprint of planes of a level to every rank. Used for the forces of fine
+/// tiles on a level that all ranks hold whole. planes: in global coordinates of the level.
+/// Collective.
 void gather_footprints(const Communicator& communicator, const ProcessGrid& grid, int level,
                        std::span<const PlaneView<double>> planes);
 
-/// Returns a plane of a level as a dense sites * sites array (row-major) on the root; empty
-/// elsewhere. Collective.
+/// Returns a plane of a level as a dense sites * sites array (row-major) on the root, and an empty
+/// array on other ranks. Collective.
 std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid,
                                  int level, PlaneView<const double> plane);
-/// Copies each rank's tile out of the root's dense array: the inverse of gather_plane().
+/// Copies each rank's tile from the dense array of the root; the inverse of gather_plane().
 /// Collective.
 void scatter_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
                    std::vector<double>& dense, PlaneView<double> plane);

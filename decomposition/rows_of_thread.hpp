@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Distribution of the rows of a tile, in all planes, over threads: a thread touches its rows first,
-// so that their pages lie near it, and works on them.
+// Distribution of the rows of a tile, in all planes, over threads. A thread touches its rows first,
+// so that their pages are in its local memory.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace asperity {
 /// Number of rows in a band, the unit of distribution over threads.
 inline constexpr int band_rows = 8;
 
-/// Returns the rows [first, last) of ny rows of the calling thread in its team: whole, adjacent
+/// Returns the rows [first, last), of ny rows, of the calling thread in its team, as whole adjacent
 /// bands.
 inline std::pair<int, int> rows_of_thread(int ny) {
     const int bands = (ny + band_rows - 1) / band_rows;
@@ -25,8 +25,9 @@ inline std::pair<int, int> rows_of_thread(int ny) {
     return {cut(omp_get_thread_num()), cut(omp_get_thread_num() + 1)};
 }
 
-/// Calls work(z, y) once for every row y of [-halo, ny + halo) of every plane, on the thread that
-/// owns the row; the tile's outermost rows come with the rows of the halo. ny > 0.
+/// Calls work(z, y) once for every row y in [-halo, ny + halo) of every plane, on the thread that
+/// owns the row; rows of the halo belong to the owner of the nearest row of the tile. ny must be
+/// positive.
 template <class Work>
 void each_row_by_its_thread(int ny, int halo, int planes, const Work& work) {
 #pragma omp parallel

@@ -166,8 +166,8 @@ struct SurfaceTransform<T>::Parts {
     T* second_block() { return mine() + slab.block_length(components); }
     T* waves_of_mine() { return mine() + static_cast<std::size_t>(components) * row_length(); }
 
-    /// Returns the count of numbers of one component of a block of so many rows; block_of(): of all
-    /// components, with the line.
+    /// Returns the number of values of one component of a block with this number of rows;
+    /// block_of() returns that of all components, with the line.
     static std::size_t of_component(int rows) { return width * static_cast<std::size_t>(rows); }
     std::size_t block_of(int rows) const {
         return static_cast<std::size_t>(components) * of_component(rows) + line;

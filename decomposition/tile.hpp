@@ -8,14 +8,14 @@ namespace asperity {
 
 /// Nodes of a level that a rank owns.
 struct Tile {
-    int x0 = 0; ///< first node owned, in nodes of this level, counted over the whole box
-    int y0 = 0;
-    int nx = 0; ///< number of nodes owned
-    int ny = 0;
-    int sites = 0; ///< nodes of this level across the whole (periodic, square) box
+    int x0 = 0;    ///< first node owned along x, counted in nodes of this level over the whole box
+    int y0 = 0;    ///< first node owned along y
+    int nx = 0;    ///< number of nodes owned along x
+    int ny = 0;    ///< number of nodes owned along y
+    int sites = 0; ///< number of nodes of this level across the whole (periodic, square) box
 };
 
-/// Returns i folded into [0, n).
+/// Returns i modulo n, in [0, n).
 inline int periodic(int i, int n) {
     const int r = i % n;
     return r < 0 ? r + n : r;

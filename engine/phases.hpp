@@ -12,7 +12,7 @@ namespace asperity {
 
 /// Parts of a run with clocks of their own.
 enum class Phase {
-    interpolate, ///< constrained planes follow the coarse planes
+    interpolate, ///< constrained planes are interpolated from the coarse planes
     interface,   ///< forces of the substrate
     advance,     ///< elastic forces, kick and drift, level by level
     thermostat,  ///< noise of a scene with a temperature

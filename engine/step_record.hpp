@@ -9,9 +9,9 @@
 
 namespace asperity {
 
-/// Counts of the sites on which the substrate acts (count_contacts(), interface.hpp).
+/// Counts of sites in contact and under repulsion (count_contacts(), interface.hpp).
 struct ContactCount {
-    long long in_contact = 0, repulsive = 0; ///< sites
+    long long in_contact = 0, repulsive = 0; ///< numbers of sites
     double closest = 0.0; ///< smallest pair distance, Å; infinite beyond the interaction range
 
     template <class Visitor>
@@ -24,12 +24,12 @@ struct ContactCount {
 
 /// Place of the block at a step or point, and the forces on it.
 struct PlaceAndForces {
-    double top = 0.0;         ///< displacement of the top plane, Å
-    double drive = 0.0;       ///< displacement of the far end of the spring that holds it, Å
+    double top = 0.0;   ///< displacement of the top plane, Å
+    double drive = 0.0; ///< displacement of the far end of the spring that holds the top plane, Å
     double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
-    // Numbers along x and y, of a path that slides; else 0.
+    // Numbers along x and y of a path that slides; otherwise 0.
     std::array<double, 2> slide{};         ///< place of the block over the substrate, Å
     std::array<double, 2> lateral_force{}; ///< force of the substrate on the lowest layer, eV/Å
 
@@ -50,13 +50,13 @@ struct Energies {
     double interface_energy = 0.0; ///< U_LJ
     double elastic_energy = 0.0;   ///< U_el, with branches and the spring that holds the top plane
     double kinetic_energy = 0.0;   ///< zero at rest
-    /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m: with it the energies are
-    /// what the leapfrog conserves over springs (thermostat.hpp).
+    /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m. The sum of all energies
+    /// with this one is what the leapfrog conserves over springs (thermostat.hpp).
     double time_step_energy = 0.0;
     double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
     double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
 
-    /// Returns the energy of the solids.
+    /// Returns the energy of block and interface, eV.
     double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
 
     template <class Visitor>
@@ -76,14 +76,15 @@ struct StepRecord : ContactCount, PlaceAndForces, Energies {
     double time = 0.0;  ///< fs
     // Numbers of observed steps only, like the contacts and the energies:
     bool observed = false;
-    /// Work of the drive and of forces from outside on the solids, from rest apart: it includes the
-    /// energy of the block at the start, and that of values written to its fields.
+    /// Work of the drive and of external forces on the solids, counted from rest apart: includes
+    /// the energy of the block at the start, and the energy of values that a script writes to its
+    /// fields.
     double work = 0.0;
-    double relaxed = 0.0; ///< energy dissipated by the branches since the start
+    double dissipated_in_block = 0.0; ///< energy dissipated by the branches since the start
     /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
     /// the energy dissipated at instabilities.
     double damped = 0.0;
-    double interface_work = 0.0; ///< int F dz of the mean height, likewise
+    double interface_work = 0.0; ///< int F dz of the mean height since the start
     /// Residual of the energy balance: (work - energy - time_step_energy - damped) over the largest
     /// of the energies and of the work so far.
     double residual = 0.0;
@@ -98,7 +99,7 @@ struct StepRecord : ContactCount, PlaceAndForces, Energies {
         Energies::visit(v);
         ContactCount::visit(v);
         v("work", work);
-        v("relaxed", relaxed);
+        v("relaxed", dissipated_in_block);
         v("damped", damped);
         v("interface_work", interface_work);
         v("residual", residual);

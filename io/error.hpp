@@ -3,14 +3,14 @@
 //
 // Errors and their messages.
 //
-// Every error carries the exit code its command ends with and a message of one grammar:
+// Every error has the exit code of the command and a message of one form:
 //
 //     <where>: what is wrong
 //         why: the reason, with the values
 //         fix: what to do about it
 //
-// A scene may be wrong in many places; its error holds them all, so that one reading of the
-// terminal is enough. Only main prints and exits.
+// An error in a scene holds all mistakes of the scene, so that a user sees them at once. Only main
+// prints and exits.
 #pragma once
 
 #include <stdexcept>
@@ -24,23 +24,23 @@ namespace asperity::io {
 /// Exit codes of the commands. The numbers are a contract with scripts.
 namespace exit_code {
 inline constexpr int done = 0;
-inline constexpr int internal = 1;     ///< an error of the program itself
+inline constexpr int internal = 1;     ///< error of the program itself
 inline constexpr int scene = 2;        ///< usage or scene
 inline constexpr int physics = 3;      ///< energy, NaN, time step
 inline constexpr int input_output = 4; ///< files
-inline constexpr int stopped = 75;     ///< stopped early, a valid checkpoint is there
+inline constexpr int stopped = 75;     ///< stopped early with a valid checkpoint
 } // namespace exit_code
 
 /// One mistake in a scene, a command line or a file. where, why and fix may be empty.
 struct Problem {
-    std::string where;
-    std::string what;
-    std::string why;
-    std::string fix;
+    std::string where; ///< place: file:line:column, option or key
+    std::string what;  ///< problem
+    std::string why;   ///< reason, with the values
+    std::string fix;   ///< remedy
 };
-/// Returns the problem in the grammar above, without a newline at the end.
+/// Returns a problem in the form above, without a newline at the end.
 std::string format(const Problem& problem);
-/// Returns the candidate that a misspelt word most likely meant; empty if none is near.
+/// Returns the candidate closest to a misspelt word; empty if none is close.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// Base of all errors: problems, and the exit code of the command that fails with them.

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Files that must not be lost, and the directories they are in.
+// Safe writing of files, and directories.
 //
-// A Directory names its files relative to an open directory (openat and its kind), so a file is
-// never written into another directory that has taken its name.
+// A Directory accesses its files relative to an open directory (openat and similar calls), so that
+// no file is written into another directory that has received the same path.
 //
-// OutputFile is the one way to write a file that matters. It writes a temporary file beside the
-// place, checks every result of the system, brings the bytes to the disk, renames the file into its
-// place, and brings the directory's entry to the disk too. An earlier file of that name stays as it
-// is until the rename, whatever happens. HDF5 files are written through OutputFile as well
-// (hdf5_file.hpp) and end in a digest of all their bytes (seal), which readers check.
+// OutputFile writes a file completely or not at all. It writes a temporary file in the same
+// directory, checks every result of the system, flushes the bytes to the disk, renames the file to
+// its final name, and flushes the directory's entry. An earlier file of that name is unchanged
+// until the renaming. HDF5 files are written through OutputFile as well (hdf5_file.hpp) and end in
+// a digest of all their bytes (seal), which readers check.
 #pragma once
 
 #include <cstddef>
@@ -39,7 +39,7 @@ public:
     }
     int get() const { return fd_; }
     explicit operator bool() const { return fd_ >= 0; }
-    /// Closes the descriptor. Returns false if the system reported an error, which is in errno.
+    /// Closes the descriptor. Returns false, with errno set, on failure.
     bool close();
 
 private:
@@ -58,16 +58,16 @@ public:
     std::string operator/(const std::string& name) const { return path_ + "/" + name; }
     int fd() const { return fd_->get(); }
 
-    /// Returns true if the directory has an entry of this name. Throws FileError if the system
-    /// cannot tell.
+    /// Returns true if the directory has an entry of this name. Throws FileError if the entry
+    /// cannot be examined.
     bool exists(const std::string& name) const;
     /// Opens a file of the directory. Returns an empty descriptor, with errno set, if that fails.
     Descriptor open(const std::string& name, int flags) const;
-    /// Removes a file, if it is there. Throws FileError.
+    /// Removes a file if it exists. Throws FileError.
     void remove(const std::string& name) const;
     /// Renames a file within the directory. Throws FileError.
     void rename(const std::string& from, const std::string& to) const;
-    /// Brings the names in the directory to the disk (fsync). Throws FileError.
+    /// Flushes the entries of the directory to the disk (fsync). Throws FileError.
     void sync() const;
 
 private:
@@ -93,12 +93,13 @@ private:
     std::string name_;
 };
 
-/// A file that appears in its place whole or not at all.
+/// A file that is written completely or not at all.
 class OutputFile {
 public:
-    /// Opens a temporary file beside the place. Throws FileError, as all members do.
+    /// Opens a temporary file in the directory of the place. This and all other functions throw
+    /// FileError.
     explicit OutputFile(const FilePlace& place);
-    /// Deletes the temporary file unless commit() has put it in its place.
+    /// Deletes the temporary file, unless commit() has renamed it.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
     OutputFile& operator=(const OutputFile&) = delete;
@@ -106,9 +107,9 @@ public:
     int fd() const { return file_.get(); }
     /// Appends bytes.
     void write(Bytes bytes);
-    /// Appends the digest of all bytes that are in the file.
+    /// Appends the digest of all bytes so far.
     void seal();
-    /// Brings the file to the disk and renames it into its place.
+    /// Flushes the file to the disk and renames it to its final name.
     void commit();
 
     /// Ending of the names of temporary files.
@@ -122,33 +123,32 @@ private:
     bool in_place_ = false;
 };
 
-/// Writes a text, whole or not at all. Throws FileError.
+/// Writes a text to a file, completely or not at all. Throws FileError.
 void write_whole(const FilePlace& place, const std::string& text);
 
-/// State of the digest at the end of a file: there is none, it agrees with the bytes, or it
-/// differs.
+/// State of the digest at the end of a file: missing, equal to that of the bytes, or different.
 enum class Seal { none, whole, broken };
 /// Compares the digest at the end of a file with its bytes.
 Seal check_seal(int fd);
 /// Returns the digest stated at the end of a file; nothing if the file has none.
 std::optional<std::uint32_t> sealed_digest(const Directory& directory, const std::string& name);
 
-/// Continues the digest `before` over these bytes: the CRC-32 of zlib (zlib.crc32 in Python), so
-/// that other programs can check it too. The digest shows every change within 32 neighbouring bits,
-/// and any other with a probability of 1 - 2^-32. It is no protection against intent.
+/// Returns the CRC-32 of zlib (zlib.crc32 in Python) of these bytes, continued from the digest
+/// `before`. The digest detects every change within 32 neighbouring bits, and other changes with a
+/// probability of 1 - 2^-32; it does not protect against manipulation.
 std::uint32_t digest_of(Bytes bytes, std::uint32_t before = 0);
-/// Returns a digest as texts of JSON have it: "crc32:" and eight hexadecimal digits.
+/// Returns a digest as text: "crc32:" and eight hexadecimal digits.
 std::string digest_text(std::uint32_t digest);
 /// Returns the digest of the first `length` bytes of a file; nothing if the file is shorter.
 std::optional<std::uint32_t> digest_of(int fd, std::uint64_t length);
 
 // System calls, repeated until all bytes are transferred or one of them fails.
 
-/// Throws FileError with what the system refused; errno holds the reason.
+/// Throws FileError for a failed system call. what: the failed action; errno: its reason.
 [[noreturn]] void fail_by_system(
     const std::string& path, const char* what,
     const char* fix = "check the permissions of its directory and the space on its disk");
-/// Brings a file, or the entries of a directory, to the disk. Returns false, with errno set, on
+/// Flushes a file, or the entries of a directory, to the disk. Returns false, with errno set, on
 /// failure.
 bool bring_to_disk(int fd);
 /// Writes all bytes to the file at this offset. Returns false, with errno set, on failure.
@@ -156,8 +156,8 @@ bool write_all(int fd, Bytes bytes, std::uint64_t offset);
 /// Reads bytes of the file from this offset. Returns their number, smaller at the end of the file,
 /// or -1 with errno set.
 std::ptrdiff_t read_some(int fd, std::span<std::byte> bytes, std::uint64_t offset);
-/// Calls take with the first `length` bytes of the file, part by part. Returns false if the file is
-/// shorter.
+/// Calls take with consecutive parts of the first `length` bytes of the file. Returns false if the
+/// file is shorter.
 bool read_parts(int fd, std::uint64_t length, const std::function<void(Bytes)>& take);
 
 } // namespace asperity::io

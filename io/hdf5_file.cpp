@@ -60,8 +60,8 @@ constexpr const char* seal_attribute = "asperity_digest";
 /// Reason why the disk refused a file that is written; empty: it did not.
 using Refusal = std::string;
 
-/// One handle, closed by the function of its kind. refusal: of an object of a file that is written,
-/// whose data may reach the disk only when it is closed.
+/// One handle, closed by the function of its kind. refusal: message if closing fails, for objects
+/// of a file that is written, whose data may reach the disk only then.
 class Handle {
 public:
     Handle(hid_t id, herr_t (*close)(hid_t), Refusal* refusal = nullptr)
@@ -84,8 +84,8 @@ private:
 /// installed.
 const herr_t no_exit_handler = H5dont_atexit();
 
-/// Opens the file of a descriptor of this process, whatever has become of its directory. Without
-/// the library's locks: result_directory.hpp decides who may write a file.
+/// Opens the file of a descriptor of this process, even if its directory was moved. Without the
+/// library's locks: result_directory.hpp decides who may write a file.
 hid_t open_descriptor(int fd, bool create) {
     const std::string path = fmt::format("/proc/self/fd/{}", fd);
     const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
@@ -282,7 +282,7 @@ void Hdf5File::create(const std::string& dataset, std::int64_t type, const Shape
     const bool grows = !shape.empty() && shape[0] == 0;
     compressed = compressed && !grows && volume(shape) > 0 &&
                  H5Zfilter_avail(H5Z_FILTER_SHUFFLE) > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0;
-    if (grows || compressed) { // chunks of about so many bytes, or of one row
+    if (grows || compressed) { // chunks of about this number of bytes, or of one row
         const std::uint64_t row = H5Tget_size(type) * volume({shape.begin() + 1, shape.end()}),
                             rows = (grows ? 8192 : 262144) / std::max<std::uint64_t>(1, row);
         chunk[0] = std::clamp<hsize_t>(rows, 1, grows ? rows + 1 : shape[0]);

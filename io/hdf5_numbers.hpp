@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Numbers of an HDF5 file that a scene names, whoever wrote it.
+// Numbers of an HDF5 file of any origin that a scene names.
 //
-// libhdf5 crashes on some damaged files, and some make it ask for any amount of memory or time. So
-// a child process opens the file, with limits on its memory and processor time, and hands the
-// numbers over in a file in memory; this process opens no such file. A file that ends in a digest,
-// as those of Asperity do, is refused if the digest does not agree with its bytes.
+// libhdf5 crashes on some damaged files and takes unlimited memory or time for others. Therefore a
+// child process opens the file, with limits on its memory and processor time, and passes the
+// numbers on in a file in memory. A file that ends in a digest, as Asperity's files do, is refused
+// if the digest is wrong.
 #pragma once
 
 #include "io/hdf5_file.hpp"
@@ -21,7 +21,7 @@ namespace asperity::io {
 /// A data set of numbers and its attributes.
 struct NumberSet {
     Hdf5File::Shape shape;
-    std::vector<double> values; ///< values in row-major order; empty if they were not asked for
+    std::vector<double> values;               ///< values in row-major order; empty if not asked for
     std::map<std::string, std::string> texts; ///< attributes that are one text
     std::map<std::string, double> numbers;    ///< attributes that are one number
 };
@@ -31,12 +31,12 @@ struct NumbersWanted {
     const char* what; ///< name of the contents in messages: "the height map"
     /// Returns the names of the data sets to read, or throws. Called in the child process.
     std::function<std::vector<std::string>(const Hdf5File&)> data_sets;
-    std::vector<const char*> texts, numbers; ///< names of the attributes to read, if they are there
+    std::vector<const char*> texts, numbers; ///< names of the attributes to read if they exist
     bool values = true;                      ///< false: only shape and attributes are read
 };
 
-/// Reads the wanted data sets by name, and "/" with the attributes of the file. Compares their
-/// sizes with the bytes in the file and with the free memory before reading anything. Throws
+/// Reads the wanted data sets. Returns them by name, with the attributes of the file as "/".
+/// Compares the sizes with the bytes in the file and with the free memory before reading. Throws
 /// SceneError.
 std::map<std::string, NumberSet> read_numbers(const std::string& file, const NumbersWanted& wanted);
 

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A file of entries that only grows. A mark tells the number of its bytes at some moment, and their
+// An append-only file of entries. A mark holds the number of its bytes at some moment, and their
 // digest.
 //
-// A run appends its results to the journal; a checkpoint holds the mark of its moment. When the run
-// goes on from the checkpoint, everything after the mark (half an entry, a full disk, a kill) is
-// cut off, and the bytes before the mark are checked against the digest.
+// A run appends its results to the journal; a checkpoint holds the mark of the journal at that
+// moment. When the run resumes from the checkpoint, the bytes before the mark are compared with the
+// digest, and everything after the mark (incomplete entries after a full disk or a kill) is cut
+// off.
 #pragma once
 
 #include "io/files.hpp"
@@ -21,7 +22,7 @@
 
 namespace asperity::io {
 
-/// A file of entries with a mark.
+/// An append-only file of entries.
 class Journal {
 public:
     /// Length of the file at some moment, bytes, and the digest of these bytes.
@@ -35,17 +36,18 @@ public:
     /// Copies the bytes of the mark from one directory into another. Throws FileError.
     static void copy(const Directory& from, const Directory& to, const std::string& name,
                      const Mark& mark);
-    /// Opens the file (creates it if it is missing) and cuts it to its first `bytes` bytes, which
-    /// must exist. Throws FileError.
+    /// Opens or creates the file and cuts it to its first `bytes` bytes, which must exist. Throws
+    /// FileError.
     Journal(const Directory& directory, const std::string& name, std::uint64_t bytes = 0);
 
-    /// Appends an entry. kind: a number of the caller's. Throws FileError, also for every entry
-    /// after one that failed.
+    /// Appends an entry. kind: number of the caller's choice. Throws FileError; after a failure
+    /// every further call throws too.
     void append(std::uint64_t kind, Bytes payload);
+    /// Returns the mark of the present end.
     Mark mark() const { return {bytes_, digest_}; }
-    /// Brings all entries to the disk. Throws FileError.
+    /// Flushes all entries to the disk. Throws FileError.
     void synchronize();
-    /// Calls take with every entry, the first one first. Throws FileError.
+    /// Calls take with every entry, in their order. Throws FileError.
     void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
 
 private:
@@ -80,16 +82,19 @@ private:
 class PayloadReader {
 public:
     explicit PayloadReader(Bytes bytes) : bytes_(bytes) {}
+    /// Returns the next number. Throws FileError at the end.
     template <class T>
     T get() {
         return get<T>(1).front();
     }
+    /// Returns the next `count` numbers. Throws FileError at the end.
     template <class T>
     std::vector<T> get(std::size_t count) {
         std::vector<T> values(count);
         take(std::as_writable_bytes(std::span(values)));
         return values;
     }
+    /// Returns true if all numbers have been read.
     bool at_end() const { return bytes_.empty(); }
 
 private:

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Version and compiler of this program, and the machine that it runs on: for `asperity info` and
-// for every result.
+// Version and compiler of this program, and the machine, for `asperity info` and for every result.
 #pragma once
 
 #include <string>
@@ -18,22 +17,23 @@ struct BuildInfo {
     std::string flags;    ///< build type and options
     std::string hdf5;     ///< version of the HDF5 library in use
 };
+/// Returns the version and tools of this program.
 BuildInfo build_info();
 
-/// Sets the commit; a program calls it first in main(). Until then BuildInfo::git is "unknown".
+/// Sets BuildInfo::git, which is "unknown" before. Called first in main().
 void set_commit(const std::string& described);
 
 /// Returns the processor's name and the number of processors seen: "AMD EPYC 9B14, 2 processors".
 std::string machine();
 
-/// Memory that this process can still have, and its limit.
+/// Memory that this process can still allocate, and the limit that determines it.
 struct AvailableMemory {
-    double bytes = 0.0;  ///< memory left, bytes; infinite if nothing limits it
+    double bytes = 0.0;  ///< memory left, bytes; infinite without a limit
     std::string because; ///< name of the limit, for messages: "MemAvailable", "ulimit -v"
 };
-/// Returns the least of: free memory of the machine (MemAvailable of /proc/meminfo, without swap),
-/// memory left by the control groups of this process (memory.max or memory.limit_in_bytes), and the
-/// limits of address space and data (ulimit -v, -d).
+/// Returns the smallest of the free memory of the machine (MemAvailable of /proc/meminfo, without
+/// swap), the memory left in the control groups of this process (memory.max or
+/// memory.limit_in_bytes), and the limits of address space and data (ulimit -v, -d).
 AvailableMemory available_memory();
 
 } // namespace asperity::io

@@ -286,7 +286,7 @@ HeightMap read_map_numpy(std::string_view bytes, const std::string& file) {
     const std::size_t size = static_cast<std::size_t>(type[3] - '0');
     HeightMap map;
     map.format = "NumPy";
-    if (extent[0] == 0 || extent[1] == 0) return map; // empty, whatever the other says
+    if (extent[0] == 0 || extent[1] == 0) return map; // empty, for any other extent
     if (extent[0] > data.size() / size / extent[1])
         damaged(fmt::format("{} x {} numbers of {} bytes are declared, and {} bytes are there",
                             extent[0], extent[1], size, data.size()));

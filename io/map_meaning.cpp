@@ -57,8 +57,8 @@ std::string say_size(const MapQuantity& quantity) {
     return fmt::format("{}_size = \"100 nm\", its edge", quantity.key);
 }
 
-/// Converts the sizes to Å: what the scene says, else the file; with a note if they differ. Of a
-/// map that is not square the scene's size is the shorter edge.
+/// Converts the sizes of the scene, otherwise those of the file, to Å; with a note if they differ.
+/// The scene's size is the shorter edge of a map that is not square.
 void complete_size(HeightMap& map, const MapUnits& units, const MapOptions& said) {
     std::optional<double> factor;
     if (units.of_sizes)

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Meaning of the numbers of a map's file: units, sizes, points without a height.
+// Interpretation of the values in the file of a map: units, sizes, missing points.
 #pragma once
 
 #include "io/height_map.hpp"
@@ -11,23 +11,23 @@
 
 namespace asperity::io {
 
-/// Numbers this large stand for points without a height: 1e38 of Surfer, the largest float or
-/// double (SDF). No height of a surface is 1e30 of any unit.
+/// Values from which on a point counts as missing: files use 1e38 (Surfer) or the largest float or
+/// double (SDF), and no height of a surface is 1e30 of any unit.
 constexpr double no_height = 1e30;
 
 /// Units that a file states.
 struct MapUnits {
     std::optional<std::string> unit;       ///< unit of the heights
-    double scale = 1.0;                    ///< a number of the file is so many units
-    std::optional<std::string> of_sizes{}; ///< unit of width and height; empty: that of the heights
+    double scale = 1.0;                    ///< factor of the values of the file
+    std::optional<std::string> of_sizes{}; ///< unit of width and height; empty: as the heights
 };
 
 /// Converts heights and sizes of a map to Å and counts its missing points. Unit and size of the
-/// scene hold over those of the file; if they differ, a doubt names both. Throws SceneError.
+/// scene override those of the file; a difference is added to map.doubts. Throws SceneError.
 void complete(HeightMap& map, const MapUnits& units, const MapOptions& said);
 
-/// Adds to map.doubts what may be wrong with the file: sizes that no map of roughness has, a height
-/// that stands for none, maps on top of one another.
+/// Adds possible mistakes in the file to map.doubts: sizes that no map of roughness has, a value
+/// that marks missing points, several maps in one.
 void note_doubts(HeightMap& map);
 
 } // namespace asperity::io

@@ -91,21 +91,18 @@ const Quantity* run_quantity(std::string_view path) {
 std::string result_markdown(std::span<const Quantity> series) {
     std::vector<Quantity> run(series.begin(), series.end());
     run.insert(run.end(), std::begin(run_quantities), std::end(run_quantities));
-    return "# Results\n\n"
-           "Written by `asperity defaults --results`; do not edit. A run writes two files to its "
-           "directory:\n`result.json`, its numbers, and `run.h5` (HDF5), the series along its "
-           "path and its maps.\n\n"
-           "## result.json\n\n"
-           "What was not computed is left out. Dots lead deeper, `*` stands for any name, `[]` for "
-           "each\nelement of a list. `scene` holds the scene with its defaults filled in "
-           "([scene.md](scene.md)).\n`units` holds the unit of every value at the same place as "
-           "the value, for a list once for all its\nelements; `1` marks a pure number, an empty "
-           "text what is no number.\n" +
+    return "# Results\n\nWritten by `asperity defaults --results`; do not edit. A run writes two "
+           "files to its directory:\n`result.json`, its numbers, and `run.h5` (HDF5), the series "
+           "along its path and its maps.\n\n## result.json\n\nValues that were not computed are "
+           "omitted. A dot leads to a member, `*` stands for any name, `[]`\nfor each element of a "
+           "list. `scene` holds the scene with its defaults ([scene.md](scene.md)).\n`units` holds "
+           "the unit of every value at the place of the value, for a list once for all\nelements; "
+           "`1` marks a pure number, an empty text a value that is no number.\n" +
            tables(result_quantities, result_topics()) +
-           "\n## run.h5\n\n"
-           "Each data set has its `unit` and a `description` as attributes. `/` has the scene as "
-           "TOML (`scene`),\nand `version` and `git` of the program that wrote it. A trajectory "
-           "is in `/particles`, as H5MD wants it.\n`@` leads to an attribute.\n" +
+           "\n## run.h5\n\nEach data set has its `unit` and a `description` as attributes. The "
+           "attributes of `/` are the scene as\nTOML (`scene`), and `version` and `git` of the "
+           "program. A trajectory is in `/particles`, in the form\nof H5MD. `@` leads to an "
+           "attribute.\n" +
            tables(run, run_topics());
 }
 

@@ -37,235 +37,254 @@ inline constexpr std::string_view area = "nominal area", block = "whole block",
 inline constexpr Quantity result_quantities[] = {
     {"name", "", "", "name of the scene"},
     {"failure.exit_code", "1", "", "exit code of a command that failed"},
-    {"failure.reason", "", "", "why it failed: problem, reason, remedy"},
+    {"failure.reason", "", "", "error message of the command: problem, reason, remedy"},
     {"delta_gamma", "meV/Å^2", per::area,
-     "flat reference Δγ: flat on flat with the same potential, cutoff and lattices; over atoms "
-     "anywhere that of one layer of the block's lattice, as a unit of measure"},
+     "flat reference Δγ: work of adhesion of flat on flat with the potential, cutoff and lattices "
+     "of the scene; for a substrate of atoms (surface.kind = \"atoms\") that of one layer of the "
+     "block's lattice, as a unit of measure"},
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
-     "convergence of its solver, not its error (asperity estimate): the energy that residual "
-     "forces of the size of drive.tolerance stand for"},
+     "convergence of the solver, not the error (asperity estimate): energy of residual forces of "
+     "the size of drive.tolerance"},
     {"work_of_interface.approach", "meV/Å^2", per::area,
-     "work of the interface: of its force on the mean height of the lowest layer, ∫ F dz, positive "
-     "where the solids attract each other on the way in; of dynamic paths, and of quasi-static "
-     "ones "
-     "that control the mean height"},
+     "work of the interface during the approach: of its force on the mean height of the lowest "
+     "layer, ∫ F dz, positive if the solids attract each other; dynamic paths, and quasi-static "
+     "paths that control the mean height"},
     {"work_of_interface.pull_off", "meV/Å^2", per::area,
-     "the same of the pull-off: negative where the solids attract each other"},
+     "work of the interface during the pull-off, ∫ F dz: negative if the solids attract each "
+     "other"},
     {"pair_binding_energy", "meV/Å^2", per::area,
      "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
     {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of work_of_interface.approach (quasi-static), for the sequence of instabilities "
-     "that the path takes"},
-    {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "on the path"},
+    {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area,
+     "convergence of work_of_interface.pull_off (quasi-static), for the sequence of instabilities "
+     "on the path"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
      "work of the drive on the solids during the approach, from rest beyond the interaction range: "
-     "negative where they attract each other. The drive is the top plane (on dynamic paths with "
-     "the "
-     "damping medium, which moves along) or the holder of the mean height"},
+     "negative if they attract each other. The drive is the top plane (on dynamic paths with the "
+     "damping medium, which moves with the plane) or the holder of the mean height"},
     {"work_of_drive.pull_off", "meV/Å^2", per::area,
-     "the same of the pull-off, to rest beyond the interaction range"},
+     "work of the drive on the solids during the pull-off, until they are at rest beyond the "
+     "interaction range"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of work_of_drive.approach (quasi-static), for the sequence of instabilities that "
-     "the path takes"},
-    {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "convergence of work_of_drive.approach (quasi-static), for the sequence of instabilities on "
+     "the path"},
+    {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area,
+     "convergence of work_of_drive.pull_off (quasi-static), for the sequence of instabilities on "
+     "the path"},
     {"lost.approach", "meV/Å^2", per::area,
-     "energy lost on the approach: dissipated at instabilities (quasi-static), or damped "
+     "energy lost during the approach: dissipated at instabilities (quasi-static), or damped "
      "(dynamic, at T = 0). From rest, without a load, binding_energy = -work_of_drive.approach + "
-     "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + "
-     "kinetic.approach - kinetic.pull_off; of quasi-static paths nothing is kinetic. Of several "
-     "cycles: of "
-     "the last"},
-    {"lost.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + kinetic.approach "
+     "- kinetic.pull_off, with kinetic = 0 on quasi-static paths. If the path has several cycles: "
+     "of the last one"},
+    {"lost.pull_off", "meV/Å^2", per::area,
+     "energy lost during the pull-off: dissipated at instabilities (quasi-static), or damped "
+     "(dynamic, at T = 0)"},
     {"lost.cycle", "meV/Å^2", per::area,
-     "energy lost over a whole cycle, from and to rest beyond the interaction range, with "
-     "kinetic.pull_off; where the path is an approach and a pull-off alone, work_of_drive.approach "
+     "energy lost in a whole cycle, from and to rest beyond the interaction range, including "
+     "kinetic.pull_off; on a path of one approach and one pull-off equal to work_of_drive.approach "
      "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
-     "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without "
-     "a load), above the state at zero load"},
+     "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without a "
+     "load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
-     "the same at the end of the pull-off, above a block at rest beyond the interaction range"},
+     "kinetic and vibrational energy left at the end of the pull-off (dynamic, at T = 0), above a "
+     "block at rest beyond the interaction range"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "energy that a viscoelastic block (block.prony) has dissipated on the approach, "
-     "beside lost.approach"},
+     "energy dissipated by a viscoelastic block (block.prony) during the approach, apart from "
+     "lost.approach"},
     {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
-     "the same of the pull-off: at its end a block that is still stretched comes to rest, without "
-     "work of the drive"},
-    {"dissipated_in_block.cycle", "meV/Å^2", per::area, "the same over a whole cycle"},
+     "energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off; "
+     "includes the recovery of the stretched block after the solids have separated, without work "
+     "of the drive"},
+    {"dissipated_in_block.cycle", "meV/Å^2", per::area,
+     "energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"},
     {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of dissipated_in_block.approach"},
     {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
      "convergence of dissipated_in_block.pull_off"},
     {"stored.approach", "meV/Å^2", per::area,
-     "change of the energy of interface and block (branches included) on the approach of a "
-     "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, on the approach, on "
-     "the pull-off and in each segment; over a cycle nothing is stored"},
-    {"stored.pull_off", "meV/Å^2", per::area, "the same of the pull-off"},
+     "change of the energy of interface and block (branches included) during the approach of a "
+     "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, during the approach, "
+     "the pull-off and each segment; zero over a cycle"},
+    {"stored.pull_off", "meV/Å^2", per::area,
+     "change of the energy of interface and block (branches included) during the pull-off of a "
+     "quasi-static path"},
     {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
     {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
-     "sites closer to an atom than the inflection of the pair potential, at zero load; over a wall "
-     "those that touch it, or nearer than its largest tension (smeared)"},
+     "sites in contact at zero load: closer to an atom than the inflection of the pair potential; "
+     "over a wall closer than the gap of its largest tension, or in touch with laws that begin at "
+     "contact"},
     {"repulsive_fraction", "1", per::sites,
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
     {"pull_off_force", "eV/Å", per::block, "largest attraction during the pull-off"},
     {"jkr.approach", "meV/Å^2", per::contact,
      "work of adhesion by JKR, F/(1.5 π R), from the largest attraction of the approach (spheres)"},
-    {"jkr.pull_off", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.pull_off", "meV/Å^2", per::contact,
+     "work of adhesion by JKR, F/(1.5 π R), from the largest attraction of the pull-off (spheres)"},
     {"jkr.approach_averaged", "meV/Å^2", per::contact,
-     "as jkr.approach, from the largest attraction of a running mean over 2 ps, which leaves out "
-     "the "
+     "as jkr.approach, from the largest attraction of a running mean over 2 ps, which removes the "
      "vibrations after an instability; needs output.series of 0.5 ps or less"},
-    {"jkr.pull_off_averaged", "meV/Å^2", per::contact, "the same of the pull-off"},
+    {"jkr.pull_off_averaged", "meV/Å^2", per::contact,
+     "as jkr.pull_off, from the largest attraction of a running mean over 2 ps; needs "
+     "output.series of 0.5 ps or less"},
     {"jkr.edge_pinning", "1", "",
-     "factor by which rows of sites that hold the edge of the contact make pull_off_force and "
-     "jkr.pull_off too large, within 15 % (a wall's range that the spacing does not resolve)"},
+     "factor by which pinning of the contact edge at rows of sites makes pull_off_force and "
+     "jkr.pull_off too large, within 15 % (if the spacing does not resolve the range of a wall)"},
     {"jkr.relaxed", "meV/Å^2", per::contact,
-     "work of adhesion by JKR from the binding energy at zero load, which needs no largest force; "
-     "not of a state under drive.load"},
-    {"contact_radius.relaxed", "Å", "", "√(contact area/π) of the state (spheres)"},
-    {"contact_radius.pull_off", "Å", "", "√(contact area/π) at the largest attraction"},
+     "work of adhesion by JKR from the binding energy at zero load instead of a pull-off force; "
+     "not given under drive.load"},
+    {"contact_radius.relaxed", "Å", "", "√(contact area/π) of the state at zero load (spheres)"},
+    {"contact_radius.pull_off", "Å", "",
+     "√(contact area/π) at the largest attraction of the pull-off (spheres)"},
     {"instrument.approach_force", "nN", per::block,
-     "approach_force in the units of instruments, of a sphere or a box with free edges, like the "
-     "following"},
-    {"instrument.pull_off_force", "nN", per::block, "pull_off_force"},
-    {"instrument.contact_radius", "nm", "", "contact_radius.relaxed"},
-    {"instrument.spring", "N/m", "", "drive.stiffness"},
-    {"instrument.energy_lost", "aJ", per::block, "dissipated.energy"},
+     "approach_force in units of instruments (spheres and boxes with free edges)"},
+    {"instrument.pull_off_force", "nN", per::block, "pull_off_force in units of instruments"},
+    {"instrument.contact_radius", "nm", "", "contact_radius.relaxed in units of instruments"},
+    {"instrument.spring", "N/m", "", "drive.stiffness in units of instruments"},
+    {"instrument.energy_lost", "aJ", per::block, "dissipated.energy in units of instruments"},
     {"instrument.edge_distance", "nm", "",
-     "least distance of a contact of the path from a free edge of the box (surface.boundary)"},
+     "smallest distance of a contact from a free edge of the box on the path (surface.boundary)"},
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
-    {"segments[].segment", "1", "", "its number in drive.path, from 0"},
-    {"segments[].name", "", "", "as the scene has it"},
+    {"segments[].segment", "1", "", "number of the segment in drive.path, from 0"},
+    {"segments[].name", "", "", "the segment's text in drive.path"},
     {"segments[].work_of_drive", "meV/Å^2", per::area,
-     "work of the drive on the solids, also sideways; on dynamic paths from rest where the path "
-     "starts, and to rest beyond the interaction range at a pull-off"},
+     "work of the drive on the solids, including work sideways; on dynamic paths counted from rest "
+     "at the start of the path, and to rest beyond the interaction range at a pull-off"},
     {"segments[].work_of_interface", "meV/Å^2", per::area,
-     "∫ F dz of the mean height; left out at a controlled top on quasi-static paths"},
+     "work of the interface, ∫ F dz of the mean height; omitted for a controlled top on "
+     "quasi-static paths"},
     {"segments[].lost", "meV/Å^2", per::area,
-     "energy damped on the way, or dissipated at instabilities; at a temperature the "
-     "net heat, damped less what the thermostat's noise gives: at rest it fluctuates as the energy "
-     "does and does not grow, and the first segment includes what warms the block from 0 K"},
+     "energy damped in the segment, or dissipated at instabilities; at a temperature the net heat, "
+     "damped minus that of the thermostat's noise: at rest it fluctuates like the energy without "
+     "growing, and the first segment includes the heating of the block from 0 K"},
     {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "energy that a viscoelastic block has dissipated by that, beside lost"},
+     "energy dissipated by a viscoelastic block in the segment, apart from lost"},
     {"segments[].stored", "meV/Å^2", per::area,
      "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
      "dissipated_in_block"},
     {"segments[].work_of_settling", "meV/Å^2", per::area,
-     "part of work_of_drive of a slide until steady: it brings a viscoelastic block into the shape "
-     "in which it slides steadily, before the first step"},
+     "part of work_of_drive of a slide until steady: brings a viscoelastic block into the shape in "
+     "which it slides steadily, before the first step"},
     {"segments[].kinetic", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
-     "path "
-     "at T = 0, as kinetic.*"},
+     "path at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
-     "of instabilities that "
-     "the path takes"},
-    {"segments[].largest_attraction", "eV/Å", per::block, "on the way"},
+     "of instabilities on the path"},
+    {"segments[].largest_attraction", "eV/Å", per::block, "largest attraction in the segment"},
     {"segments[].friction", "eV/Å", per::block,
-     "force against a slide: the work of what moves the block sideways, over the distance"},
-    {"segments[].largest_friction", "eV/Å", per::block, "the largest force against the slide"},
+     "mean force against a slide: work that moves the block sideways, divided by the distance"},
+    {"segments[].largest_friction", "eV/Å", per::block, "largest force against a slide"},
     {"segments[].steady", "", "",
-     "of a slide over a wall: whether its mean friction over a correlation length of the map no "
-     "longer drifts; what follows are means after the running-in"},
+     "slides over a wall: true if the mean friction over a correlation length of the map no longer "
+     "drifts; the following values are means after the running-in"},
     {"segments[].running_in", "Å", "",
-     "distance left out at the beginning, with which the variance of the mean friction is least"},
+     "distance omitted at the beginning of the slide, for which the variance of the mean friction "
+     "is least"},
     {"segments[].steady_friction", "eV/Å", per::block,
-     "force against the slide; of a steady slide of a viscoelastic block what is dissipated over "
-     "the distance, which is more accurate"},
+     "mean force against the slide; for a steady slide of a viscoelastic block the dissipated "
+     "energy divided by the distance, which is more accurate"},
     {"segments[].steady_friction_error", "eV/Å", per::block,
-     "its standard error, by blocking, as of the following ones; if that is larger, by how much "
-     "what is dissipated differs from the work over the distance of a steady slide"},
-    {"segments[].friction_stress", "MPa", "", "steady_friction over the area of the box"},
+     "standard error of steady_friction, by blocking, as for the following values; for a steady "
+     "slide at least the difference between dissipated energy and work, divided by the distance"},
+    {"segments[].friction_stress", "MPa", "", "steady_friction divided by the area of the box"},
     {"segments[].friction_coefficient", "1", "",
-     "steady_friction over the normal force; left out if that pulls"},
-    {"segments[].friction_coefficient_error", "1", "", "its standard error"},
-    {"segments[].steady_pressure", "MPa", "", "of the substrate on the lowest layer"},
-    {"segments[].steady_contact_fraction", "1", per::sites, "contact fraction"},
-    {"segments[].steady_contact_fraction_error", "1", per::sites, "its standard error"},
-    {"segments[].steady_mean_height", "Å", "", "mean height of the lowest layer"},
+     "steady_friction divided by the normal force; omitted under tension"},
+    {"segments[].friction_coefficient_error", "1", "", "standard error of friction_coefficient"},
+    {"segments[].steady_pressure", "MPa", "",
+     "mean normal force of the substrate on the lowest layer, divided by the area of the box"},
+    {"segments[].steady_contact_fraction", "1", per::sites, "mean contact fraction"},
+    {"segments[].steady_contact_fraction_error", "1", per::sites,
+     "standard error of steady_contact_fraction"},
+    {"segments[].steady_mean_height", "Å", "", "average of the mean height of the lowest layer"},
     {"segments[].steady_dissipated_in_block", "eV/Å", per::block,
-     "energy that a viscoelastic block dissipates over the distance: its part of steady_friction"},
+     "part of steady_friction: energy dissipated by a viscoelastic block, divided by the distance"},
     {"segments[].steady_lost", "eV/Å", per::block,
-     "energy dissipated at instabilities over the distance: the other part"},
+     "part of steady_friction: energy dissipated at instabilities, divided by the distance"},
     {"segments[].pressure", "MPa", "",
-     "at its end: of the substrate on the lowest layer; at a temperature the average by which the "
-     "segment ends"},
+     "normal force of the substrate on the lowest layer at the end of the segment, divided by the "
+     "area of the box; at a temperature the average that ends the segment"},
     {"segments[].force", "nN", per::block,
-     "the same as a force, of a sphere or a box with free edges"},
+     "force at the end of the segment (spheres and boxes with free edges)"},
     {"segments[].pressure_scatter", "MPa", "",
-     "thermal noise: rms of the force about that average"},
+     "rms deviation of the force from the average, by thermal noise"},
     {"segments[].pressure_averaged_over", "ps", "",
-     "time of the average: one transit of sound, or a tenth of the potential's width at "
+     "averaging time of the force: one transit of sound, or a tenth of the potential's width at "
      "drive.velocity if that is shorter"},
-    {"segments[].mean_height", "Å", "", "at its end"},
-    {"segments[].top_displacement", "Å", "", "at its end"},
+    {"segments[].mean_height", "Å", "",
+     "mean height of the lowest layer at the end of the segment"},
+    {"segments[].top_displacement", "Å", "",
+     "displacement of the top plane at the end of the segment"},
     {"segments[].contact_fraction", "1", per::sites,
-     "at its end; of a dynamic path one step later"},
-    {"segments[].slide", "Å", "", "at its end: place over the substrate along x and y"},
+     "contact fraction at the end of the segment; on dynamic paths one step later"},
+    {"segments[].slide", "Å", "",
+     "place over the substrate along x and y at the end of the segment"},
     {"dissipated.energy", "eV", per::block,
      "energy dissipated at instabilities since the start of a quasi-static path"},
     {"dissipated.not_followed", "eV", per::block,
-     "of this, in steps longer than a fiftieth of the shortest time of block.prony: the block may "
-     "have dissipated a part of it"},
+     "part of dissipated.energy in steps longer than a fiftieth of the shortest time of "
+     "block.prony, of which the block may have dissipated a part"},
     {"dissipated.events", "1", "", "number of instabilities"},
     {"dissipated.jumps[]", "", "",
      "the 20 largest instabilities in the order of the path; an empty list if there were none"},
     {"dissipated.jumps[].segment", "1", "", "number of the segment of drive.path, from 0"},
-    {"dissipated.jumps[].energy", "eV", per::block, "energy dissipated"},
+    {"dissipated.jumps[].energy", "eV", per::block, "energy dissipated at the instability"},
     {"dissipated.jumps[].top_displacement", "Å", "", "displacement of the top plane"},
-    {"dissipated.jumps[].slide", "Å", "", "place over the substrate, of a path that slides"},
-    {"dissipated.jumps[].mean_height", "Å", "",
-     "mean height of the lowest layer, before and after"},
+    {"dissipated.jumps[].slide", "Å", "", "place over the substrate (paths that slide)"},
+    {"dissipated.jumps[].mean_height", "Å", "", "mean height of the lowest layer before and after"},
     {"dissipated.jumps[].force", "eV/Å", per::block,
      "force on the top plane, or of the substrate along a slide, before and after"},
-    {"dissipated.jumps[].contact_fraction", "1", per::sites, "contact fraction, before and after"},
+    {"dissipated.jumps[].contact_fraction", "1", per::sites, "contact fraction before and after"},
     {"dissipated.jumps[].site", "1", "", "x and y of the site that moved furthest"},
-    {"dissipated.jumps[].largest_move", "Å", "", "how far it moved"},
-    {"dissipated.jumps[].sites_moved", "1", "", "sites that moved more than half as far"},
+    {"dissipated.jumps[].largest_move", "Å", "", "distance moved by that site"},
+    {"dissipated.jumps[].sites_moved", "1", "", "number of sites that moved more than half as far"},
     {"theory.persson.gamma_eff", "meV/Å^2", per::area,
      "effective work of adhesion, Persson's theory"},
     {"theory.persson.contact_fraction", "1", per::area, "area of real contact, projected"},
     {"theory.persson.gamma_full_contact", "meV/Å^2", per::area,
-     "effective work of adhesion if contact is assumed to be complete"},
-    {"theory.persson.delta_gamma", "meV/Å^2", per::area, "the Δγ that the theory was given"},
+     "effective work of adhesion for complete contact"},
+    {"theory.persson.delta_gamma", "meV/Å^2", per::area, "Δγ used by the theory"},
     {"theory.persson.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
     {"theory.persson.contact_fraction_error", "1", per::area,
      "numerical error of contact_fraction"},
     {"theory.persson.elastic_energy", "meV/Å^2", per::area, "elastic energy stored in the contact"},
-    {"theory.persson.h_rms", "Å", "", "rms height of the spectrum that was solved for"},
-    {"theory.persson.rms_slope", "1", "", "rms slope of that spectrum"},
+    {"theory.persson.h_rms", "Å", "", "rms height of the spectrum used by the theory"},
+    {"theory.persson.rms_slope", "1", "", "rms slope of the spectrum used by the theory"},
     {"theory.persson.theta", "1", "", "adhesion parameter E* h² q0/Δγ"},
     {"theory.persson.jkr_pull_off_force", "eV/Å", per::block,
      "pull-off force by JKR with gamma_eff"},
     {"theory.persson.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
     {"theory.persson.critical_rms_full_contact", "Å", "",
-     "the same if contact is assumed to be complete"},
+     "rms height beyond which adhesion vanishes for complete contact"},
     {"theory.persson.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
     {"theory.persson.converged", "", "",
-     "whether the errors are below 1e-3 (of a ratio above 1: relative)"},
-    {"theory.persson.note", "", "", "why the theory has no solution for this scene"},
+     "true if the errors are below 1e-3 (relative for a ratio above 1)"},
+    {"theory.persson.note", "", "", "reason why the theory has no solution for this scene"},
     {"theory.renormalised.gamma_eff", "meV/Å^2", per::area,
-     "effective work of adhesion, renormalised theory (of `asperity theory` and sweeps, like the "
-     "following)"},
-    {"theory.renormalised.gamma_eff_ratio", "1", "flat reference", "gamma_eff over Δγ"},
+     "effective work of adhesion, renormalised theory (in results of `asperity theory` and sweeps, "
+     "like the following)"},
+    {"theory.renormalised.gamma_eff_ratio", "1", "flat reference", "gamma_eff/Δγ"},
     {"theory.renormalised.contact_fraction", "1", per::area, "sites in contact"},
     {"theory.renormalised.separation", "Å", "",
-     "mean separation; left out where the surfaces do not adhere"},
+     "mean separation; omitted if the surfaces do not adhere"},
     {"theory.renormalised.tension", "GPa", "", "largest tension of the renormalised potential"},
     {"theory.renormalised.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
     {"theory.renormalised.contact_fraction_error", "1", per::area,
      "numerical error of contact_fraction"},
     {"theory.renormalised.gamma_eff_expected_error", "meV/Å^2", per::area,
-     "expected error: at zero load 19 of 20 simulated surfaces differ by less from gamma_eff; left "
-     "out under a load"},
+     "expected error: at zero load 19 of 20 simulated surfaces differ by less from gamma_eff; "
+     "omitted under a load"},
     {"theory.renormalised.contact_fraction_expected_error", "1", per::area,
-     "the same of contact_fraction"},
-    {"theory.renormalised.note", "", "", "why there is no solution, or its error is large"},
+     "expected error of contact_fraction, as for gamma_eff"},
+    {"theory.renormalised.note", "", "",
+     "reason why there is no solution, or why its error is large"},
     {"theory.sphere.maugis_parameter", "1", "",
      "Maugis' λ of the smooth sphere; its stress is the largest tension of flat on flat"},
     {"theory.sphere.jkr_images", "meV/Å^2", per::contact,
@@ -276,101 +295,108 @@ inline constexpr Quantity result_quantities[] = {
     {"theory.sphere.renormalised", "meV/Å^2", per::contact,
      "as maugis_images, with the work of adhesion and the largest tension of the renormalised "
      "theory"},
-    {"theory.sphere.renormalised_parameter", "1", "", "its Maugis' λ"},
-    {"theory.sphere.note", "", "", "why one of these is missing"},
+    {"theory.sphere.renormalised_parameter", "1", "",
+     "Maugis' λ with the work of adhesion and the largest tension of the renormalised theory"},
+    {"theory.sphere.note", "", "", "reason why one of these is missing"},
     {"theory.sliding.friction_coefficient", "1", "",
      "Persson's theory of rubber friction at drive.velocity, under drive.load: hysteresis without "
      "adhesion"},
     {"theory.sliding.friction_stress", "MPa", "", "friction_coefficient times the load"},
     {"theory.sliding.contact_fraction", "1", per::area, "area of real contact at drive.velocity"},
-    {"theory.sliding.slope", "s/m", "", "friction coefficient over velocity of slow sliding"},
-    {"theory.sliding.largest_friction_coefficient", "1", "", "the maximum over velocity"},
-    {"theory.sliding.velocity_of_largest", "m/s", "", "its velocity"},
-    {"theory.sliding.curve[]", "", "", "of `asperity theory`: the theory over velocity"},
+    {"theory.sliding.slope", "s/m", "",
+     "friction coefficient divided by velocity, in the limit of slow sliding"},
+    {"theory.sliding.largest_friction_coefficient", "1", "",
+     "maximum of the friction coefficient over velocity"},
+    {"theory.sliding.velocity_of_largest", "m/s", "",
+     "velocity of the largest friction coefficient"},
+    {"theory.sliding.curve[]", "", "", "the theory as a function of velocity (`asperity theory`)"},
     {"theory.sliding.curve[].velocity", "m/s", "", "velocity"},
-    {"theory.sliding.curve[].friction_coefficient", "1", "", "friction coefficient there"},
-    {"theory.sliding.curve[].contact_fraction", "1", per::area, "area of real contact there"},
-    {"theory.sliding.note", "", "", "why the theory has no number"},
+    {"theory.sliding.curve[].friction_coefficient", "1", "",
+     "friction coefficient at this velocity"},
+    {"theory.sliding.curve[].contact_fraction", "1", per::area,
+     "area of real contact at this velocity"},
+    {"theory.sliding.note", "", "", "reason why the theory has no result"},
     {"relaxed.elastic_energy", "meV/Å^2", per::area, "elastic energy of the relaxed state"},
     {"relaxed.mean_height", "Å", "",
      "mean height of the lowest layer above the substrate's mean plane (its apex, if it is "
      "curved)"},
-    {"relaxed.residual_force", "eV/Å", "", "largest force left on a node"},
+    {"relaxed.residual_force", "eV/Å", "", "largest residual force on a node"},
     {"energy.balance_error", "1", "largest term",
      "energy balance: energy.work - kinetic - elastic - interface - damped (- time_step at a "
-     "temperature), at the last recorded step, over the largest energy or work so far"},
+     "temperature) at the last recorded step, divided by the largest energy or work so far"},
     {"energy.work", "eV", per::block,
-     "work of the drive on the solids since they were at rest apart: it includes the energy that "
-     "they have where the path starts"},
+     "work of the drive on the solids, counted from rest apart: includes the energy of the solids "
+     "at the start of the path"},
     {"energy.kinetic", "eV", per::block,
-     "kinetic energy of the velocities at the last recorded step; at rest at a temperature T it is "
-     "(3/2) N k T on average"},
+     "kinetic energy at the last recorded step; in equilibrium at a temperature T it is (3/2) N k "
+     "T on average"},
     {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
     {"energy.interface", "eV", per::block,
-     "energy of the interface at the last recorded step: pairs, or the wall's law"},
+     "energy of the interface at the last recorded step: of pairs, or of the law of a wall"},
     {"energy.time_step", "eV", per::block,
-     "at a temperature: -(dt²/8) Σ F²/m at the last recorded step; with it the energies are what "
-     "the time step conserves"},
+     "at a temperature: -(dt²/8) Σ F²/m at the last recorded step; the sum of the energies with "
+     "this one is conserved by the time step"},
     {"energy.damped", "eV", per::block,
-     "energy lost since the start: damped on dynamic paths (less the heat of the thermostat's "
+     "energy lost since the start: damped on dynamic paths (minus the heat of the thermostat's "
      "noise), dissipated at instabilities on quasi-static ones"},
     {"energy.spring", "eV", per::block,
-     "of energy.elastic, that of the spring that holds the top plane (drive.stiffness)"},
+     "part of energy.elastic in the spring that holds the top plane (drive.stiffness)"},
     {"energy.branches", "eV", per::block,
-     "of energy.elastic, what the branches of a viscoelastic block store"},
+     "part of energy.elastic in the branches of a viscoelastic block"},
     {"energy.dissipated_in_block", "eV", per::block,
-     "what they have dissipated since the start, beside energy.damped"},
+     "energy dissipated by the branches of a viscoelastic block since the start, apart from "
+     "energy.damped"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
-    {"surface.min", "Å", "", "lowest height of the substrate"},
-    {"surface.max", "Å", "", "its highest"},
-    {"surface.atoms", "1", "", "number of atoms of a substrate of atoms anywhere"},
-    {"surface.origin", "", "", "who measured the map, where its file says so"},
+    {"surface.min", "Å", "", "smallest height of the substrate"},
+    {"surface.max", "Å", "", "largest height of the substrate"},
+    {"surface.atoms", "1", "", "number of atoms of a substrate of atoms"},
+    {"surface.origin", "", "", "author of the map, if its file names one"},
     {"surface.file_digest", "", "",
-     "digest of what was read from surface.file: heights and width of a map, positions and types "
-     "of atoms. A sweep takes a result again only if the file still holds the same"},
-    {"interface.cutoff", "Å", "",
-     "cutoff of the pairs, of a scene with interface.cutoff = \"4 r0\" too"},
-    {"block.prony_file", "", "",
-     "file of block.prony, as the scene names it; scene.block has the numbers that it held"},
-    {"block.prony_error", "1", "", "rms error of the fit that this file is, over the moduli"},
+     "digest of the values read from surface.file: heights and width of a map, or positions and "
+     "types of atoms. A sweep reuses a result only if the digest is unchanged"},
+    {"interface.cutoff", "Å", "", "cutoff of the pairs, also if the scene says \"4 r0\""},
+    {"block.prony_file", "", "", "file that block.prony names; scene.block has its values"},
+    {"block.prony_error", "1", "", "relative rms error of the fit in that file"},
     {"interface.table_digest", "", "",
-     "digest of the numbers in the tables of potentials that the scene names. A sweep takes a "
-     "result again only if they are the same"},
+     "digest of the values of the scene's tabulated potentials. A sweep reuses a result only if "
+     "the digest is unchanged"},
     {"interface.adhesion_digest", "", "",
-     "digest of the field of interface.adhesion on the sites. A sweep takes a result again only if "
-     "the file still holds the same"},
-    {"interface.adhesion_least", "meV/Å^2", "", "least work of adhesion of a site of that field"},
-    {"interface.adhesion_largest", "meV/Å^2", "", "its largest"},
+     "digest of the field of interface.adhesion on the sites. A sweep reuses a result only if the "
+     "digest is unchanged"},
+    {"interface.adhesion_least", "meV/Å^2", "",
+     "smallest work of adhesion of a site in the field of interface.adhesion"},
+    {"interface.adhesion_largest", "meV/Å^2", "",
+     "largest work of adhesion of a site in the field of interface.adhesion"},
     {"interface.table_error", "1", "delta_gamma",
-     "bound of the error of energies of flat surfaces, and so of binding energies, that the spline "
-     "between the rows of these tables and the noise of the rows make"},
+     "bound of the error of energies of flat surfaces, and so of binding energies, from the spline "
+     "between the rows of these tables and the noise of the rows"},
     {"run.wall_seconds", "s", "", "wall time of this process"},
     {"run.processor_seconds", "s", per::rank,
      "processor time of all threads, from the first start"},
-    {"run.steps", "1", "", "time steps; of a quasi-static path: points"},
+    {"run.steps", "1", "", "number of time steps, or of points of a quasi-static path"},
     {"run.iterations", "1", "",
-     "iterations: of a path's points, or of the state and of the search for others"},
+     "number of iterations of a path's points, or of the state and the search for others"},
     {"run.stopped", "", "",
-     "\"max_steps\", \"wall_limit\" or \"signal\": the path is not complete"},
-    {"run.file_digest", "", "", "digest at the end of the run.h5 that belongs to these numbers"},
-    {"run.ranks", "1", "", "MPI ranks"},
-    {"run.threads", "1", "", "threads of a rank"},
+     "reason why the path is incomplete: \"max_steps\", \"wall_limit\" or \"signal\""},
+    {"run.file_digest", "", "", "digest at the end of the run.h5 of this result"},
+    {"run.ranks", "1", "", "number of MPI ranks"},
+    {"run.threads", "1", "", "number of threads of a rank"},
     {"run.phases.*.seconds", "s", per::rank,
      "wall time spent in a phase of the run, since the last resume"},
-    {"run.phases.*.calls", "1", per::rank, "how often the phase was entered"},
-    {"run.effects.*.on", "", "", "whether the scene switches this effect on"},
-    {"run.effects.*.why", "", "", "the key that decides it"},
-    {"run.device", "", "", "the device that made the steps; \"none\": the processor"},
+    {"run.phases.*.calls", "1", per::rank, "number of times that the phase was entered"},
+    {"run.effects.*.on", "", "", "true if the scene switches the effect on"},
+    {"run.effects.*.why", "", "", "key that decides"},
+    {"run.device", "", "", "device that computed the steps; \"none\": the processor"},
     {"run.kernels", "", "", "instruction set of the kernels used: \"v2\", \"v3\", \"v4\""},
     {"run.version", "", "", "version of Asperity"},
-    {"run.git", "", "", "commit that it was built from"},
+    {"run.git", "", "", "commit that the program was built from"},
     {"run.compiler", "", "", "compiler"},
     {"run.flags", "", "", "build type and compiler flags"},
     {"run.machine", "", "", "processor and number of processors"},
     {"digest", "", "",
      "last member: \"crc32:\" and the CRC-32, in hexadecimal, of all bytes before the comma in "
-     "front of it"},
+     "front of the member"},
 };
 
 /// Data sets of run.h5 except the series (engine/run/series.hpp); "@" leads to an attribute.
@@ -378,39 +404,40 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
     {"fields/*/distance", "Å", "",
-     "distance of a site and the nearest atom; infinite beyond the interaction range"},
+     "distance from a site to the nearest atom; infinite beyond the interaction range"},
     {"fields/*/contact", "1", "",
-     "1 where that is less than the inflection of the potential; with interface.pairs, where an "
-     "atom is nearer than that of its type"},
+     "1 if distance is below the inflection of the pair potential; with interface.pairs, if an "
+     "atom is closer than that of its type"},
     {"fields/*/adhesion", "meV/Å^2", "",
-     "work of adhesion of a site, where interface.adhesion is a field"},
-    {"fields/*/u_x", "Å", "", "displacement of a site"},
-    {"fields/*/u_y", "Å", "", "displacement of a site"},
-    {"fields/*/u_z", "Å", "", "displacement of a site"},
+     "work of adhesion of a site, if interface.adhesion is a field"},
+    {"fields/*/u_x", "Å", "", "displacement of a site along x"},
+    {"fields/*/u_y", "Å", "", "displacement of a site along y"},
+    {"fields/*/u_z", "Å", "", "displacement of a site along z"},
     {"fields/*/gap_edges", "Å", "", "edges of the bins of gap_density"},
-    {"fields/*/gap_density", "1/Å", "", "distribution of gaps P(u), its integral is 1"},
-    {"fields/*@slide_x", "Å", "", "place of the block over the substrate, where it was slid"},
-    {"fields/*@slide_y", "Å", "", "the same along y"},
+    {"fields/*/gap_density", "1/Å", "", "distribution of gaps P(u), with integral 1"},
+    {"fields/*@slide_x", "Å", "", "place of the block over the substrate along x, after a slide"},
+    {"fields/*@slide_y", "Å", "", "place of the block over the substrate along y, after a slide"},
     {"fields/*@reference_height", "Å", "", "height of the undisplaced lowest layer"},
     {"substrate/height", "Å", "",
-     "heights of the atoms of the substrate at (x a, y a), [y][x]; of atoms anywhere, those of the "
-     "topmost one nearest to there"},
-    {"substrate/atoms", "Å", "", "of atoms anywhere, their positions, [atom][x, y, z]"},
+     "heights of the atoms of the substrate at (x a, y a), [y][x]; for a substrate of atoms the "
+     "height of the topmost atom nearest to this place"},
+    {"substrate/atoms", "Å", "", "positions of the atoms of a substrate of atoms, [atom][x, y, z]"},
     {"substrate/type", "1", "",
-     "of atoms anywhere with interface.pairs, the entry there of each atom, [atom], from 1"},
+     "type of each atom of a substrate of atoms with interface.pairs: index in interface.pairs, "
+     "from 1, [atom]"},
     {"substrate/spectrum_q", "1/Å", "", "wavevectors of the bins of the spectrum"},
     {"substrate/spectrum", "Å^4", "", "C(q) of the surface, averaged over rings"},
-    {"substrate/spectrum_target", "Å^4", "", "C(q) that the scene asks for"},
+    {"substrate/spectrum_target", "Å^4", "", "C(q) of the scene's power law"},
     {"substrate@edge", "Å", "", "edge of the periodic box"},
     {"profile/q", "1/Å", "", "theory.h5: wavevector"},
     {"profile/zeta", "1", "", "magnification q/q_L"},
     {"profile/C", "Å^4", "", "power spectrum C(q)"},
     {"profile/A", "1", per::area, "A/A0, projected contact area"},
-    {"profile/A_real", "1", per::area, "A*/A0, following the roughness"},
+    {"profile/A_real", "1", per::area, "A*/A0, area that follows the roughness"},
     {"profile/gamma_eff", "meV/Å^2", per::area, "γ_eff, Eq. (3)"},
     {"profile/sigma_a", "GPa", "", "detachment stress, Eq. (4)"},
     {"profile/U_el", "meV/Å^2", per::area, "elastic energy of roughness from q to q1, Eq. (5)"},
-    {"profile/stress_variance", "GPa^2", "", "T(q), of the stress at full contact"},
+    {"profile/stress_variance", "GPa^2", "", "T(q), variance of the stress at full contact"},
 };
 
 /// The name of a quantity of result.json; a name that is not in the table does not compile.

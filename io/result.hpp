@@ -3,9 +3,9 @@
 //
 // result.json: the numbers that a command computed.
 //
-// A Result holds values under the names of io/quantities.hpp, and the unit of each; values that
-// were not computed are left out of the file. A run that fails writes its result too, with the
-// reason. The directory is chosen in io/result_directory.hpp.
+// A Result holds values under the names of io/quantities.hpp, with their units; the file omits
+// values that were not computed. A failed run writes a result too, with the reason.
+// io/result_directory.hpp chooses the directory.
 #pragma once
 
 #include "io/files.hpp"
@@ -29,45 +29,44 @@ public:
     using Value = std::variant<bool, long long, double, std::string, std::vector<double>,
                                std::vector<long long>, std::vector<std::string>>;
 
-    /// Sets the version, compiler and machine (run.version, ...) and nothing else.
+    /// Makes a result with version, compiler and machine (run.version, ...) only.
     Result();
     ~Result();
     Result(Result&&) noexcept;
 
-    /// Sets a value, in place of an earlier one. NaN and infinity are written as null.
+    /// Sets or replaces a value. NaN and infinity are written as null.
     void set(Key key, Value value);
     /// Sets a value unless the optional is empty.
     template <class T>
     void set(Key key, const std::optional<T>& value) {
         if (value) set(key, Value(*value));
     }
-    /// Sets a value. member: the name in place of the "*" of the key.
+    /// Sets a value. member: name that replaces the "*" of the key.
     void set(Key key, std::string_view member, Value value);
-    /// Sets a value. element: the index in place of the "[]" of the key; earlier elements must
-    /// exist.
+    /// Sets a value. element: index that replaces the "[]" of the key; earlier elements must exist.
     void set(Key key, std::size_t element, Value value);
     /// Sets an empty list and the units of its elements. list: a key that ends in "[]".
     void set_list(Key list);
     /// Sets the scene and the units of its keys (Schema::json(), Schema::units()).
     void set_scene(nlohmann::ordered_json scene, nlohmann::ordered_json units);
 
-    /// Returns a number that was set (of a key without "*" and "[]"), or nothing.
+    /// Returns a number, for a key without "*" and "[]"; nothing if the number was not set.
     std::optional<double> number(Key key) const;
 
     /// Returns the values in the order of result_quantities, then `scene` and `units`.
     nlohmann::ordered_json json() const;
-    /// Returns the text of json(); indent < 0: on one line.
+    /// Returns json() as text. indent: spaces of a level, < 0: on one line.
     std::string text(int indent = 2) const;
 
 private:
     void put(Key key, const std::string& member, std::size_t element, Value&& value);
 
-    /// values, and their units in the member `units`
+    /// Values, and their units in the member `units`.
     std::unique_ptr<nlohmann::ordered_json> values_;
 };
 
-/// Writes result.json, whole or not at all. Its last member `digest` is the digest of all bytes
-/// before the comma in front of it. Throws FileError.
+/// Writes result.json through OutputFile, with a last member `digest` (sealed_json()). Throws
+/// FileError.
 void write_result(const Directory& directory, const Result& result);
 
 } // namespace asperity::io

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The directory that a command writes its result to, and its owner.
+// The directory to which a command writes its result.
 //
-// The directory is that of --out, else results/<name>, then results/<name>-2, -3, ... A result that
-// is there is never written over. A run that has not come to its end leaves run.journal; a
-// directory that holds one is refused unless the run goes on (--resume) or is thrown away
+// The directory is that of --out; without --out it is results/<name>, or the first free one of
+// results/<name>-2, -3, ... A result is never overwritten. An unfinished run leaves run.journal; a
+// directory with run.journal is refused unless the run is resumed (--resume) or discarded
 // (--restart).
 //
-// One process at a time owns it (directory_lock.hpp).
+// One process at a time owns the directory (directory_lock.hpp).
 //
-// No file in it is replaced but those of a command that did not come to its end
-// (file_record.hpp).
+// Only files of an interrupted command are replaced (file_record.hpp).
 #pragma once
 
 #include "io/directory_lock.hpp"
@@ -25,23 +24,26 @@
 
 namespace asperity::io {
 
+/// Options of a command for its directory.
 struct ResultRequest {
     std::string asked; ///< --out; empty: results/<name>
-    std::string name;
-    bool resume = false;  ///< an unfinished run goes on, without --out in the name's last directory
-    bool restart = false; ///< an unfinished run is thrown away
+    std::string name;  ///< name of the result without --out
+    /// Resume an unfinished run; without --out in the last directory of this name.
+    bool resume = false;
+    bool restart = false;                 ///< discard an unfinished run
     std::vector<std::string> files = {};  ///< names of all files that the command writes
     std::vector<std::string> inputs = {}; ///< paths of the files that the command reads
 };
 
+/// A result directory, locked by this process.
 class ResultDirectory {
 public:
-    /// Makes the directory and takes it. Throws SceneError if the directory holds a result, an
-    /// unfinished run (unless the request resumes or restarts it), or a file that would have to be
-    /// replaced, and FileError if the directory is in use or cannot be made.
+    /// Makes and locks the directory and claims the files. Throws SceneError if the directory holds
+    /// a result, an unfinished run (unless the request resumes or restarts it), or a file that may
+    /// not be replaced, and FileError if the directory is in use or cannot be made.
     explicit ResultDirectory(const ResultRequest& request);
-    /// Releases the directory. The files of a run that can be resumed stay unfinished in the
-    /// record. A directory that was made and is still empty is removed.
+    /// Releases the directory. Files of a run that can be resumed stay unfinished in the record. A
+    /// directory that this object has made is removed if it is empty.
     ~ResultDirectory();
     ResultDirectory(const ResultDirectory&) = delete;
     ResultDirectory& operator=(const ResultDirectory&) = delete;
@@ -50,7 +52,8 @@ public:
     const std::string& path() const { return directory_.path(); }
     /// Throws FileError if the directory was moved or replaced, so that path() leads elsewhere.
     void require_in_place() const;
-    /// Returns notes for the user: on another name than expected, or a lock whose owner is gone.
+    /// Returns notes for the user: an unexpected name of the directory, or a replaced lock of a
+    /// dead process.
     const std::vector<std::string>& notes() const { return notes_; }
 
 private:
@@ -70,7 +73,7 @@ inline constexpr const char* result = "result.json";
 inline constexpr const char* last_good = "last-good.h5";
 inline constexpr const char* checkpoint_damaged = "checkpoint-damaged.h5";
 inline constexpr const char* checkpoint_next =
-    "checkpoint-next.part"; ///< a whole one before its renaming
+    "checkpoint-next.part"; ///< complete checkpoint before its renaming
 inline constexpr const char* journal = "run.journal";
 inline constexpr const char* checkpoint = "checkpoint.h5";
 inline constexpr const char* checkpoint_before = "checkpoint-before.h5";

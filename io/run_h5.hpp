@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Units and descriptions of the data sets of run.h5, and the parts of H5MD 1.1 (nongnu.org/h5md)
-// that a run of rough solids has: who wrote the file, and a trajectory of particles.
-// engine/run/recorder.cpp decides which data sets there are.
+// that a run uses: the author of the file, and a trajectory of particles. engine/run/recorder.cpp
+// decides which data sets are written.
 //
 //     /particles/trajectory/box          dimension 3, periodic in x and y; edges of each frame
 //     /particles/trajectory/position     value [frame][particle][3], step [frame], time [frame]
@@ -23,15 +23,15 @@
 
 namespace asperity::io {
 
-/// Gives a data set its `unit` and `description` from io/quantities.hpp. Throws std::logic_error if
-/// that table does not describe the path.
+/// Writes the attributes `unit` and `description` of a data set from io/quantities.hpp. Throws
+/// std::logic_error if the table does not describe the path.
 void describe(Hdf5File& file, const std::string& dataset);
-/// Gives a data set the unit and description of a quantity of another table.
+/// Writes the attributes `unit` and `description` of a data set from a quantity.
 void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
-/// Returns true if a quarter of the values at least repeat the one before them, as zeros of
-/// pressure and marks of contact do. Such a map takes a tenth of its room or less when compressed,
-/// at several hundred MB/s; heights and gaps take 0.75 to 0.86 at a quarter of that pace.
+/// Returns true if at least a quarter of the values equal the value before, as in maps of pressure
+/// and contact. Compression reduces such maps to a tenth or less, at several hundred MB/s; heights
+/// and gaps are reduced to 0.75 to 0.86, four times as slowly.
 template <class T>
 bool is_repetitive(const std::vector<T>& values) {
     std::size_t repeats = 0;
@@ -40,7 +40,7 @@ bool is_repetitive(const std::vector<T>& values) {
     return 4 * repeats >= values.size() && repeats > 0;
 }
 
-/// Writes a new data set with its unit and description; a map that is repetitive is compressed.
+/// Writes a new data set with its unit and description; compresses repetitive maps.
 template <class T>
 void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
                      const std::vector<T>& data) {
@@ -60,7 +60,7 @@ void write_h5md_head(Hdf5File& file);
 
 /// Group of the trajectory.
 inline constexpr const char* trajectory = "/particles/trajectory";
-/// Creates the group of the trajectory and its box, which H5MD wants once.
+/// Creates the group of the trajectory with its box.
 void describe_trajectory(Hdf5File& file);
 
 } // namespace asperity::io

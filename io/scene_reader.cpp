@@ -24,7 +24,7 @@ using Key = Schema::Key;
 using Words = Schema::Words;
 using Choice = Schema::Choice;
 
-/// Returns a choice as it is written; "every:" takes a number.
+/// Returns a choice as text for a scene; "every:" takes a number.
 std::string quoted(const std::string& choice) {
     return fmt::format("\"{}{}\"", choice, choice.ends_with(':') ? "N" : "");
 }

@@ -8,7 +8,7 @@
 //     a table of LAMMPS        (pair_write, pair_style table) index, distance, energy, force
 //
 // Numbers are separated by blanks; # starts a comment. The names decide which columns are read, and
-// the units that stand beside them what the numbers are; a column that is not read is told.
+// the units in the names how values are converted; columns that are not read are noted.
 #pragma once
 
 #include <string>
@@ -16,10 +16,11 @@
 
 namespace asperity::io {
 
+/// Columns of a table.
 struct TableColumns {
     std::vector<double> distance;   ///< Å
     std::vector<double> energy;     ///< eV
-    std::vector<std::string> notes; ///< columns that were read and that were not, a sentence each
+    std::vector<std::string> notes; ///< sentences on the columns that were read and that were not
 };
 
 /// Reads a table. Throws SceneError if a line is no row of numbers, if rows differ in length, or if

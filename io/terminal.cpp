@@ -125,7 +125,7 @@ std::string number(double value, int decimals) {
     if (!std::isfinite(value)) return "-";
     const double size = std::abs(value);
     if (size >= 1e7) return fmt::format("{:.3e}", value);
-    // Rounded to so many decimals it has three digits.
+    // Rounded to `decimals`, the number has three digits.
     if (value == 0.0 || size * std::pow(10.0, decimals) >= 99.5)
         return fmt::format("{:.{}f}", value == 0.0 ? 0.0 : value, decimals);
     if (size < 0.9995e-3) return fmt::format("{:.2e}", value);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Marks for code that also compiles for an accelerator. Everything in kernels/ that touches data is
-// a free function on trivially copyable views; under nvcc the same text becomes device code.
+// Annotations for code that also compiles for an accelerator. All code in kernels/ that accesses
+// data is a free function on trivially copyable views; under nvcc the same source becomes device
+// code.
 #pragma once
 
 #if defined(__CUDACC__)
@@ -12,7 +13,7 @@
 #endif
 
 #define ASPERITY_PRAGMA(text) _Pragma(#text)
-/// Unrolls the loop behind the macro n times.
+/// Unrolls the following loop n times.
 #if defined(__CUDACC__)
 #define ASPERITY_UNROLL(n) ASPERITY_PRAGMA(unroll n)
 #else

@@ -93,9 +93,9 @@ public:
     /// The fewer loads and stores a pack takes, the more of them wait for the memory at a time.
     static constexpr bool parts_in_registers = by_shifts;
 
-    /// Prepares the prefetch. row: begin of the row whose nodes will be kicked; lowest: the row is
-    /// in a band's lowest plane (for the other planes the plane below has read all but the
-    /// displacements above).
+    /// Prepares the prefetch. row: beginning of the row whose nodes will be kicked; lowest: the row
+    /// is in a band's lowest plane. Displacements beside the row are prefetched in this plane only,
+    /// because for other planes the plane below has read them.
     ASPERITY_INLINE Prefetch(const VectorVolume<const double>& u, const VectorVolume<double>& v,
                              std::ptrdiff_t row, bool lowest)
         : ux_(u.x.origin), uy_(u.y.origin), uz_(u.z.origin), vx_(v.x.origin), vy_(v.y.origin),

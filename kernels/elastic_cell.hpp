@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The elastic block's one stencil (docs/explanation/model.md), small strain.
+// The stencil of the elastic block for small strain (docs/explanation/model.md).
 //
 // The energy is a sum over cubic cells of edge s with eight corners,
 //
@@ -10,7 +10,7 @@
 //   theta  = 1/(4s) sum_corners sigma_p . u_p,
 //
 // and each level of the block is a stack of such cells. The force on a node is linear in the
-// displacements of the 27 nodes around it. It separates: with, at every (x, y),
+// displacements of the 27 nodes around it. It is separable. With, at every (x, y),
 //
 //   u   the node's own plane,   P = u(z+1) + u(z-1),   M = u(z+1) - u(z-1),
 //
@@ -29,15 +29,15 @@
 //      + [out_r rx + out_rd rxd](Mx) + [tau_r rx + tau_rd rxd](ux) + the same with ry, ryd of y
 //
 // A level's lowest plane has cells above it only: w = 1, tau = +1, P = M = u(z+1); its upper plane
-// has cells below it only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). Nothing else distinguishes a
-// surface: its springs have the strength that their own cells give them.
+// has cells below it only: w = 1, tau = -1, P = u(z-1), M = -u(z-1). A surface has no other special
+// terms: its springs have the strength that their own cells give them.
 //
-// The sums over x come last: of the column of 3 x 3 nodes at x (over y and z) each force component
-// needs a part for x itself, one for x - 1 and one for x + 1. So a pack of columns is read with 27
-// aligned loads and turned into nine such parts (72 operations). A buffer in the first-level cache
-// keeps the parts of a stretch of a row, and the outer parts are read from it shifted by one
-// element: no value is loaded twice for its x neighbours. With AVX-512, registers keep them instead
-// if the level comes from memory.
+// The sums over x come last: the column of 3 x 3 nodes at x (over y and z) contributes to each
+// force component a part for x, one for x - 1 and one for x + 1. A pack of columns is read with 27
+// aligned loads and reduced to these nine parts (72 operations). A buffer in the first-level cache
+// holds the parts of a stretch of a row, and the outer parts are read from the buffer shifted by
+// one element, so that no value is loaded twice for its x neighbours. With AVX-512, registers hold
+// the parts instead if the level is read from memory.
 #pragma once
 
 #include "kernels/exact_sum.hpp"
@@ -45,7 +45,7 @@
 
 namespace asperity {
 
-/// Elastic constants of one level. Units: eV, Å.
+/// Elastic constants of one level.
 struct CellElasticity {
     double k = 0.0;     ///< spring constant mu s, eV/Å^2
     double kappa = 0.0; ///< (lambda - mu) s / 16, eV/Å^2
@@ -57,8 +57,9 @@ enum class Face { lower, inner, upper };
 
 /// Coefficients of the formulae above for one kind of plane, eV/Å^2.
 struct Stencil {
-    double own_c, own_e, own_t, own_d, own_xy;       // in-plane displacement components, own plane
-    double out_c, out_e, out_t, out_d, out_xy;       // the same, sum of the planes above and below
+    double own_c, own_e, own_t, own_d, own_xy; // in-plane displacement components, own plane
+    // In-plane components, sum of the planes above and below.
+    double out_c, out_e, out_t, out_d, out_xy;
     double normal_c, normal_e, normal_d;             // uz -> Fz, own plane
     double out_normal_c, out_normal_e, out_normal_d; // uz -> Fz, planes above and below
     double out_r, out_rd;                            // shear coupling with M
@@ -66,16 +67,17 @@ struct Stencil {
     double above, below;                             // 1 if there are cells on that side, else 0
 };
 
+/// Computes the coefficients for one kind of plane.
 Stencil make_stencil(CellElasticity elasticity, Face face);
 
-/// Kick of a node, v <- velocity_factor v + kick F, before the drift u <- u + dt v, which follows
-/// when no other force needs the old displacement (leapfrog, i.e. velocity Verlet with its two half
-/// kicks merged). velocity_factor < 1 and drag_z describe damping against a medium that moves with
-/// the top plane (drive.hpp).
+/// Coefficients of the kick of a node, v <- velocity_factor v + kick F. The drift u <- u + dt v
+/// follows once no other force needs the old displacement (leapfrog, i.e. velocity Verlet with
+/// merged half kicks). velocity_factor < 1 and drag_z describe damping against a medium that moves
+/// with the top plane.
 struct Kick {
     double velocity_factor = 1.0;
-    double kick = 0.0;      ///< dt/m (over 1 + Gamma dt/2), Å/fs per eV/Å
-    double drag_z = 0.0;    ///< added to v_z: Gamma dt V / (1 + Gamma dt/2), Å/fs
+    double kick = 0.0;      ///< dt/m / (1 + Gamma dt/2), Å/fs per eV/Å
+    double drag_z = 0.0;    ///< term added to v_z: Gamma dt V / (1 + Gamma dt/2), Å/fs
     double half_mass = 0.0; ///< m/2, for the kinetic energy, eV fs^2/Å^2
     double medium_z = 0.0;  ///< V, for the dissipated energy, Å/fs
     bool damped = false;    ///< sum the dissipated energy
@@ -92,6 +94,7 @@ struct KickSums {
     /// Sum of m Gamma dt (v_n - V)_z, eV fs/Å (damped planes): momentum given to the medium.
     ExactSum dragged;
 
+    /// Adds the sums of other nodes.
     void merge(const KickSums& other) {
         kinetic.merge(other.kinetic);
         of_step.merge(other.of_step);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Columns of the small-strain stencil (elastic_cell.hpp), and the energy of its cells: one text for
-// packs (V = Pack<double>) and for the threads of a device (V = Lane<double>).
+// Columns of the small-strain stencil (elastic_cell.hpp), and the energy of its cells, for packs (V
+// = Pack<double>) and for the threads of a device (V = Lane<double>).
 #pragma once
 
 #include "kernels/cell_geometry.hpp"
@@ -11,8 +11,8 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// The stencil's coefficients, a copy in every lane. Many of them are equal (make_stencil): inside
-/// a level there are six different numbers, which stay in registers.
+/// The stencil's coefficients, copied to every lane. Many coefficients are equal (make_stencil()):
+/// inside a level only six differ, which fit into registers.
 template <class V, Face face>
 struct Weights {
     V own_c, own_e, own_t, own_d, own_n; ///< _n: coefficient of the diagonal neighbours in uz -> Fz
@@ -58,6 +58,7 @@ public:
     struct Sides {
         V sum, difference;
     };
+    /// Sums and differences of the planes above and below, and their P and M.
     struct Outside {
         Sides above, below;
         ASPERITY_INLINE V P_sum() const { return P(above.sum, below.sum); }
@@ -97,7 +98,8 @@ private:
     const Around& around_;
 };
 
-/// Parts of columns at x in the three force components (k = 0, 1, 2) at x, at x - 1 and at x + 1.
+/// Contributions of the columns at x to the force components k = 0, 1, 2 at x, at x - 1 (west) and
+/// at x + 1 (east).
 template <class V>
 struct ColumnParts {
     V here[3], west[3], east[3];
@@ -109,11 +111,12 @@ struct ColumnParts {
     }
 };
 
-/// Passes the parts of the columns at ux, uy, uz to `parts`, which takes them as ColumnParts does.
+/// Computes the contributions of the columns at ux, uy, uz and passes them to `parts`, which has
+/// the interface of ColumnParts.
 ///
-/// The components come in the order y, z, x, each displacement is read just before its first use,
-/// and each part is passed on as soon as it is complete: so the values in between fit into the
-/// sixteen registers of AVX2 beside the six coefficients.
+/// The components are processed in the order y, z, x, each displacement is read just before its
+/// first use, and each part is passed on as soon as it is complete, so that intermediate values and
+/// the six coefficients fit into the sixteen registers of AVX2.
 template <Face face, class V, class Taker>
 ASPERITY_INLINE void column_parts(const double* ux, const double* uy, const double* uz,
                                   const Around& around, const Weights<V, face>& s, Taker& parts) {
@@ -181,8 +184,8 @@ ASPERITY_INLINE void column_parts(const double* ux, const double* uy, const doub
     }
 }
 
-/// Returns the energy of the cells whose lower corners are a pack of nodes, straight from the
-/// definition.
+/// Returns the energy of the cells whose lower corners are a pack of nodes, eV, by the definition
+/// of U_cell.
 template <class V>
 ASPERITY_INLINE V cell_energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
                               CellElasticity e) {

@@ -15,16 +15,16 @@
 //
 //   F_p = -4 s kappa theta cof(F) sigma_p,   kappa = (lambda - mu) s / 16.
 //
-// Each spring inside is shared by four cells (edges) or two (diagonals) and is computed once, at
-// full strength; those in a surface belong to half as many cells and have half the strength. A cell
-// owns the nine springs that leave its lower corner and cross the three faces there, so the work
-// goes cell row by cell row: a row of cells adds its forces on the four rows of nodes around it to
-// those of the earlier rows. A node's force is therefore a sum in one order: transferred force;
-// cells below, then above; in each of these, cells at smaller y, then larger y.
+// Each inner spring is shared by four cells (edges) or two (diagonals) and is computed once, at
+// full strength; springs in a surface belong to half as many cells and have half the strength. A
+// cell owns the nine springs that leave its lower corner or cross the three faces at this corner.
+// The computation goes by rows of cells: a row adds its forces to those of earlier rows on the four
+// rows of nodes around it. A node's force is therefore a sum in a fixed order: transferred force;
+// cells below, then above; in both, cells at smaller y, then larger y.
 //
-// Forces on a plane are complete when the cells above it are done: the work goes plane by plane up
-// through a band of rows, and passes the forces begun on the plane above from one to the next. Rows
-// of cells on the border of two bands are computed twice.
+// Forces on a plane are complete once the cells above the plane are done: the computation goes
+// upwards plane by plane through a band of rows and passes the incomplete forces on the plane above
+// to the next plane. Rows of cells on the border of two bands are computed twice.
 #pragma once
 
 #include "kernels/elastic_level.hpp"

@@ -25,7 +25,7 @@ struct Stiffness {
         : k(constant), k_edge(constant * edge), k_diagonal(constant * edge * std::numbers::sqrt2) {}
 };
 
-/// Returns t r, the pull on the spring's first end: t = k - k r0 / |r|.
+/// Returns the force on the spring's first end, t r with t = k - k r0 / |r|.
 template <class V>
 ASPERITY_INLINE Triple<V> pull(const Triple<V>& r, V k, V k_rest) {
     const V t = fma(-k_rest, inverse_sqrt(squared(r)), k);
@@ -57,7 +57,7 @@ ASPERITY_INLINE void load(const VectorVolume<const double>& u, std::ptrdiff_t at
 template <class V>
 struct Cell {
     V edge, inverse_4_edge, pressure; ///< s; 1/(4s); 4 s kappa
-    /// Springs shared by all their cells, and springs shared by half of them
+    /// Springs inside, and springs in a surface, with half the strength.
     Stiffness<V> inside, surface;
 
     explicit ASPERITY_INLINE Cell(const LevelCell& c)
@@ -65,7 +65,7 @@ struct Cell {
           inside(c.elasticity.k, c.edge), surface(0.5 * c.elasticity.k, c.edge) {}
 };
 
-/// Computes the forces of the four springs that a cell owns in the plane through its lower corners.
+/// Computes the forces of the four springs of a cell in the plane through its lower corners.
 template <class V>
 ASPERITY_INLINE void pull_in_plane(const Corners<V>& u, const Cell<V>& c, const Stiffness<V>& k,
                                    Corners<V>& f) {
@@ -88,7 +88,7 @@ ASPERITY_INLINE void pull_in_plane(const Corners<V>& u, const Cell<V>& c, const 
     f.east[1] = {-diagonal.x, -diagonal.y, -diagonal.z};
 }
 
-/// Adds the forces of the five springs that a cell owns and that lead to the plane above.
+/// Adds the forces of the five springs of a cell that lead to the plane above.
 template <class V>
 ASPERITY_INLINE void pull_upwards(const Corners<V>& u, const Cell<V>& c, Corners<V>& f) {
     const V s = c.edge;
@@ -185,8 +185,9 @@ ASPERITY_INLINE void press(const Corners<V>& u, const Cell<V>& c, Corners<V>& f)
     press(p, volume.cofactor[2], f, [](Triple<V>& v) -> V& { return v.z; });
 }
 
-/// Computes the forces on the corners. cells: of all springs that the cells own (pressed: and of
-/// the dilatation); otherwise of the springs in the plane alone, without reading the upper corners.
+/// Computes the forces on the corners: with `cells` of all springs of the cells, with `pressed`
+/// also of the dilatation; otherwise of the springs in the lower plane alone, without reading the
+/// upper corners.
 template <bool cells, bool pressed, class V>
 ASPERITY_INLINE void forces(const Corners<V>& u, const Cell<V>& c, const Stiffness<V>& in_plane,
                             Corners<V>& f) {
@@ -195,7 +196,8 @@ ASPERITY_INLINE void forces(const Corners<V>& u, const Cell<V>& c, const Stiffne
     if constexpr (cells && pressed) press(u, c, f);
 }
 
-/// Returns the energy of the cells whose lower corners are V's nodes, straight from the definition.
+/// Returns the energy of the cells whose lower corners are V's nodes, eV, by the definition of
+/// U_cell.
 template <class V>
 ASPERITY_INLINE V energy(const VectorVolume<const double>& u, std::ptrdiff_t at,
                          const Cell<V>& cell, const LevelCell& c) {

@@ -14,7 +14,7 @@
 // branch; needs round-to-nearest and no re-association by the compiler (this project never sets
 // -ffast-math).
 //
-// Nothing rounds, for any number of terms:
+// No operation rounds, for any number of terms:
 // - The coarse bin holds multiples of 2^-22, and below 2^31 these are fewer than 2^53.
 // - The fine part of a term is the rest after rounding to the coarse quantum: at most 2^-23, 2^27
 // fine quanta. carry() leaves at most as much in the fine bin. After it, longest_run = 2^24 terms
@@ -37,11 +37,12 @@ struct BasicExactSum {
     /// Returns 1.5 * 2^(52 + exponent of the quantum). A function, because device code has no
     /// constant arrays.
     ASPERITY_HOST_DEVICE static constexpr double shifter(int k) { return k ? 0x1.8p2 : 0x1.8p30; }
-    /// Number of terms that may be added one by one between two carries or merges.
+    /// Largest number of add() calls between two calls of carry() or merge().
     static constexpr long long longest_run = 1LL << 24;
 
     V bin[bins] = {V(0.0), V(0.0)};
 
+    /// Adds a term, |term| <= 2^29.
     ASPERITY_INLINE void add(V term) {
         for (int k = 0; k < bins; ++k) {
             const V part = (term + V(shifter(k))) - V(shifter(k));
@@ -55,12 +56,13 @@ struct BasicExactSum {
         bin[0] = bin[0] + whole;
         bin[1] = bin[1] - whole;
     }
+    /// Adds another sum and carries.
     ASPERITY_INLINE void merge(const BasicExactSum& other) {
         for (int k = 0; k < bins; ++k)
             bin[k] = bin[k] + other.bin[k];
         carry();
     }
-    /// Returns the sum, rounded once when the bins are added.
+    /// Returns the sum, rounded once.
     ASPERITY_INLINE V value() const { return bin[1] + bin[0]; }
 };
 

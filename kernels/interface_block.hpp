@@ -29,7 +29,7 @@ struct SiteTerms {
     }
 };
 
-/// Totals over sites, and the transfer of finished blocks: forces to memory, sums to the totals.
+/// Totals over sites. Stores the forces of finished blocks and adds their sums to the totals.
 struct Totals {
     BasicExactSum<Real> force_z, energy;
     std::int64_t in_contact = 0, repulsive = 0;
@@ -79,6 +79,7 @@ struct Totals {
             if (observe && sites.in_contact.origin) sites.in_contact(i, y) = 0;
         }
     }
+    /// Adds the totals to the sums of a sweep.
     void give(InterfaceSums& sums) const {
         for (int i = 0; i < Real::width; ++i) {
             sums.force_z.merge({{force_z.bin[0][i], force_z.bin[1][i]}});
@@ -90,7 +91,8 @@ struct Totals {
     }
 };
 
-/// Replaces the sums of sites that the tables do not cover by those of the reference loop.
+/// Replaces the sums of sites that the tables do not cover (bits of `beyond`) by those of the
+/// reference loop.
 template <class Exact, class Potential>
 void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential& potential,
                 unsigned beyond, int x, int y, int count, SiteTerms& s) {
@@ -110,10 +112,10 @@ void sum_beyond(const InterfaceSites& sites, const Exact& exact, const Potential
     }
 }
 
-/// Properties of a substrate for sweep_blocks(): the datum of heights, the largest sideways
+/// Properties of a substrate for sweep_blocks(): the datum of heights, the largest lateral
 /// displacement that its tables allow for, the argument of the reference loop, its reach, and
-/// whether its atoms may be of several types. With several types sum() decides which sites are in
-/// contact; otherwise the nearest atom does.
+/// of_types, true if its atoms may have several types. With several types sum() decides which sites
+/// are in contact; otherwise the distance of the nearest atom decides.
 template <class Substrate>
 struct SubstrateAccess {
     static constexpr bool of_types = false;
@@ -127,8 +129,8 @@ struct SubstrateAccess {
     }
 };
 
-/// Sweeps rows [row_begin, row_end), a block of sites at a time. sum(site, reach, x, y, count,
-/// terms) sums the pairs of a block; it is the part that differs between substrates.
+/// Sweeps rows [row_begin, row_end) block by block. sum(site, reach, x, y, count, terms): sums the
+/// pairs of a block, which differs between substrates.
 template <bool observe, class Substrate, class Potential, class Pair, class SumOfPairs>
 ASPERITY_INLINE void sweep_blocks(const InterfaceSites& sites, const Substrate& substrate,
                                   const Potential& potential, const Pair& pair, int row_begin,

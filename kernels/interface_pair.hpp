@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Pairs in the three sweeps over atoms (interface_lattice.cpp, interface_rows.cpp,
+// Pairs of the three sweeps over atoms (interface_lattice.cpp, interface_rows.cpp,
 // interface_cells.cpp), for packs and for the threads of a device. F is the family of values (Simd,
-// Scalar), T the precision of the pairs: double, or float in the lattice sweep on packs.
+// Scalar), T the precision of the pairs (double, or float in the lattice sweep on packs).
 //
-// Without the energy a Lennard-Jones pair takes one fused multiplication for r^2, one and a half
-// for t, four for the force, one for its z component: seven and a half, and those of the lateral
-// components. Pairs in float count lengths in fixed_quantum, in double in Å.
+// Without the energy a Lennard-Jones pair takes seven and a half fused multiplications (one for
+// r^2, one and a half for t, four for the force, one for its z component), plus those of the
+// lateral components. The unit of length of pairs is fixed_quantum for float, Å for double.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -37,8 +37,8 @@ struct PairTerms {
           force_scale(potential.force_scale), energy_scale(potential.energy_scale),
           cutoff(p.cutoff), closest(p.closest()), contact_r2(p.inflection() * p.inflection()) {}
 
-    /// Returns -V'/r in units of force_scale; begun: the result of begin(). Zero beyond the cutoff;
-    /// masked = false leaves the comparison out if all of r2 are known to be within the cutoff.
+    /// Returns -V'/r in units of force_scale, zero beyond the cutoff. begun: result of begin();
+    /// masked: false omits the comparison with the cutoff, if all of r2 are known to be within it.
     template <bool masked>
     ASPERITY_INLINE V force(V begun, V r2, std::bool_constant<masked>) const {
         // Some potentials use r^2 here; Lennard-Jones does not, and the compiler drops the maximum.
@@ -50,24 +50,23 @@ struct PairTerms {
                     return fms(a, b, c);
             });
     }
-    /// Returns V in units of energy_scale.
+    /// Returns V in units of energy_scale; arguments as for force().
     ASPERITY_INLINE V energy(V begun, V r2) const {
         return select(r2 < r2_cut, potential.energy(begun, max(r2, r2_floor)) - shift, V(T(0)));
     }
-    /// Begins two pairs at the squared distances a and b. close: they may be nearer than any pair
-    /// can be.
+    /// Computes the slow part of two pairs at the squared distances a and b. close: distances may
+    /// be below closest().
     template <bool close>
     ASPERITY_INLINE void begin(V a, V b, V& of_a, V& of_b) const {
         potential.begin(held<close>(a), held<close>(b), of_a, of_b);
     }
-    /// Begins one pair.
+    /// Computes the slow part of one pair.
     template <bool close>
     ASPERITY_INLINE V begin(V a) const {
         return potential.begin(held<close>(a));
     }
 
-    /// Returns the squared distance in Å^2, no_pair beyond the cutoff: visited atoms there are no
-    /// neighbours.
+    /// Converts a squared distance to Å^2; returns no_pair beyond the cutoff.
     ASPERITY_INLINE double nearest(T r2) const {
         return r2 < r2_cut[0] ? r2 * (length_unit<T> * length_unit<T>) : no_pair;
     }
@@ -92,7 +91,7 @@ ASPERITY_INLINE typename F::template Of<T> lengths(const double* from) {
     return V::load(lane);
 }
 
-/// Heights of sites, to be compared with those of as many atoms.
+/// Heights of sites, relative to those of the same number of atoms.
 template <class F, class T>
 struct SiteHeight {
     using Atom = double;

@@ -105,7 +105,7 @@ struct AtomRows {
         return static_cast<int>(std::floor(0.5 * std::floor((y_there + half) * inverse_b)));
     }
 
-    /// Two pairs on their way from distance to force; t: what begin() returned.
+    /// Two pairs between the computation of distance and force. t: results of begin().
     struct Couple {
         Real z, z_next, r2, r2_next, t, t_next;
     };

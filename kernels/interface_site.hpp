@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A site of the interface over a substrate of the block's own lattice, for packs of sites and for
-// the threads of a device, one site each: displacements made safe for the tables, the reach that
-// follows from the gap, and the sums over the pairs within it.
+// A site of the interface over a substrate with the block's own lattice, for packs of sites and for
+// the threads of a device: displacements limited to the range of the tables, the reach that follows
+// from the gap, and the sums over the pairs within reach.
 //
-// Offsets come in fours, (±cx, ±cy): two rows of atoms, one south and one north of the site, two
-// columns, west and east. Lateral squares are formed once per column and row; forces of a row are
-// only added up, and multiplied by the row's cy at its end. A quad takes 31 multiplications, fused
-// or not, two divisions and 16 additions; the additions, like the divisions, run beside the
-// multiplications on most processors.
+// Offsets are processed in fours, (±cx, ±cy): two rows of atoms, south and north of the site, and
+// two columns, west and east. Lateral squares are formed once per column and row; the forces of a
+// row are added and then multiplied by the row's cy. Four pairs (a quad) take 31 multiplications,
+// fused or not, two divisions and 16 additions; most processors execute additions and divisions in
+// parallel with multiplications.
 //
-// Rows follow one another outwards, and so do the columns of a row: this order does not depend on
-// the cut.
+// Rows, and the columns of a row, are summed outwards, in an order that does not depend on the cut.
 #pragma once
 
 #include "kernels/interface_pair.hpp"
@@ -20,29 +19,30 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// Height or distance beyond every atom's, Å, whose square has a place in single precision.
+/// Height or distance larger than that of any atom, Å, whose square can be represented in single
+/// precision.
 inline constexpr double beyond_atoms = 1e6;
-/// Height above every site's, Å.
+/// Height larger than that of any site, Å.
 inline constexpr double above_sites = 1e300;
 
-/// Heights over the datum of the sites that the tables cover, Å.
+/// Range of heights of sites over the datum that the tables cover, Å.
 struct HeightRange {
     double deepest = -above_sites; ///< lower sites are left to the reference loop
     double ceiling = beyond_atoms; ///< sites higher than this have no atom in reach
 };
 
-/// Displacements of one block of sites, or of one site, made safe for the tables.
+/// Displacements of one block of sites, or of one site, limited to the range of the tables.
 template <class Real, int size>
 struct SiteBlock {
     alignas(8 * Real::width) double ux[size], uy[size];
     alignas(8 * Real::width) double z[size]; ///< height over the datum, Å
     double lowest_z, highest_z;              ///< extreme heights of the sites, Å
-    double sideways;                         ///< largest |(ux, uy)|, Å
+    double sideways;                         ///< largest lateral displacement |(ux, uy)|, Å
     /// Bits of sites that the tables do not cover; the reference loop sums them.
     unsigned beyond;
 
-    /// Loads sites x to x + count of row y; behind a row's end the last site is repeated. Heights
-    /// are counted from the datum.
+    /// Loads sites x to x + count of row y and repeats the last site behind the row's end. Heights
+    /// are relative to the datum. margin: lateral displacement that the tables allow for, Å.
     ASPERITY_INLINE SiteBlock(const InterfaceSites& sites, int x, int y, int count, double datum,
                               HeightRange range, double margin) {
         const auto load = [&](const double* row, int lane) {
@@ -85,7 +85,8 @@ struct SiteBlock {
     }
 };
 
-/// Slack of bounds on distances: their rounding must never drop a pair that the mask would keep.
+/// Tolerance of bounds on distances, Å: rounding of a bound must not exclude a pair within the
+/// cutoff.
 constexpr double bound_slack = 1e-6;
 
 /// Returns the index of the highest set bit; bits must not be 0.
@@ -104,14 +105,14 @@ ASPERITY_INLINE int lowest_bit(unsigned bits) {
 #endif
 }
 
-/// Lateral distances of the atoms that matter to a block of sites, Å.
+/// Lateral distances of the atoms that may interact with a block of sites, Å.
 struct Reach {
-    double from_rest = 0.0; ///< distance from the undisplaced site beyond which no atom matters
-    double from_site = 0.0; ///< the same distance from the displaced site
-    /// Distance from the undisplaced site up to which all atoms are within the cutoff
+    double from_rest = 0.0; ///< distance from the undisplaced site beyond which no atom interacts
+    double from_site = 0.0; ///< distance from the displaced site beyond which no atom interacts
+    /// Distance from the undisplaced site up to which all atoms are within the cutoff.
     double inside = beyond_atoms;
-    bool close = false; ///< some may be closer than any pair can be
-    /// Returns true if some atom may matter.
+    bool close = false; ///< some atoms may be closer than PairTerms::closest
+    /// Returns true if some atom may interact.
     ASPERITY_INLINE bool any() const { return from_rest > 0.0; }
 
     template <class Real, int size>
@@ -164,7 +165,8 @@ struct Reach {
     }
 };
 
-/// Number of columns in each row within some lateral distance: entry k of the table, or the last.
+/// Number of columns in each row within a lateral distance: entry k of the table, or the last entry
+/// for larger k.
 struct Columns {
     const std::int32_t* of_row; ///< [n - 1]
     ASPERITY_INLINE Columns(const LatticeSubstrate& s, int k)
@@ -189,8 +191,8 @@ struct Offsets {
     }
 };
 
-/// Squared lateral distances to the columns west and east of a site. Registers of sites share the
-/// table; a single site computes the distances when it needs them.
+/// Squared lateral distances to the columns west and east of a site: a table for registers of
+/// sites, computed on demand for a single site.
 template <class F, class T>
 struct Laterals {
     using V = typename F::template Of<T>;
@@ -222,7 +224,7 @@ struct Laterals<Scalar, double> {
     }
 };
 
-/// Four pairs on their way from distance to force; t: the results of begin().
+/// Four pairs between the computation of distance and force. t: results of begin().
 template <class V>
 struct Quad {
     V z_sw, z_se, z_nw, z_ne, r2_sw, r2_se, r2_nw, r2_ne, t_sw, t_se, t_nw, t_ne;
@@ -235,13 +237,14 @@ struct PairSums {
     V nearest;                    ///< least r^2
 };
 
-/// Policy of the order of work: true forms a quad's forces before the next quad is begun; otherwise
-/// the next quad's divisions run meanwhile, which takes the registers of two quads.
+/// Order of operations: true computes a quad's forces before the next quad is begun; false begins
+/// the next quad's divisions first, which takes the registers of two quads.
 template <class F, class P, bool observe>
 inline constexpr bool one_by_one = false;
 
-/// Returns the sums over the quads in reach of sites displaced by ux, uy that stand at z. `here`:
-/// the atom of the first site.
+/// Returns the sums over the pairs in reach of sites with heights z and lateral displacements ux,
+/// uy. all, within: columns in reach, and columns for which all pairs are within the cutoff; here:
+/// atom of the first site.
 template <class F, class T, bool observe, bool close, class P>
 ASPERITY_INLINE PairSums<typename F::template Of<T>>
 sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F::template Of<T> uy,
@@ -363,7 +366,7 @@ sum_lattice(const SiteHeight<F, T>& z, typename F::template Of<T> ux, typename F
     return {f_all, f_cx, f_cy, f_z, v, nearest};
 }
 
-/// Force on a site, eV/Å, from the sums over its pairs: sum f (ux + cx) = ux sum f + sum f cx.
+/// Force on a site, eV/Å.
 struct SiteForce {
     double x, y, z;
 };
@@ -372,6 +375,7 @@ struct SiteTotal {
     SiteForce force;
     double energy, nearest;
 };
+/// Returns the force on a site from the sums over its pairs: sum f (ux + cx) = ux sum f + sum f cx.
 template <class F, class T, class P>
 ASPERITY_INLINE SiteForce site_force(const PairTerms<F, T, P>& pair, double ux, double uy, double f,
                                      double f_cx, double f_cy, double f_z) {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The block's side of the interface, and the sums of a pass over it.
+// The sites of the interface, and the sums of a sweep.
 //
 // Block site (x, y) of the tile stands at ((x0+x+1/2) a + ux, (y0+y+1/2) a + uy, z_ref + uz).
 // Units: Å, eV, eV/Å.
@@ -14,33 +14,35 @@
 
 namespace asperity {
 
-/// The block's side of the interface: one tile of its lowest layer.
+/// The sites of the interface: one tile of the block's lowest layer.
 struct InterfaceSites {
     VectorPlane<const double> displacement; ///< u, Å
-    VectorPlane<double> force;              ///< out: force on each site, eV/Å (overwritten)
+    VectorPlane<double> force;              ///< output: force on each site, eV/Å (overwritten)
     double spacing = 2.6;                   ///< a, Å
     double reference_height = 0.0;          ///< z of an undisplaced site, Å
-    int x0 = 0;                             ///< the tile's first site, counted over the box
-    int y0 = 0;
-    /// out, if given and observed: squared distance to the nearest atom in reach (no_pair if there
-    /// is none), Å^2
+    int x0 = 0;                             ///< the tile's first site along x, counted over the box
+    int y0 = 0;                             ///< the tile's first site along y
+    /// Output, if given and observed: squared distance to the nearest atom, Å^2; no_pair if no atom
+    /// is within the cutoff.
     PlaneView<double> nearest_r2{};
-    /// out, if given and observed: 1 if a site is closer than contact_distance to some atom, or
-    /// than contact_gap to the wall
+    /// Output, if given and observed: 1 if a site is closer than contact_distance() to an atom, or
+    /// than contact_gap() to the wall.
     PlaneView<std::uint8_t> in_contact{};
 };
 
-/// Squared distance reported if no atom is in reach.
+/// Squared distance reported if no atom is within the cutoff.
 inline constexpr double no_pair = 1e300;
 
-/// Sums of one pass over the sites. Sums are order-independent.
+/// Sums of one sweep over the sites, independent of the order. All except force_z are computed only
+/// if observed.
 struct InterfaceSums {
     ExactSum force_z;            ///< total normal force of the substrate on the sites, eV/Å
-    ExactSum energy;             ///< U_LJ, eV (only if asked for)
-    std::int64_t in_contact = 0; ///< sites closer than contact_distance to some atom (if asked for)
-    std::int64_t repulsive = 0;  ///< sites whose net normal force is repulsive (if asked for)
-    double closest_r2 = no_pair; ///< smallest squared pair distance met (if asked for), Å^2
+    ExactSum energy;             ///< energy of the interface, eV
+    std::int64_t in_contact = 0; ///< number of sites in contact
+    std::int64_t repulsive = 0;  ///< number of sites whose net normal force is repulsive
+    double closest_r2 = no_pair; ///< smallest squared pair distance, Å^2
 
+    /// Adds the sums of other sites.
     void merge(const InterfaceSums& other) {
         force_z.merge(other.force_z);
         energy.merge(other.energy);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The use of a force in a time step: the kick and its sums. One text for packs and for the threads
-// of a device.
+// The kick of a time step and its sums, for packs and for the threads of a device.
 #pragma once
 
 #include "kernels/elastic_level.hpp"
@@ -24,23 +23,24 @@ ASPERITY_INLINE Triple<V> operator-(const Triple<V>& a, const Triple<V>& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 
-/// An exact sum (exact_sum.hpp) of products, whose bins begin at their shifters: an addition to a
-/// bin then splits the term too, and takes five operations in all instead of seven.
+/// An exact sum (exact_sum.hpp) of products. Its bins contain their shifters, so that the addition
+/// to a bin also splits the term, which takes five operations instead of seven.
 ///
 /// The sum of a term's parts in the two bins does not depend on the contents of the bins. The
-/// coarse part does if a b lies halfway between two coarse quanta: the fine part makes up for it
-/// exactly. Nothing lies halfway between two fine quanta, because the last bit of the rest is set.
+/// coarse part depends on them if a b lies halfway between two coarse quanta, but the fine part
+/// compensates exactly. No rest lies halfway between two fine quanta, because its last bit is set.
 /// The sum of the terms between two calls of close() must stay below 2^29.
 template <class V>
 class ProductSum {
 public:
+    /// Adds the product a b.
     ASPERITY_INLINE void add(V a, V b) {
         const V coarse = fma(a, b, coarse_);
         const V part = coarse - coarse_;
         coarse_ = coarse;
         fine_ = fine_ + with_last_bit(fms(a, b, part));
     }
-    /// Moves the bins, without their shifters, into the sum.
+    /// Adds the bins, without their shifters, to the sum and resets them.
     ASPERITY_INLINE void close() {
         const V coarse(Sum::shifter(0)), fine(Sum::shifter(1));
         sum_.bin[0] = sum_.bin[0] + (coarse_ - coarse);
@@ -57,7 +57,7 @@ private:
     Sum sum_;
 };
 
-/// Kicks the nodes of one plane, row by row, V by V.
+/// Functor that kicks the nodes of one plane.
 template <class V, bool damped, bool observed>
 class Kicker {
 public:
@@ -67,8 +67,8 @@ public:
           loss_weight_(0.25 * plan.drag), given_weight_(0.5 * plan.drag),
           per_force_(plan.per_force), x_(v.x.origin), y_(v.y.origin), z_(v.z.origin) {}
 
-    /// Kicks the first count nodes from element `at` of the volume under the force f. Returns their
-    /// new velocities.
+    /// Kicks the first `count` nodes of a V from element `at` of the volume on, under the force f,
+    /// eV/Å. Returns the new velocities, Å/fs.
     ASPERITY_INLINE Triple<V> operator()(std::ptrdiff_t at, int count, const Triple<V>& f) {
         const V old_x = V::load(x_ + at), old_y = V::load(y_ + at), old_z = V::load(z_ + at);
         V new_x, new_y, new_z;
@@ -110,13 +110,14 @@ public:
         return {new_x, new_y, new_z};
     }
 
-    /// Ends a row: moves the sums out of the bins, which keeps them in their range.
+    /// Ends a row: closes the sums, which keeps their bins within range.
     ASPERITY_INLINE void end_row() {
         if constexpr (observed) kinetic_.close();
         if constexpr (observed) of_step_.close();
         if constexpr (damped) dissipated_.close();
         if constexpr (damped) dragged_.close();
     }
+    /// Adds the sums of the closed rows.
     ASPERITY_INLINE void add_to(KickSums& sums) const {
         if constexpr (observed) collect(kinetic_.sum(), sums.kinetic);
         if constexpr (observed) collect(of_step_.sum(), sums.of_step);

@@ -3,10 +3,10 @@
 //
 // One number with the interface of a SIMD register of one lane (simd.hpp).
 //
-// A kernel text written as a template over its value type runs on packs of a processor's registers
-// and, one node a thread, on a device. Every operation of a lane is that of the pack of the same
-// name in each of its lanes: a lane and a pack of a processor level with fused multiply-add
-// (fuses(), variant.hpp) give bitwise identical results. The compiler is told not to contract
+// A kernel that is a template over its value type runs on packs of a processor's registers and,
+// with one node per thread, on a device. Every operation of a lane equals that of the pack of the
+// same name in each lane, so that a lane and a pack of a processor level with fused multiply-add
+// (fuses(), variant.hpp) give bitwise identical results. The compiler may not contract operations
 // (-ffp-contract=off; nvcc: -fmad=false).
 #pragma once
 
@@ -20,6 +20,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
+/// A number with the interface of Pack.
 template <class T>
 struct Lane {
     static constexpr int width = 1;
@@ -123,12 +124,12 @@ ASPERITY_INLINE void collect(const BasicExactSum<Lane<double>>& lane, ExactSum& 
     into.merge({{lane.bin[0].r, lane.bin[1].r}});
 }
 
-/// Returns the least of all lanes.
+/// Returns the smallest of all lanes.
 ASPERITY_INLINE double lowest(Lane<double> a) { return a.r; }
 /// Returns the sum of all lanes.
 ASPERITY_INLINE double total(Lane<double> a) { return a.r; }
 
-/// Family of values of a device's thread, for kernel texts.
+/// Family of value types of a device's thread, for kernels.
 struct Scalar {
     template <class T>
     using Of = Lane<T>;

@@ -7,9 +7,10 @@
 //     -V0'/r = (12 epsilon / r_m^2) (t^7 - t^4)
 //     (V0'/r)'/r = (24 epsilon / r_m^4) (7 t^8 - 4 t^5)
 //
-// One division serves two pairs (1/a = b / (ab)). Divisions run in parallel with multiplications if
-// these are independent; so the sweeps begin the next pairs before they finish these. Without the
-// energy a pair takes one and a half multiplications for t and four for the force.
+// One division serves two pairs (1/a = b / (ab)). Processors execute divisions in parallel with
+// independent multiplications, so that the sweeps begin the next pairs before they finish the
+// present ones. Without the energy a pair takes one and a half multiplications for t and four for
+// the force.
 #pragma once
 
 #include "kernels/number.hpp"
@@ -18,14 +19,15 @@
 
 namespace asperity {
 
+/// Parameters and formulas of the potential (pair_potential.hpp).
 struct LennardJones {
     double epsilon = 0.1;  ///< depth, eV
     double r0 = 3.28;      ///< zero crossing, Å
-    double cutoff = 13.12; ///< Å
+    double cutoff = 13.12; ///< cutoff, Å
 
     static constexpr const char* name = "lennard-jones";
     static constexpr bool has_tail = true;
-    /// Calls visit(name, unit, value, meaning) for every parameter but the cutoff.
+    /// Calls visit(name, unit, value, meaning) for every parameter except the cutoff.
     template <class Self, class Visit>
     static void parameters(Self& self, Visit visit) {
         visit("epsilon", "eV", self.epsilon, "depth of the Lennard-Jones well");
@@ -36,16 +38,17 @@ struct LennardJones {
     double minimum() const { return std::pow(2.0, 1.0 / 6.0) * r0; }
     double inflection() const { return std::pow(26.0 / 7.0, 1.0 / 6.0) * r0; }
     ASPERITY_INLINE double depth() const { return epsilon; }
-    /// Returns the distance below which a pair is held; the repulsion there is 10^7 epsilon.
+    /// Returns the distance below which the force is constant, Å; the repulsion there is 10^7
+    /// epsilon.
     ASPERITY_INLINE double closest() const { return 0.3 * r0; }
-    /// Returns V0(cutoff) over epsilon, from the ratio of the lengths, which is usually a power of
+    /// Returns V0(cutoff)/epsilon, computed from the ratio r0/cutoff, which is usually a power of
     /// two.
     double shift() const {
         const double s2 = r0 * r0 / (cutoff * cutoff), s6 = s2 * s2 * s2;
         return 4.0 * s6 * (s6 - 1.0);
     }
 
-    /// Formulas for values of type V, with lengths counted in `unit`, Å.
+    /// Formulas for values of type V. unit: unit of length, Å.
     template <class V>
     struct Terms {
         V rm2;

@@ -14,12 +14,13 @@
 
 namespace asperity {
 
+/// Parameters and formulas of the potential (pair_potential.hpp). The defaults have depth,
+/// curvature and place of the minimum of the default Lennard-Jones potential.
 struct Morse {
-    /// Defaults: depth, curvature and place of the minimum of the default Lennard-Jones potential.
     double D = 0.1;        ///< depth, eV
-    double a = 1.63;       ///< 1/Å
+    double a = 1.63;       ///< inverse width, 1/Å
     double r_min = 3.6816; ///< place of the minimum, Å
-    double cutoff = 13.12; ///< Å
+    double cutoff = 13.12; ///< cutoff, Å
 
     static constexpr const char* name = "morse";
     static constexpr bool has_tail = true;
@@ -27,7 +28,8 @@ struct Morse {
     static void parameters(Self& self, Visit visit) {
         visit("D", "eV", self.D, "depth of the Morse well");
         visit("a", "1/Å", self.a,
-              "of the Morse potential D (exp(-2 a (r - r_min)) - 2 exp(-a (r - r_min)))");
+              "inverse width of the Morse potential D (exp(-2 a (r - r_min)) - 2 exp(-a (r - "
+              "r_min)))");
         visit("r_min", "Å", self.r_min, "distance of the Morse minimum");
     }
 
@@ -35,13 +37,14 @@ struct Morse {
     double minimum() const { return r_min; }
     double inflection() const { return r_min + std::log(2.0) / a; }
     ASPERITY_INLINE double depth() const { return D; }
-    /// Returns the distance below which 1/r is held; the potential is finite down to r = 0.
+    /// Returns the distance that replaces smaller ones, Å; V0 itself is finite down to r = 0.
     ASPERITY_INLINE double closest() const { return 0.1 * r_min; }
     double shift() const {
         const double e = std::exp(-a * (cutoff - r_min));
         return e * e - 2.0 * e;
     }
 
+    /// Formulas for values of type V. unit: unit of length, Å.
     template <class V>
     struct Terms {
         V rate, at_rest;

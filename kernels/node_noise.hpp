@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Langevin noise of one node and step: normal numbers from a counter-based generator (Philox,
-// Random123), and their effect on velocity and displacement. One text for processor and device.
-// Logarithm, sine and cosine are written out in additions, multiplications and divisions, none of
-// them fused, so every compiler and machine gives bitwise identical results.
+// Random123), and their effect on velocity and displacement. For processor and device. Logarithm,
+// sine and cosine are computed from additions, multiplications and divisions that are never fused,
+// so that every compiler and machine gives bitwise identical results.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -18,7 +18,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// Returns ln(x) for 0 < x <= 1, not subnormal, within two units of the last place.
+/// Returns ln(x) for normal numbers 0 < x <= 1, within two units of the last place.
 ASPERITY_INLINE double logarithm(double x) {
     const auto bits = __builtin_bit_cast(std::uint64_t, x);
     int exponent = static_cast<int>(bits >> 52) - 1023;
@@ -33,6 +33,7 @@ ASPERITY_INLINE double logarithm(double x) {
     return exponent * 0.6931471805599453 + 2.0 * (s + s * sum);
 }
 
+/// Cosine and sine of an angle.
 struct CosineSine {
     double cosine, sine;
 };
@@ -75,7 +76,7 @@ ASPERITY_INLINE Triple<double> normals(const ThermalNoise& noise, int level, int
     return {r1 * first.cosine, r1 * first.sine, r2 * second.cosine};
 }
 
-/// Changes that the noise of a step makes in the sums of that step, eV, or eV per mass.
+/// Changes of the sums of a step by its noise, eV, or eV per mass.
 struct NoiseEnergies {
     double heat = 0.0;    ///< energy given to the nodes
     double kinetic = 0.0; ///< change of the kinetic energy at the whole step
@@ -85,14 +86,14 @@ ASPERITY_INLINE NoiseEnergies operator+(const NoiseEnergies& a, const NoiseEnerg
 }
 
 /// Adds `add` to the velocity v(n+1/2) of a node along one axis and dt add to its displacement
-/// u(n+1). old: v(n-1/2). medium: velocity of the damping medium V. Returns energies per mass.
+/// u(n+1). old: v(n-1/2); medium: velocity of the damping medium V. Returns the changes of energy
+/// per mass.
 ///
-/// Friction and noise act at the fixed place u(n): without them half a kick of the force F leads
-/// from v(n-1/2) to p = v(n-1/2) + dt F/2m, and from p' = v(n+1/2) - dt F/2m to v(n+1/2). They
-/// change the kinetic energy by m (p'^2 - p^2)/2, exactly, and the kinetic energy of the whole step
-/// is the mean m (p^2 + p'^2)/4. With w = (old + v)/2 before the noise, g = Gamma dt/2,
-/// p' - p = add - 2 g (w - V) and p' + p = 2 w + add. What remains without noise is summed by the
-/// kick (kick.hpp).
+/// Friction and noise act at the fixed place u(n), between two half kicks of the force F: from
+/// v(n-1/2) to p = v(n-1/2) + dt F/2m, and from p' = v(n+1/2) - dt F/2m to v(n+1/2). They change
+/// the kinetic energy by exactly m (p'^2 - p^2)/2, and the kinetic energy of the whole step is the
+/// mean m (p^2 + p'^2)/4. With w = (old + v)/2 before the noise, g = Gamma dt/2, p' - p = add - 2 g
+/// (w - V) and p' + p = 2 w + add. The terms without noise are summed by the kick (kick.hpp).
 ASPERITY_INLINE NoiseEnergies push(const ThermalNoise& noise, double old, double& v, double& u,
                                    double add, double medium) {
     const double w = 0.5 * (old + v), lost = (noise.drag - 1.0) * (w - medium);
@@ -102,13 +103,14 @@ ASPERITY_INLINE NoiseEnergies push(const ThermalNoise& noise, double old, double
     return {add * (w - lost + 0.5 * add), 0.5 * (add * w + 0.25 * add * add + 0.25 * jump * jump)};
 }
 
-/// Returns the change of velocity of a node of mass m (eV fs^2/Å^2) by noise, Å/fs, for each unit
-/// of xi.
+/// Returns the standard deviation of the change of velocity of a node of mass m (eV fs^2/Å^2) by
+/// noise, Å/fs.
 ASPERITY_INLINE double noise_speed(const ThermalNoise& noise, double m) {
     return std::sqrt(noise.strength / m) / noise.drag;
 }
 
-/// Adds the noise of one node of mass m (eV fs^2/Å^2) to v and u. Returns energies, eV.
+/// Adds the noise of a node of mass m (eV fs^2/Å^2) to v and u. xi: normal numbers; old: v(n-1/2).
+/// Returns the changes of energy, eV.
 ASPERITY_INLINE NoiseEnergies add_noise(const ThermalNoise& noise, double m,
                                         const Triple<double>& xi, const Triple<double>& old,
                                         Triple<double>& v, Triple<double>& u) {

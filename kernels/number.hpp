@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Operations on a plain number for formulas written once for all kinds of values: numbers (here),
-// SIMD registers (simd.hpp), lanes of a device (lane.hpp). Operations of the same name round alike.
+// Operations on plain numbers for formulas that are templates over all kinds of values: numbers
+// (here), SIMD registers (simd.hpp), lanes of a device (lane.hpp). Operations of the same name
+// round in the same way.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -45,7 +46,7 @@ ASPERITY_INLINE double fma(double a, double b, double c) {
 ASPERITY_INLINE double fms(double a, double b, double c) { return fma(a, b, -c); }
 ASPERITY_INLINE double sqrt(double a) { return ::sqrt(a); }
 
-/// Returns 2^n, n a whole number between the least and the greatest exponent.
+/// Returns 2^n for an integer n within the range of exponents.
 ASPERITY_INLINE double power_of_two(double n) {
     const double biased = n + (0x1.8p52 + 1023.0);
     std::uint64_t bits;
@@ -55,7 +56,7 @@ ASPERITY_INLINE double power_of_two(double n) {
     std::memcpy(&power, &bits, sizeof power);
     return power;
 }
-/// Loads the four numbers of row n of a table, n a whole number.
+/// Loads the four numbers of row n (an integer) of a table.
 ASPERITY_INLINE void gather_four(const double* table, double n, double (&row)[4]) {
     for (int k = 0; k < 4; ++k)
         row[k] = table[4 * static_cast<std::ptrdiff_t>(n) + k];
@@ -68,8 +69,8 @@ ASPERITY_INLINE V nearest_whole(V x) {
     return (x + shift) - shift;
 }
 
-/// Returns exp(x) to two units of the last place; x is held between -80 and 80 (float) or -700 and
-/// 700.
+/// Returns exp(x) to two units of the last place, with x limited to -80 .. 80 (float) or -700 ..
+/// 700 (double).
 template <class V>
 ASPERITY_INLINE V exponential(V x) {
     constexpr bool single = std::is_same_v<Value<V>, float>;

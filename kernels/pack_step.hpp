@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Functions that the elastic kernels of small and finite strain share on packs: sums over lanes,
-// drift.
+// Functions on packs for the elastic kernels of small and finite strain: sums over lanes, drift.
 #pragma once
 
 #include "kernels/simd.hpp"
@@ -11,7 +10,7 @@
 
 namespace asperity::ASPERITY_VARIANT {
 
-/// Returns 0, 1, 2, ... as a pack: to switch off lanes behind the end of a row.
+/// Returns the pack 0, 1, 2, ..., with which lanes behind the end of a row are masked.
 ASPERITY_INLINE Pack<double> lane_numbers() {
     double lane[Pack<double>::width];
     for (int i = 0; i < Pack<double>::width; ++i)
@@ -24,8 +23,8 @@ ASPERITY_INLINE Pack<double> first_lanes(Pack<double> a, int count) {
     return select(lane_numbers() < Pack<double>(static_cast<double>(count)), a, Pack<double>(0.0));
 }
 
-/// Adds the sums of all lanes to one sum. The runs of the lanes together must not exceed
-/// longest_run.
+/// Adds the sums of all lanes to one sum. The number of terms of all lanes since the last carry
+/// must not exceed longest_run.
 ASPERITY_INLINE void collect(const BasicExactSum<Pack<double>>& lanes, ExactSum& into) {
     ExactSum mine;
     for (int k = 0; k < ExactSum::bins; ++k)
@@ -63,7 +62,8 @@ inline void drift(const ElasticLevel& level, double dt, int y0, int y1) {
         drift_rows(level, z, dt, y0, y1);
 }
 
-/// Sums energies(i), the energies of a pack of cells from element i on, over rows [y0, y1).
+/// Adds energies(i), the energies of a pack of cells from element i on, eV, over rows [y0, y1) of
+/// all layers.
 template <class Energies>
 ASPERITY_INLINE void cell_sum(const VectorVolume<const double>& u, int y0, int y1, ExactSum& into,
                               const Energies& energies) {

@@ -5,13 +5,13 @@
 //
 //     V(r) = V0(r) - V0(r_c)  for r < r_c,   0 beyond.
 //
-// The force is the plain derivative, so energy is continuous at the cutoff and the force has the
-// small step V0'(r_c). Shorter distances than closest() are held there: a start with overlapping
-// atoms gives a huge finite force instead of infinity, and the guard of the time step catches it.
+// The force is the derivative of V: the energy is continuous at the cutoff, and the force has the
+// small step V0'(r_c). Distances below closest() are replaced by closest(), so that overlapping
+// atoms at a start give a large finite force, which the guard of the time step detects.
 //
-// A potential is a struct P of numbers (lennard_jones.hpp, morse.hpp, tabulated.hpp), in the list
-// PairPotential below. It has
-//   name, parameters()    for scenes, which give the cutoff beside them
+// A potential is a struct P of numbers (lennard_jones.hpp, morse.hpp, tabulated.hpp) in the list
+// PairPotential below, with the members
+//   name, parameters()    keys of scenes, in addition to the cutoff
 //   zero(), minimum(), inflection()   distances of V0 = 0, V0' = 0, V0'' = 0, Å. A site is in
 //                         contact with an atom that is nearer than the inflection
 //   depth(), closest()    eV, Å
@@ -39,14 +39,14 @@ namespace asperity {
 
 using PairPotential = std::variant<LennardJones, Morse, Tabulated>;
 
-/// V0 and its derivatives at a distance: V0'' = slope + r^2 bend.
+/// V0 and its derivatives at a distance; V0'' = slope + r^2 bend.
 struct PairDerivatives {
     double energy; ///< V0, eV
     double slope;  ///< V0'/r, eV/Å^2
     double bend;   ///< (V0'/r)'/r, eV/Å^4
 };
 
-/// One potential as plain numbers, for single pairs: the formulas of the sweeps.
+/// A potential for single pairs of plain numbers, with the formulas of the sweeps.
 template <class P>
 struct Pair {
     typename P::template Terms<double> terms;
@@ -56,6 +56,7 @@ struct Pair {
         : terms(p, 1.0), cutoff(p.cutoff), closest(p.closest()),
           shift(terms.energy_scale * p.shift()) {}
 
+    /// Returns V0 without a cutoff, eV.
     ASPERITY_INLINE double unshifted(double r2) const {
         const double at = held(r2);
         return terms.energy_scale * terms.energy(terms.begin(at), at);
@@ -68,10 +69,11 @@ struct Pair {
     ASPERITY_INLINE double energy(double r2) const {
         return r2 < cutoff * cutoff ? unshifted(r2) - shift : 0.0;
     }
-    /// Returns -V'/r, eV/Å^2; the distance vector times this is the force.
+    /// Returns -V'/r, eV/Å^2, whose product with the distance vector is the force.
     ASPERITY_INLINE double force_over_distance(double r2) const {
         return r2 < cutoff * cutoff ? -derivatives(r2).slope : 0.0;
     }
+    /// Returns V0 and its derivatives without a cutoff.
     ASPERITY_INLINE PairDerivatives derivatives(double r2) const {
         const double at = held(r2), begun = terms.begin(at);
         const double force =
@@ -84,11 +86,11 @@ private:
     ASPERITY_INLINE double held(double r2) const { return max(r2, closest * closest); }
 };
 
-/// Tail: the pairs beyond the cutoff as a continuum (scene: interface.tail).
+/// Continuum correction for the pairs beyond the cutoff (scene: interface.tail).
 ///
-/// A site at height g over the substrate's local mean plane interacts, beyond the cutoff, with a
-/// plane of n atoms per area; inside it the shift of the potential is undone. With c = max(r_c,
-/// |g|):
+/// Beyond the cutoff a site at height g over the substrate's local mean plane interacts with a
+/// plane of n atoms per area; within the cutoff the shift of the potential is removed. With c =
+/// max(r_c, |g|):
 ///
 ///     U(g) = 2 pi n int_c^infinity V0(r) r dr  +  pi n (r_c^2 - g^2)_+ V0(r_c)
 ///
@@ -99,15 +101,15 @@ struct Tail {
     Pair<P> pair;
     double plane; ///< 2 pi n, 1/Å^2
 
-    /// Sets the plane. density: n, atoms per Å^2.
+    /// Makes the correction for a plane. density: n, atoms per Å^2.
     Tail(const P& p, double density) : pair(p), plane(2.0 * std::numbers::pi * density) {}
 
-    /// Returns the energy U of a site, eV.
+    /// Returns the energy U of a site, eV. gap: g, Å.
     ASPERITY_INLINE double energy(double gap) const {
         const double inside = max(pair.cutoff * pair.cutoff - gap * gap, 0.0);
         return plane * (pair.moment(beyond(gap)) + 0.5 * inside * pair.shift);
     }
-    /// Returns the force -dU/dg on a site, eV/Å.
+    /// Returns the force -dU/dg on a site, eV/Å. gap: g, Å.
     ASPERITY_INLINE double force(double gap) const {
         return plane * gap * pair.unshifted(beyond(gap));
     }
@@ -119,7 +121,7 @@ private:
     }
 };
 
-// The same properties of any potential, Å.
+// Properties of any potential, Å.
 inline double cutoff_of(const PairPotential& potential) {
     return std::visit([](const auto& p) { return p.cutoff; }, potential);
 }

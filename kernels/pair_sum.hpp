@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Sum of one site over the substrate in the reference order, for the reference sweep and for sites
-// that no table covers.
+// Sums over the pairs of one site by a direct loop, for the reference sweep and for sites that no
+// table covers.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -14,12 +14,12 @@
 
 namespace asperity {
 
-/// Potentials of the block's atoms with those of the substrate, by the type of the latter.
+/// Pair potentials by the type of the substrate's atom.
 struct PairTable {
     const PairPotential* of = nullptr; ///< [type]
-    int types = 0;
-    double cutoff = 0.0;  ///< the largest cutoff, Å
-    double closest = 0.0; ///< the largest distance at which a pair is held, Å
+    int types = 0;                     ///< number of types
+    double cutoff = 0.0;               ///< largest cutoff, Å
+    double closest = 0.0;              ///< largest closest() of the potentials, Å
 
     PairTable(const PairPotential* table, int count) : of(table), types(count) {
         for (int t = 0; t < count; ++t) {
@@ -30,19 +30,19 @@ struct PairTable {
     PairTable(const PairPotential& of_all) : PairTable(&of_all, 1) {}
 };
 
-/// Force and energy of one site: the sums of the reference loop.
+/// Force and energy of one site from a direct loop over its pairs.
 struct PairSum {
     double force[3] = {0.0, 0.0, 0.0}; ///< eV/Å
     double energy = 0.0;               ///< eV
     double nearest_r2 = no_pair;       ///< Å^2
-    bool in_contact = false;           ///< closer than contact_distance to some atom
+    bool in_contact = false;           ///< closer than contact_distance() to an atom
 };
 
-/// Returns the sum over every substrate atom (periodic images included) within the cutoff of a site
-/// at (x, y, z), by rows of atoms: the reference. Not a number if the position is not finite.
+/// Returns the sum over all substrate atoms (periodic images included) within the cutoff of a site
+/// at (x, y, z), Å, row by row. Returns NaN if the position is not finite.
 PairSum pair_sum(const SubstrateMap& map, const PairPotential& potential, double x, double y,
                  double z);
-/// Returns the sum over atoms anywhere, one after the other, each with the potential of its type.
+/// Returns the sum over all substrate atoms, in their order, each with the potential of its type.
 PairSum pair_sum(const SubstrateAtoms& atoms, const PairTable& pairs, double x, double y, double z);
 
 } // namespace asperity

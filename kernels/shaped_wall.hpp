@@ -1,23 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A wall whose law is an amplitude times a shape of any form (engine/case/wall_shape.hpp makes
-// them):
+// A wall whose law is an amplitude times an arbitrary shape (made by engine/case/wall_shape.hpp):
 //
 //     U(g) = A f(g / rho),
 //
-// the force a chain of straight lines over x = g / rho, and the energy its exact integral. The
-// force falls along some of the lines and rises along others; it is the sum of a part that only
-// falls, of which the energy is convex, and one that only rises, of which it is concave. With the
-// second taken as it is at a gap, the equilibrium of a site on a spring is that of a convex energy:
-// one line holds it, found by halving.
+// where the force is piecewise linear in x = g / rho and the energy is its exact integral. The
+// force is the sum of a decreasing part, whose energy is convex, and an increasing part, whose
+// energy is concave. With the increasing part fixed at its value at a given gap, the equilibrium of
+// a site on a spring is the minimum of a convex energy; the interval of the equilibrium is found by
+// bisection.
 //
-// A shape that begins where the solids touch, at x = 0, has the linear repulsion of the exponential
-// wall there (wall_law.hpp): U(g) = A (f(0) + g/rho f'(0)) + K g^2 / 2 for g <= 0, deepest by the
-// work of adhesion W, A (1 + A f'(0)^2 / (2 rho^2 K)) = W. A shape with a repulsion of its own is
+// A shape that begins at contact, x = 0, is continued by the linear repulsion of the exponential
+// wall (wall_law.hpp): U(g) = A (f(0) + g/rho f'(0)) + K g^2 / 2 for g <= 0, with a depth equal to
+// the work of adhesion W: A (1 + A f'(0)^2 / (2 rho^2 K)) = W. A shape that includes a repulsion is
 // continued along its first line, and A = W.
 //
-// Row k of a shape begins at x_k; the rows lie evenly in y / (1 + y), y = x - x_0.
+// Row k of a shape begins at x_k; the rows are equidistant in y / (1 + y), y = x - x_0.
 #pragma once
 
 #include "kernels/number.hpp"
@@ -28,17 +27,18 @@
 
 namespace asperity {
 
+/// Law of a wall with a tabulated shape.
 class ShapedWall {
 public:
-    static constexpr int rows = 1024; ///< number of rows of a shape; the last is its end
+    static constexpr int rows = 1024; ///< number of rows of a shape; the last row is its end
 
-    /// Numbers of a shape, over its depth and range; they belong to a WallShape.
+    /// View of a shape with unit depth and range; the numbers belong to a WallShape.
     struct Shape {
         const double* force = nullptr; ///< [4 k + i]: x_k, force, its slope and the energy there
         const double* convex =
             nullptr; ///< [4 k + i]: x_k, the falling part of the force, its slope
         double first = 0.0, last = 0.0; ///< x of the first and the last row
-        bool repels = false;            ///< the shape has a repulsion of its own
+        bool repels = false;            ///< the shape includes a repulsion
         double minimum = 0.0;           ///< x of the least energy
         double steepest = 0.0;          ///< x of the largest tension
         double tension = 0.0;           ///< largest tension
@@ -46,12 +46,13 @@ public:
     };
 
     ShapedWall() = default;
-    /// Sets the law. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2, of a shape that does not
-    /// repel.
+    /// Makes the law of a site. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2, for a shape
+    /// without repulsion.
     ShapedWall(const Shape& shape, double adhesion, double range, double stiffness)
         : shape_(shape), work_(adhesion), range_(range), stiffness_(shape.repels ? 0.0 : stiffness),
           adhesion_(amplitude(adhesion)) {}
 
+    /// Formulas for values of type V.
     template <class V>
     struct Terms {
         explicit Terms(const ShapedWall& w)
@@ -84,7 +85,7 @@ public:
                    into * (pull + same<V>(0.5) * stiffness * into);
         }
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
-        /// the rising part of the force is taken as it is at `gap`.
+        /// the increasing part of the force is fixed at its value at `gap`.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             if (!repels) { // nothing falls but the repulsion
                 const V held = spring * target + attraction(gap);
@@ -113,7 +114,7 @@ public:
         bool repels;
 
     private:
-        /// Returns the number of the row that holds x; of what is no number, the last.
+        /// Returns the index of the row that contains x; the last one for NaN.
         ASPERITY_INLINE V row_of(V x) const {
             const V y = max(same<V>(0.0), x - first), at = y / (same<V>(1.0) + y) * per_length;
             return max(min(nearest_whole(at - same<V>(0.5)), same<V>(rows - 2.0)), same<V>(0.0));
@@ -132,7 +133,7 @@ public:
         law.adhesion_ *= factor;
         return law;
     }
-    /// Returns the factor with which scaled() has this part of the work of adhesion.
+    /// Returns the factor for which scaled() has the fraction `part` of the work of adhesion.
     double factor_of(double part) const {
         return work_ > 0.0 ? amplitude(part * work_) / amplitude(work_) : 1.0;
     }
@@ -146,27 +147,30 @@ public:
         const double* row = shape_.force + 4 * row_of(x);
         return -row[2] * adhesion_ / (range_ * range_);
     }
-    /// Returns how far a site may be below the wall under a force that presses, Å.
+    /// Returns the depth of a site below the wall under a pressing force (eV/Å), Å.
     double depth_under(double force) const {
         if (!shape_.repels) return (std::fmax(0.0, force) + pull()) / stiffness_;
         const double* row = shape_.force; // the first row, whose line goes on below it
         const double beyond = std::fmax(0.0, force * range_ / adhesion_ - row[1]);
         return std::fmax(0.0, -range_ * (row[0] + beyond / row[2]));
     }
+    /// Returns the smallest stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return -shape_.fastest * adhesion_ / (range_ * range_); }
-    double range() const { return range_; }
-    /// Returns the gap below which a site is in contact, Å: that of the largest tension, 0 if the
-    /// shape begins there.
+    double range() const { return range_; } ///< returns rho, Å
+    /// Returns the gap below which a site is in contact, Å: the gap of the largest tension, 0 if
+    /// the shape begins at contact.
     double contact_gap() const { return shape_.repels ? range_ * shape_.steepest : 0.0; }
+    /// Returns the gap beyond which the law is zero, Å.
     double reach() const { return adhesion_ > 0.0 ? range_ * shape_.last : 0.0; }
-    /// Returns the gap of the least energy, Å.
+    /// Returns the gap of the energy minimum, Å.
     double deepest() const {
         return shape_.repels ? range_ * shape_.minimum : -pull() / stiffness_;
     }
+    /// Returns the largest tension, eV/Å.
     double largest_tension() const { return shape_.tension * adhesion_ / range_; }
     /// Returns the gap of the largest tension, Å.
     double steepest() const { return range_ * shape_.steepest; }
-    /// Returns true if the law has a kink where it is touched.
+    /// Returns true if the force has a kink at contact.
     bool has_kink() const { return !shape_.repels; }
 
 private:
@@ -174,7 +178,7 @@ private:
         const double y = std::fmax(0.0, x - shape_.first);
         return static_cast<std::ptrdiff_t>(std::fmin(y / (1.0 + y) * per_length(), rows - 2.0));
     }
-    /// Returns the number of rows over the length in y / (1 + y).
+    /// Returns the number of rows per unit of y / (1 + y).
     double per_length() const {
         const double y = shape_.last - shape_.first;
         return (rows - 1) * (1.0 + y) / y;

@@ -3,14 +3,14 @@
 //
 // One SIMD register, as a number type.
 //
-// A kernel written on Pack<double> reads like scalar arithmetic and is compiled once for each
-// x86-64 level (variant.hpp). The width is the widest register of that level. fma() is a real fused
-// multiply-add if the level has one, otherwise a multiplication and an addition; since the compiler
-// itself is told not to contract (-ffp-contract=off), the result for a node depends on the level
-// alone, not on the loop that computed it.
+// A kernel on Pack<double> reads like scalar arithmetic and is compiled once for each x86-64 level
+// (variant.hpp), with the widest register of the level. fma() is a fused multiply-add if the level
+// has this instruction, otherwise a multiplication and an addition; the compiler may not contract
+// operations (-ffp-contract=off), so that the result for a node depends on the level alone, not on
+// the loop that computed it.
 //
-// The whole file lives in a namespace of its level, so that the linker cannot pick a function
-// compiled for a newer processor for an older one.
+// The whole file is in a namespace of its level, so that the linker cannot use a function compiled
+// for a newer processor on an older one.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -55,14 +55,15 @@ struct RegisterOf<float> {
     using mask = FloatMask;
 };
 
+/// One SIMD register of numbers.
 template <class T>
 struct Pack {
     static constexpr int width = register_bytes / static_cast<int>(sizeof(T));
     using Value = T;
     using Register = typename RegisterOf<T>::type;
     using Mask = typename RegisterOf<T>::mask;
-    /// Register as it lies in memory. g++ 12 takes a register of AVX2 that is filled by memcpy
-    /// through the stack, if a compiler barrier keeps it (load_once).
+    /// Register in memory without alignment. memcpy is no alternative: with the compiler barrier of
+    /// load_once(), g++ 12 would pass an AVX2 register through the stack.
     typedef T Unaligned __attribute__((vector_size(register_bytes), aligned(sizeof(T)), may_alias));
 
     Register r;
@@ -74,7 +75,7 @@ struct Pack {
     static ASPERITY_INLINE Pack load(const T* from) {
         return Pack(static_cast<Register>(*reinterpret_cast<const Unaligned*>(from)));
     }
-    /// Loads a pack that is used twice: the compiler shall not read it twice.
+    /// Loads a pack and prevents the compiler from reading it again for a second use.
     static ASPERITY_INLINE Pack load_once(const T* from) {
         Pack p = load(from);
 #if defined(__x86_64__)
@@ -91,7 +92,7 @@ struct Pack {
         return p;
     }
     ASPERITY_INLINE void store(T* to) const { std::memcpy(to, &r, sizeof(Register)); }
-    /// Stores lanes [first, last) (the ends of a row); lane 0 belongs to to[0].
+    /// Stores lanes [first, last), for the ends of a row; lane i goes to to[i].
     ASPERITY_INLINE void store_lanes(T* to, int first, int last) const {
         if (first <= 0 && last >= width) return store(to);
         T lane[width];
@@ -99,7 +100,7 @@ struct Pack {
         for (int i = first > 0 ? first : 0; i < (last < width ? last : width); ++i)
             to[i] = lane[i];
     }
-    /// Stores the first count lanes (the tail of a row).
+    /// Stores the first `count` lanes, for the end of a row.
     ASPERITY_INLINE void store_first(T* to, int count) const { store_lanes(to, 0, count); }
     ASPERITY_INLINE T operator[](int lane) const { return r[lane]; }
 
@@ -149,8 +150,8 @@ ASPERITY_INLINE unsigned bits_where_less(Pack<T> a, Pack<T> b) {
 #endif
 }
 
-/// Returns the elements lane_of(0), lane_of(1), ... of the packs a and b, one behind the other.
-/// lane_of must have no captures.
+/// Returns the elements lane_of(0), lane_of(1), ... of the concatenation of packs a and b. lane_of
+/// must have no captures.
 template <class T, class LaneOf, int... i>
 ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of,
                                 std::integer_sequence<int, i...>) {
@@ -161,8 +162,7 @@ ASPERITY_INLINE Pack<T> shuffle(Pack<T> a, Pack<T> b, LaneOf lane_of) {
     return shuffle(a, b, lane_of, std::make_integer_sequence<int, Pack<T>::width>());
 }
 
-/// Returns the pack one element further on, given the pack a and the one behind it, b: a1 a2 ...
-/// b0.
+/// Returns the pack one element after a, a1 a2 ... b0, given the packs a and b in memory order.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
 #if defined(__AVX512F__)
@@ -171,7 +171,8 @@ ASPERITY_INLINE Pack<T> shift_left(Pack<T> a, Pack<T> b) {
 #endif
     return shuffle(a, b, [](int i) { return i + 1; });
 }
-/// Returns the pack one element back, given the pack a before b: a_last b0 b1 ...
+/// Returns the pack one element before b, a_last b0 b1 ..., given the packs a and b in memory
+/// order.
 template <class T>
 ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
 #if defined(__AVX512F__)
@@ -181,7 +182,7 @@ ASPERITY_INLINE Pack<T> shift_right(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return Pack<T>::width - 1 + i; });
 }
 
-/// Integers, as many as a register has floats: fixed-point numbers, whose differences are exact.
+/// A register of 32-bit integers for fixed-point numbers, whose differences are exact.
 struct PackInt32 {
     FloatMask r;
 
@@ -218,12 +219,12 @@ ASPERITY_INLINE Pack<double> exchange(Pack<double> a) {
     return shuffle(a, a, [](int i) { return i ^ half; });
 }
 
-/// Returns the elements at even places of two packs one after the other.
+/// Returns the elements at even places of the concatenation of two packs.
 template <class T>
 ASPERITY_INLINE Pack<T> evens(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return 2 * i; });
 }
-/// Returns the elements at odd places of two packs one after the other.
+/// Returns the elements at odd places of the concatenation of two packs.
 template <class T>
 ASPERITY_INLINE Pack<T> odds(Pack<T> a, Pack<T> b) {
     return shuffle(a, b, [](int i) { return 2 * i + 1; });
@@ -338,9 +339,9 @@ ASPERITY_INLINE Pack<T> fms_where_less(Pack<T> x, Pack<T> y, Pack<T> a, Pack<T> 
     return select(x < y, fms(a, b, c), Pack<T>(T(0)));
 #endif
 }
-/// Returns 1 / sqrt(a) to about one unit of the last place. AVX-512 has a first guess of 14 bits,
-/// which one step of fourth order completes: a third of the time of a pass that needs nine of them
-/// a node. Its bits therefore differ from those of the other levels.
+/// Returns 1 / sqrt(a) to about one unit of the last place. With AVX-512, one step of fourth order
+/// refines the instruction's estimate of 14 bits, which reduces the time of a pass with nine
+/// inverse roots per node to a third; the last bits therefore differ from those of other levels.
 ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
     using P = Pack<double>;
 #if defined(__AVX512F__)
@@ -355,7 +356,7 @@ ASPERITY_INLINE Pack<double> inverse_sqrt(Pack<double> a) {
 ASPERITY_INLINE Pack<double> with_last_bit(Pack<double> a) {
     return Pack<double>((DoubleRegister)((DoubleMask)a.r | 1));
 }
-/// Returns 2^n in each lane, bitwise as power_of_two() of a number.
+/// Returns 2^n in each lane, bitwise identical to power_of_two() of a number.
 ASPERITY_INLINE Pack<double> power_of_two(Pack<double> n) {
     return Pack<double>(
         (DoubleRegister)((DoubleMask)(n + Pack<double>(0x1.8p52 + 1023.0)).r << 52));
@@ -374,7 +375,7 @@ ASPERITY_INLINE void gather_four(const T* table, Pack<T> n, Pack<T> (&row)[4]) {
     for (int k = 0; k < 4; ++k)
         row[k] = Pack<T>::load(lane[k]);
 }
-/// Combines all lanes by halving.
+/// Combines all lanes pairwise, in log2(width) steps.
 template <int half, class Combine>
 ASPERITY_INLINE double halve(Pack<double> v, Combine combine) {
     v = combine(v, exchange<half>(v));
@@ -383,23 +384,25 @@ ASPERITY_INLINE double halve(Pack<double> v, Combine combine) {
     else
         return v[0];
 }
+/// Returns the smallest of all lanes.
 ASPERITY_INLINE double lowest(Pack<double> v) {
     using P = Pack<double>;
     return halve<P::width / 2>(v, [](P a, P b) { return min(a, b); });
 }
+/// Returns the sum of all lanes.
 ASPERITY_INLINE double total(Pack<double> v) {
     using P = Pack<double>;
     return halve<P::width / 2>(v, [](P a, P b) { return a + b; });
 }
 
-/// Family of values of a processor's registers, for kernel texts.
+/// Family of value types of a processor's registers, for kernels.
 struct Simd {
     template <class T>
     using Of = Pack<T>;
 };
 
-/// Multiplies and adds one lane in scalar forms of a kernel, fused if the level has it: bitwise
-/// identical to the pack's lane.
+/// Returns a * b + c for scalar code of a kernel, fused if the level fuses: bitwise identical to a
+/// pack's lane.
 ASPERITY_INLINE double fma(double a, double b, double c) {
 #if defined(__FMA__) || defined(__aarch64__)
     return __builtin_fma(a, b, c);

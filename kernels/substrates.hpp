@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The rigid substrate as the sweeps read it: heights over a square lattice with tables of the atoms
-// in reach, or atoms anywhere in cells. Views of arrays that the engine owns (engine/interface).
-// Units: Å.
+// Views of the rigid substrate for the sweeps: heights over a square lattice with tables of the
+// atoms in reach, or atoms at arbitrary positions in cells. The engine owns the arrays
+// (engine/interface). Units: Å.
 #pragma once
 
 #include "kernels/views.hpp"
@@ -12,9 +12,10 @@
 
 namespace asperity {
 
-/// Number of sites along x whose reach is bounded together: a multiple of every register's width.
+/// Number of sites along x in a block, for which the reach is bounded together: a multiple of every
+/// register's width.
 inline constexpr int interface_block = 16;
-/// Number of rings of lateral distance for which each block knows the substrate's greatest height.
+/// Number of rings of lateral distance in the tables of extreme heights of each block.
 inline constexpr int interface_rings = 8;
 /// Largest number of offsets along one half axis: (cutoff + margin) / a + 1 must not exceed it.
 inline constexpr int max_half_offsets = 64;
@@ -28,48 +29,50 @@ struct SubstrateMap {
     double spacing = 2.6;           ///< b, Å
 };
 
-/// Greatest and least heights of the substrate around each block of sites, ring by ring.
+/// Largest and smallest heights of the substrate around each block of sites, for rings of lateral
+/// distance.
 struct ReachBounds {
     const double* highest = nullptr; ///< [(y * blocks + block) * interface_rings + ring], Å
     const double* lowest = nullptr;  ///< lowest heights, in the layout of highest, Å
-    int blocks = 0;                  ///< blocks in a row
+    int blocks = 0;                  ///< number of blocks in a row
     /// Width of the rings: ring r holds lateral distances [r, r + 1) ring_width from the
     /// undisplaced site, Å.
     double ring_width = 1.0;
-    double offset_margin = 0.0; ///< largest sideways displacement the tables allow for, Å
+    double offset_margin = 0.0; ///< largest lateral displacement that the tables allow for, Å
 };
 
-/// The substrate's heights as the sweeps read them.
+/// The substrate's heights relative to the highest atom.
 struct SubstrateHeights {
     PlaneView<const double> height; ///< height over the datum, Å
     double datum = 0.0;             ///< height of the highest atom, Å
 };
 
-/// Unit of fixed-point heights, Å, a power of two: rounding moves positions by at most half of it,
-/// as much as a float does at 3 Å.
+/// Unit of fixed-point heights, Å, a power of two. Rounding moves positions by at most half a unit,
+/// as much as the rounding of a float at 3 Å.
 inline constexpr double fixed_quantum = 0x1p-22;
-/// Largest depth below the datum, Å; deeper atoms are placed there, so that differences of heights
-/// fit into 32 bits. Sites as low as that are left to the reference loop.
+/// Largest depth below the datum, Å. Deeper atoms are moved to this depth, so that differences of
+/// heights fit into 32 bits; sites that low are summed by the reference loop.
 inline constexpr double fixed_depth = 250.0;
 
-/// A substrate of the block's own lattice: atom (x, y) of the tile at ((x0+x) a, (y0+y) a, height).
+/// A substrate with the block's own lattice: atom (x, y) of the tile is at ((x0+x) a, (y0+y) a,
+/// height).
 ///
 /// Offsets from a hollow site to atoms are (±(m - 1/2) a, ±(n - 1/2) a), m, n = 1, 2, ...
 struct LatticeSubstrate {
     SubstrateHeights heights; ///< heights with a halo that holds every offset and a whole vector
-    PlaneView<const std::int32_t> fixed; ///< the same heights for the mixed sweep, in fixed_quantum
+    PlaneView<const std::int32_t> fixed; ///< heights for the mixed sweep, in fixed_quantum
     /// Number of m within the lateral distance k / cuts_per_length: [k * half_offsets + n - 1].
     const std::int32_t* columns = nullptr;
-    int half_offsets = 0; ///< greatest m and n
+    int half_offsets = 0; ///< largest m and n
     int cut_count = 0;
     double cuts_per_length = 1.0; ///< 1/Å
     ReachBounds reach;
     SubstrateMap map;
 };
 
-/// A substrate of any spacing b: atom (i, j), counted over the box and beyond it, at (i b, j b,
-/// height(i - i0, j - j0)). The view holds all atoms within reach of any site, and a register and a
-/// row more.
+/// A substrate of any spacing b: atom (i, j), counted over the box and beyond it, is at (i b, j b,
+/// height(i - i0, j - j0)). The view holds all atoms within reach of any site, plus padding of a
+/// register and a row.
 struct RowSubstrate {
     SubstrateHeights heights;
     int i0 = 0;
@@ -78,20 +81,20 @@ struct RowSubstrate {
     SubstrateMap map;
 };
 
-/// Substrate atoms anywhere, periodic in x and y, for the reference loop.
+/// Substrate atoms at arbitrary positions, periodic in x and y, for the reference loop.
 struct SubstrateAtoms {
     const double* x = nullptr; ///< Å, in the box
     const double* y = nullptr;
     const double* z = nullptr;
-    const std::int32_t* type = nullptr; ///< row of the PairTable; null: all are of the first
+    const std::int32_t* type = nullptr; ///< index in the PairTable; nullptr: 0 for all
     std::int64_t count = 0;
     double edge = 0.0; ///< edge of the box, Å
 };
 
 /// Number of atoms in a cell: a multiple of every register's width.
 inline constexpr int cell_atoms = 16;
-/// Largest cutoff over cells, Å: the atoms that fill a cell stand so deep that no smaller cutoff
-/// reaches them.
+/// Largest cutoff over cells, Å. Atoms that pad a cell are too deep to be reached with such a
+/// cutoff.
 inline constexpr double largest_cell_cutoff = 100.0;
 
 /// A periodic image of a cell, moved by (x, y) edges of the box.
@@ -100,23 +103,24 @@ struct CellImage {
     std::int16_t x, y;
 };
 
-/// Atoms anywhere in cells of cell_atoms, [(cell * 3 + axis) * cell_atoms + atom]; the atoms of a
-/// cell are of one type. Heights are over the datum. A cell that is not full is filled with atoms
-/// so low that no site reaches them.
+/// Atoms at arbitrary positions in cells of cell_atoms, [(cell * 3 + axis) * cell_atoms + atom].
+/// The atoms of a cell have one type. Heights are relative to the datum. Incomplete cells are
+/// padded with atoms too deep to be reached.
 struct CellSubstrate {
     const double* places = nullptr; ///< Å
-    /// Centre of the bounds of a cell's atoms (x, y, z, 0), and half their edges, Å: [cell * 8 +
+    /// Centre of the bounding box of a cell's atoms (x, y, z, 0) and half its edges, Å: [cell * 8 +
     /// n].
     const double* bounds = nullptr;
-    /// The cells of a type within its cutoff and the margin of a block of sites, sideways:
-    /// images[k], k from first[i] to first[i + 1] with i = b * types + type, b = y * blocks + x /
-    /// interface_block and the types of the PairTable; in ascending order of (y, x, cell).
+    /// The cells of a type within the lateral distance of its cutoff plus the margin from a block
+    /// of sites: images[k], k from first[i] to first[i + 1] with i = b * types + type, b = y *
+    /// blocks + x / interface_block and the types of the PairTable; in ascending order of (y, x,
+    /// cell).
     const CellImage* images = nullptr;
     const std::int64_t* first = nullptr;
     const double* highest = nullptr; ///< highest atom of these cells over the datum, Å: [b]
     int blocks = 0;                  ///< number of blocks in a row
     double datum = 0.0;              ///< height of the highest atom, Å
-    double offset_margin = 0.0;      ///< largest sideways displacement the lists allow for, Å
+    double offset_margin = 0.0;      ///< largest lateral displacement that the lists allow for, Å
     SubstrateAtoms atoms;
 };
 

@@ -19,8 +19,8 @@ inline double wide(float v) { return static_cast<double>(v); }
 
 template <class A, class B>
 double dot(const A* a, const B* b, int rows, const double* weights) {
-    // A partial sum for each number of a row, added in this order whatever the width of registers
-    // and the compiler: left to the compiler, the order would be its own.
+    // A partial sum for each number of a row, added in this order for any width of registers and
+    // the compiler: left to the compiler, the order would be its own.
     constexpr int lanes = 2 * block_columns;
     double part[lanes] = {};
     for (int y = 0; y < rows; ++y, a += lanes, b += lanes)

@@ -4,10 +4,10 @@
 // Vector operations of a relaxation on a part of a surface: rows of sites and blocks of waves
 // (decomposition/waves.hpp), compiled for each processor level (variant.hpp).
 //
-// A block of waves is a few columns q_x of each component, [component][q_y][column], each wave a
-// pair (real, imaginary). Arithmetic is in the wider of the two argument types, inner products
-// always in double, products with matrices in the type of the waves. The order of a sum belongs to
-// the level: the same on any number of threads, different on another level.
+// A block of waves consists of a few columns q_x of each component, [component][q_y][column], with
+// each wave a pair (real, imaginary). Arithmetic is in the wider of the two argument types, inner
+// products are in double, products with matrices are in the type of the waves. The order of a sum
+// depends on the level alone, not on the number of threads.
 #pragma once
 
 namespace asperity {
@@ -15,8 +15,8 @@ namespace asperity {
 /// Number of columns of a block: one cache line of a row in single precision.
 inline constexpr int block_columns = 8;
 
-/// Entries of a 3 x 3 matrix that acts on (u_x, u_y, i u_z). A table of them for a block is
-/// [|q_y|][entry][column], of one component [|q_y|][column]; xy and yz change sign with q_y.
+/// Entries of a symmetric 3 x 3 matrix that acts on (u_x, u_y, i u_z). The table of a block is
+/// [|q_y|][entry][column], with one component [|q_y|][column]; xy and yz change sign with q_y.
 namespace matrix_entry {
 enum { xx, yy, zz, xy, xz, yz, count };
 }
@@ -26,24 +26,24 @@ struct HeavyBallRow {
     const float* target[3]; ///< targets of the sites, Å
     double* u[3];           ///< displacements, Å; updated
     float* momentum[3];     ///< last moves of the sites, Å; updated
-    float* step_size; ///< fractions of the distance to the target that the sites move; updated
+    float* step_size; ///< fractions of the distance to the targets that the sites move; updated
 };
 /// Constants of the heavy-ball method.
 struct HeavyBallRule {
     float momentum_decay; ///< factor of the last move in the next one
     float step_cut;       ///< factor of the step size if the target lies behind the last move
     float step_growth;    ///< factor of the step size otherwise
-    float step_size_max;
-    float move_max; ///< largest move of a site, Å
+    float step_size_max;  ///< largest step size
+    float move_max;       ///< largest move of a site, Å
 };
 
-/// A row of symmetric 3 x 3 matrices, one for each site, by entries (matrix_entry); only zz is read
-/// for one component.
+/// A row of symmetric 3 x 3 matrices, one for each site, by entries (matrix_entry). With one
+/// component only zz is read.
 struct SiteMatrices {
     const float* entry[matrix_entry::count];
 };
 
-/// Arithmetic of the rows for one processor level.
+/// Kernels for one processor level; the functions below document them.
 struct RowKernels {
     template <class A, class B>
     using Dot = double (*)(const A*, const B*, int rows, const double* weights);
@@ -70,8 +70,8 @@ struct RowKernels {
 /// Returns the kernels for the running processor (processor_level()).
 const RowKernels& row_kernels();
 
-/// Returns a block's part of sum_q conj(a_q).b_q. rows: rows of block_columns waves; weights: those
-/// of the columns.
+/// Returns a block's part of sum_q conj(a_q).b_q. rows: number of rows of block_columns waves;
+/// weights: multiplicities of the columns.
 inline double block_dot(const double* a, const double* b, int rows, const double* weights) {
     return row_kernels().dot_double(a, b, rows, weights);
 }
@@ -82,7 +82,7 @@ inline double block_dot(const float* a, const float* b, int rows, const double* 
     return row_kernels().dot_float(a, b, rows, weights);
 }
 
-/// Sets to <- a from + b to, n numbers; with b = 0, to is not read.
+/// Sets to <- a from + b to for n numbers; b = 0 does not read `to`.
 inline void combine_row(double a, const double* from, double b, double* to, int n) {
     row_kernels().combine_double(a, from, b, to, n);
 }
@@ -96,8 +96,8 @@ inline void combine_row(double a, const float* from, double b, float* to, int n)
     row_kernels().combine_float(a, from, b, to, n);
 }
 
-/// Sets f <- m u + norm g for a block of one or three components; f may be u or g, and g is not
-/// read with norm = 0.
+/// Sets f <- m u + norm g for a block of one or three components. m: table of the block; sites: N;
+/// f may be u or g; norm = 0 does not read g.
 inline void multiply_block(const double* m, int sites, int components, const double* u, double norm,
                            const double* g, double* f) {
     row_kernels().multiply_double(m, sites, components, u, norm, g, f);
@@ -107,17 +107,17 @@ inline void multiply_block(const float* m, int sites, int components, const floa
     row_kernels().multiply_float(m, sites, components, u, norm, g, f);
 }
 
-/// Multiplies a row of vectors, given by components, by the matrices of its sites: v <- m v.
+/// Multiplies a row of n vectors, given by components, by the matrices of their sites: v <- m v.
 inline void multiply_sites(const SiteMatrices& m, float* const* v, int components, int n) {
     row_kernels().multiply_sites(m, v, components, n);
 }
 
-/// Returns the largest squared length of a row of vectors, given by components.
+/// Returns the largest squared length of a row of n vectors, given by components.
 inline float longest_squared(const float* const* v, int components, int n) {
     return row_kernels().longest_squared(v, components, n);
 }
-/// Sets to <- norm (k u + f), n numbers: the force of a spring k that pulls each site from 0 to u,
-/// and f.
+/// Sets to <- norm (k u + f) for n numbers: the sum of f and the force of a spring k between each
+/// site at 0 and u.
 inline void spring_force_row(double k, double norm, const double* u, const double* f, float* to,
                              int n) {
     row_kernels().spring_force(k, norm, u, f, to, n);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// S(q): stiffness of the elastic block at its lowest layer, at rest (docs/explanation/model.md).
+// S(q): static stiffness of the elastic block at its lowest layer (docs/explanation/model.md).
 //
 // The lowest layer of a lattice of `thickness` cells, its top plane clamped, responds to a static
 // plane wave u exp(i q r) with the force -S(q) u, all other layers being at equilibrium. S follows
@@ -10,12 +10,12 @@
 //
 //     S_1 = a,      S_(k+1) = a - b (d + S_k)^-1 b^T,      S = S_thickness.
 //
-// In a block of layers each cell has the a, b and d of its own material, and a plane between two
-// materials has what each side gives it: a from above, d from below.
+// In a block of layers each cell has the a, b and d of its material; a plane between two materials
+// has a of the material above and d of the material below.
 //
-// Six real numbers are enough. The stencil (elastic_cell.hpp) is even in x and y within the
-// plane components and within z, and odd where it couples z with x or y: its filters are cosines,
-// sin sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
+// Six real numbers suffice. The stencil (elastic_cell.hpp) is even in x and y within the plane
+// components and within z, and odd where it couples z with x or y: its filters are cosines, sin
+// sin, or i sin. With w = i u_z in place of u_z there are no i's: for the pair (x, w)
 //
 //     F_x = A (i u_z(z+1) - i u_z(z-1)) = A (w(z+1) - w(z-1)),
 //     F_w = i F_z = -A (x(z+1) - x(z-1)),
@@ -23,8 +23,8 @@
 // A = 2 sin p_x (out_r + 2 out_rd cos p_y). So a, b, d are real, a and d symmetric, and the
 // recursion keeps S real and symmetric in (x, y, w). In (x, y, z): S_xz = i xz, S_zx = -i xz,
 // hermitian. Signs: xy is odd in both of p_x, p_y, xz odd in p_x, yz odd in p_y; x and y may be
-// exchanged. So an eighth of the Brillouin zone holds everything, and the couplings vanish where a
-// sine does (the Nyquist lines, the axes).
+// exchanged. Therefore an eighth of the Brillouin zone suffices, and the couplings vanish with the
+// sines (on the Nyquist lines and the axes).
 //
 // The contribution of layers deeper than a few wavelengths decays like exp(-2 q depth): the
 // recursion ends when further layers add nothing, so a whole table costs little more than its short
@@ -43,24 +43,24 @@ struct CellLayer {
     int cells = 0; ///< thickness in cells of edge a
 };
 
-/// A real symmetric matrix on (u_x, u_y, i u_z); a stiffness has eV/Å^2 for each site.
+/// A real symmetric matrix on (u_x, u_y, i u_z); a stiffness is in eV/Å^2 per site.
 struct SurfaceMatrix {
     double xx = 0.0, yy = 0.0, zz = 0.0;
     double xy = 0.0, xz = 0.0, yz = 0.0;
 };
 
-/// Cosine and sine of a phase 2 pi n / sites across one cell, 0 <= n <= sites / 2; the sine is
-/// zero, not nearly zero, on the Nyquist line.
+/// Cosine and sine of a phase 2 pi n / sites across one cell, 0 <= n <= sites / 2. The sine is
+/// exactly zero on the Nyquist line.
 struct WavePhase {
     double cosine = 1.0, sine = 0.0;
 };
-/// Returns the phase of wave n on this many sites.
+/// Returns the phase of wave n on `sites` sites.
 WavePhase wave_phase(int n, int sites);
 
-/// Returns S at the phases along x and y, eV/Å^2, of a block of layers in the order from its lowest
-/// plane upwards; the plane above the last one is clamped. The uniform mode (both sines zero and
-/// both cosines one) is exact: of a layer shear mu a / cells, normal (lambda + 2 mu) a / cells, and
-/// the layers are springs in series.
+/// Returns S at the phases along x and y, eV/Å^2. layers: in the order from the lowest plane
+/// upwards; the plane above the last layer is clamped. The uniform mode (both sines zero and both
+/// cosines one) is exact: the layers are springs in series, each with mu a / cells for shear and
+/// (lambda + 2 mu) a / cells normally.
 SurfaceMatrix surface_stiffness(std::span<const CellLayer> layers, WavePhase x, WavePhase y);
 
 /// Returns the inverse of a positive matrix.

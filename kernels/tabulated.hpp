@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A potential given by numbers: cubics over equal intervals of r, V0 and V0' continuous. The
-// numbers belong to a PotentialTable (engine/case/potential_table.hpp), which makes them from
+// A tabulated potential: cubics over equal intervals of r, with V0 and V0' continuous. The
+// coefficients belong to a PotentialTable (engine/case/potential_table.hpp), which makes them from
 // a file.
 #pragma once
 
@@ -10,14 +10,16 @@
 
 namespace asperity {
 
+/// View of a tabulated potential, and its formulas (pair_potential.hpp).
 struct Tabulated {
     /// Coefficients of V0 = c0 + x (c1 + x (c2 + x c3)), eV: [4 n + k] in interval n, x from 0 to 1
     /// along it.
     const double* cubics = nullptr;
     int intervals = 0;
-    double first = 0.0;  ///< begin of the table, Å
+    double first = 0.0;  ///< beginning of the table, Å
     double step = 1.0;   ///< length of an interval, Å
-    double cutoff = 0.0; ///< Å, within the table
+    double cutoff = 0.0; ///< cutoff within the table, Å
+    /// Characteristic energies and distances.
     struct Shape {
         double depth = 0.0;                                 ///< eV
         double zero = 0.0, minimum = 0.0, inflection = 0.0; ///< Å
@@ -36,6 +38,7 @@ struct Tabulated {
     ASPERITY_INLINE double closest() const { return first; }
     double shift() const { return shape.shift; }
 
+    /// Formulas for values of type V. unit: unit of length, Å.
     template <class V>
     struct Terms {
         const double* table;

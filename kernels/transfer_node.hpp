@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The arithmetic of level_transfer.hpp: one text for packs, for single nodes at the ends of rows,
-// and for the threads of a device.
+// The arithmetic of level_transfer.hpp for packs, for single nodes at the ends of rows, and for the
+// threads of a device.
 #pragma once
 
 #include "kernels/level_transfer.hpp"
@@ -14,8 +14,7 @@ template <class V>
 ASPERITY_INLINE V mean(V a, V b) {
     return V(0.5) * (a + b);
 }
-/// Returns the mean of rows low and high at the coarse row's place (the same row twice on even fine
-/// rows).
+/// Returns the mean of the coarse rows low and high; for an even fine row both are the same row.
 template <class V>
 ASPERITY_INLINE V mean(const double* low, const double* high) {
     return mean(V::load(low), V::load(high));
@@ -27,7 +26,7 @@ ASPERITY_INLINE double interpolated_node(const double* low, const double* high, 
     return (x & 1) ? mean(on, mean(low[X + 1], high[X + 1])) : on;
 }
 
-/// Returns half, whole and half of three nodes or rows.
+/// Returns before / 2 + here + behind / 2, of nodes or rows.
 template <class V>
 ASPERITY_INLINE V restricted(V before, V here, V behind) {
     return V(0.5) * (before + behind) + here;

@@ -5,9 +5,8 @@
 //
 // A plane is a tile of nx * ny nodes with a frame of halo nodes around it; a volume is a stack of
 // planes. x runs fastest. Indices are tile coordinates: (0, 0) is the first node owned, negative
-// indices and indices >= nx are halo. A row begins on a 64-byte boundary at x = 0 and has room
-// behind it for a whole SIMD vector that starts at any owned x, so loops over x need no scalar
-// remainder.
+// indices and indices >= nx are halo. A row is aligned to 64 bytes at x = 0 and padded for a whole
+// SIMD vector that starts at any owned x, so that loops over x need no scalar remainder.
 #pragma once
 
 #include "kernels/annotations.hpp"
@@ -18,10 +17,11 @@
 
 namespace asperity {
 
-/// Halo width of every tile. It is two, because the force on a constrained node one site outside
-/// the tile (which its coarse neighbour inside needs) reaches one site further.
+/// Halo width of every tile: two, because a coarse node inside the tile needs the force on a
+/// constrained node one site outside, which depends on one site further.
 inline constexpr int halo_width = 2;
 
+/// View of a plane.
 template <class T>
 struct PlaneView {
     T* origin = nullptr;    ///< node (0, 0)
@@ -34,14 +34,15 @@ struct PlaneView {
     ASPERITY_HOST_DEVICE operator PlaneView<const T>() const { return {origin, row, nx, ny}; }
 };
 
+/// View of a stack of planes.
 template <class T>
 struct VolumeView {
     T* origin = nullptr;      ///< node (0, 0, 0)
     std::ptrdiff_t row = 0;   ///< distance between rows, in elements
     std::ptrdiff_t plane = 0; ///< distance between planes, in elements
-    int nx = 0;
-    int ny = 0;
-    int nz = 0; ///< planes
+    int nx = 0;               ///< nodes owned along x
+    int ny = 0;               ///< nodes owned along y
+    int nz = 0;               ///< number of planes
 
     ASPERITY_HOST_DEVICE T& operator()(int x, int y, int z) const {
         return origin[z * plane + y * row + x];

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 //
 // Kernels of sites over a wall: forces, and the equilibrium of each site under its own force while
-// the elastic forces are held fixed (engine/statics/wall_minimiser.hpp). All in double
-// precision except the single-precision input of the minimiser. Where the height of the wall is not
-// a number there is no solid, and no law.
+// the elastic forces are held fixed (engine/statics/wall_minimiser.hpp). All in double precision
+// except the single-precision input of the minimiser. A NaN height of the wall means no solid and
+// no force.
 #pragma once
 
 #include "kernels/interface_sites.hpp"
@@ -15,13 +15,13 @@ namespace asperity {
 /// A row of sites that move to their equilibria.
 template <class T>
 struct WallRow {
-    const double* below = nullptr; ///< height of the wall, Å; not a number: there is no solid
+    const double* below = nullptr; ///< height of the wall, Å; NaN: no solid
     const double* u;               ///< places of the sites, Å
     const float* step;             ///< last moves of the sites, Å
-    const T* elastic;              ///< S z, eV/Å, times 1 / norm
-    /// Factor of the law of each site (ScaledBySite); null: one law for all
+    const T* elastic;              ///< S z / norm, eV/Å
+    /// Factor of the law of each site (ScaledBySite); nullptr: one law for all sites.
     const double* factor = nullptr;
-    double* next; ///< out: equilibria of the sites, Å
+    double* next; ///< output: equilibria of the sites, Å
 };
 /// Parameters of an equilibrium over a wall; z is the point at which the elastic force is known.
 struct WallRule {
@@ -29,19 +29,20 @@ struct WallRule {
     double spring;           ///< spring from each site to z - (elastic force) / spring, eV/Å^2
     double momentum;         ///< factor of the last move: z = u + momentum step
     double norm;             ///< factor of the elastic forces
-    double load;             ///< load on each site, pressing down, eV/Å
+    double load;             ///< load on each site, eV/Å; positive presses
 };
 /// Sums over the sites of a row.
 struct WallSums {
-    double furthest = 0.0; ///< largest |next - z| and force left on a site over the spring, Å
+    /// Largest |next - z| and largest residual force on a site divided by `spring`, Å.
+    double furthest = 0.0;
     double reversal = 0.0; ///< sum of (z - next) (next - u), Å^2
     double height = 0.0;   ///< sum of next, Å
 };
 
 /// Kernels of a wall, compiled for one processor level.
 struct WallKernels {
-    /// Computes the forces of rows [row_begin, row_end); [observe]. nearest_r2: the square of the
-    /// gap, 0 if the gap is negative. factor: as in WallRow.
+    /// Computes the forces on rows [row_begin, row_end); index: [observe]. factor: WallRow::factor
+    /// of the tile. nearest_r2 is set to the square of the gap, 0 if the gap is negative.
     void (*sweep[2])(const InterfaceSites&, const PlaneView<const double>& height,
                      const PlaneView<const double>& factor, const WallLaw&, int row_begin,
                      int row_end, InterfaceSums&);

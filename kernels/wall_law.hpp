@@ -4,28 +4,28 @@
 // A wall in place of the substrate's atoms (scene: interface.kind = "wall"): laws of the gap g
 // between a site and the height of the substrate below it. No lateral forces.
 //
-// The atoms smeared over the plane below the site, n per area, cut and shifted like the pairs, V0
-// the unshifted pair potential (pair_potential.hpp):
+// Smeared wall: n atoms per area smeared over the plane below the site, with the cut and shifted
+// pair potential of V0 (pair_potential.hpp):
 //
 //     U(g) = 2 pi n int_g^r_c [V0(r) - V0(r_c)] r dr,      -U' = 2 pi n g [V0(g) - V0(r_c)].
 //
-// Exponential attraction over a linear repulsion (Müser et al., Tribol. Lett. 65, 118 (2017), have
-// the same attraction over a hard wall; stiffness -> infinity is that limit):
+// Exponential wall: exponential attraction and linear repulsion (a hard wall, as in Müser et al.,
+// Tribol. Lett. 65, 118 (2017), in the limit of infinite stiffness):
 //
 //     U(g) = -A exp(-g/rho)                   g > 0,
 //     U(g) = -A (1 - g/rho) + K g^2 / 2       g <= 0,
 //
-// deepest at g = -A / (rho K), by A + A^2 / (2 rho^2 K). A is chosen such that this depth is the
-// work of adhesion W, however soft the repulsion: A = 2 W / (1 + sqrt(1 + 2 W / (rho^2 K))).
+// with the minimum -A - A^2 / (2 rho^2 K) at g = -A / (rho K). A = 2 W / (1 + sqrt(1 + 2 W / (rho^2
+// K))) makes the depth equal to the work of adhesion W for any stiffness K.
 //
 // Other shapes of the attraction are in shaped_wall.hpp.
 //
-// If the work of adhesion differs from site to site, a law's attraction is multiplied by a factor
-// of the site: scaled(). The law is then that of the largest work, and factor_of() gives the factor
-// of a smaller one.
+// If the work of adhesion differs from site to site, the attraction is multiplied by a factor of
+// the site (scaled()). The law is then that of the largest work, and factor_of() returns the factor
+// for a smaller work.
 //
-// Each law is one text for all values (number.hpp): Terms<V> holds it for values of type V. A gap
-// that is not a number gives a force that is not a number.
+// Terms<V> has the formulas of a law for values of type V (number.hpp). A NaN gap gives a NaN
+// force.
 //
 // Units: Å, eV, eV/Å, for each site.
 #pragma once
@@ -45,10 +45,11 @@
 
 namespace asperity {
 
+/// Smeared wall of a pair potential P.
 template <class P>
 class SmearedWall {
 public:
-    /// Sets the law. density: atoms per Å^2. tail: neither cut nor shifted.
+    /// Makes the law of a site. density: atoms per Å^2; tail: neither cut nor shift the potential.
     SmearedWall(const P& potential, double density, bool tail)
         : potential_(potential), plane_(2.0 * std::numbers::pi * density),
           floor_(std::fmax(0.5 * potential.zero(), potential.closest())) {
@@ -68,6 +69,7 @@ public:
         softest_ = least_stiffness();
     }
 
+    /// Formulas for values of type V.
     template <class V>
     struct Terms {
         explicit Terms(const SmearedWall& w)
@@ -92,8 +94,8 @@ public:
             return select(gap > reach, same<V>(0.0), of_plane + deeper);
         }
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å:
-        /// spring (target - g) + force(g) = 0. The attraction beyond its steepest place is taken
-        /// from `gap`, the gap one iteration before, at which Newton's method starts.
+        /// spring (target - g) + force(g) = 0. Beyond its steepest place the attraction is fixed at
+        /// its value at `gap`, the gap of the iteration before, from which Newton's method starts.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             constexpr int newton_steps = 3;
             const V from = max(steepest, gap);
@@ -109,7 +111,7 @@ public:
             const V inside = select(push < same<V>(0.0), floor + push / (spring + stiffness), g);
             return select(outside > steepest, outside, inside);
         }
-        /// Returns -dF/dg within the reach and over the floor.
+        /// Returns -dF/dg for gaps between floor and reach.
         ASPERITY_INLINE V slope(V g) const {
             const V g2 = g * g, begun = terms.begin(g2);
             const auto difference = [](V a, V b, V c) { return fms(a, b, c); };
@@ -129,17 +131,17 @@ public:
         if (gap > reach_) return 0.0;
         return gap < floor_ ? stiffness_ : Terms<double>(*this).slope(gap);
     }
-    /// Returns how far a site may be below the wall under a force that presses, Å.
+    /// Returns the depth of a site below the wall under a pressing force (eV/Å), Å.
     double depth_under(double force) const {
         return std::fmax(0.0, (force - this->force(floor_)) / stiffness_ - floor_);
     }
     /// Returns the least stiffness -dF/dg of a site, eV/Å^2: negative.
     double softest() const { return softest_; }
-    /// Returns the length over which the attraction fades, Å: about the largest tension over
+    /// Returns the decay length of the attraction, Å: about the largest tension divided by
     /// -softest().
     double range() const { return 0.5 * potential_.zero(); }
-    /// Returns the gap of the largest tension of the law without cutoff, Å: nearer sites are in
-    /// contact.
+    /// Returns the gap below which a site is in contact, Å: the gap of the largest tension without
+    /// a cutoff.
     double contact_gap() const { return contact_; }
     double reach() const { return reach_; }
 
@@ -156,7 +158,8 @@ private:
             (law.slope(middle) > 0.0 ? low : high) = middle;
         }
     }
-    /// Returns the minimum of the stiffness, eV/Å^2: beyond the steepest place it has only one.
+    /// Returns the minimum of the stiffness, eV/Å^2, of which only one exists beyond the steepest
+    /// place.
     double least_stiffness() const {
         const Terms<double> law(*this);
         return boost::math::tools::brent_find_minima([&](double gap) { return law.slope(gap); },
@@ -178,13 +181,14 @@ private:
 class ExponentialWall {
 public:
     ExponentialWall() = default;
-    /// Sets the law. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
+    /// Makes the law of a site. adhesion: W, eV; range: rho, Å; stiffness: K, eV/Å^2.
     ExponentialWall(double adhesion, double range, double stiffness)
         : work_(adhesion),
           adhesion_(2.0 * adhesion /
                     (1.0 + std::sqrt(1.0 + 2.0 * adhesion / (range * range * stiffness)))),
           range_(range), stiffness_(stiffness), tension_(adhesion_ / range) {}
 
+    /// Formulas for values of type V.
     template <class V>
     struct Terms {
         explicit Terms(const ExponentialWall& w)
@@ -207,7 +211,7 @@ public:
             return into * (tension + same<V>(0.5) * stiffness * into) - adhesion * decay(gap);
         }
         /// Returns the gap at which a spring to the gap `target` holds a site in equilibrium, Å;
-        /// exact for a given `gap` in the attraction.
+        /// the attraction is fixed at its value at `gap`.
         ASPERITY_INLINE V rest(V gap, V target, V spring) const {
             const V pull = spring * target - tension * decay(gap);
             return select(pull > same<V>(0.0), pull / spring, pull / (spring + stiffness));
@@ -216,7 +220,7 @@ public:
         V adhesion, rate, stiffness, tension;
 
     private:
-        /// Returns exp(-g/rho); 1 for g < 0, 0 beyond `ranges` ranges.
+        /// Returns exp(-g/rho), but 1 for g < 0 and 0 for g > ranges rho.
         ASPERITY_INLINE V decay(V gap) const {
             const V x = rate * max(same<V>(0.0), gap);
             return select(x > same<V>(ranges), same<V>(0.0), exponential(-x));
@@ -229,7 +233,7 @@ public:
         law.tension_ *= factor;
         return law;
     }
-    /// Returns the factor with which scaled() has this part of the work of adhesion.
+    /// Returns the factor for which scaled() has the fraction `part` of the work of adhesion.
     double factor_of(double part) const {
         return work_ > 0.0 ? ExponentialWall(part * work_, range_, stiffness_).adhesion_ / adhesion_
                            : 1.0;
@@ -240,20 +244,21 @@ public:
     double stiffness_at(double gap) const {
         return gap < 0.0 ? stiffness_ : Terms<double>(*this).force(gap) / range_;
     }
-    /// Returns how far a site may be below the wall under a force that presses, Å.
+    /// Returns the depth of a site below the wall under a pressing force (eV/Å), Å.
     double depth_under(double force) const {
         return (std::fmax(0.0, force) + tension_) / stiffness_;
     }
     double softest() const { return -tension_ / range_; }
     double range() const { return range_; }
-    /// Returns the gap below which a site is in contact, Å: sites that touch the repulsion.
+    /// Returns the gap below which a site is in contact, Å: 0, where the repulsion begins.
     double contact_gap() const { return 0.0; }
     double reach() const { return adhesion_ > 0.0 ? ranges * range_ : 0.0; }
     double stiffness() const { return stiffness_; }
-    double tension() const { return tension_; } ///< returns the largest tension, that at g = 0
+    double tension() const { return tension_; } ///< returns the largest tension, at g = 0, eV/Å
 
 private:
-    static constexpr double ranges = 32.0; ///< e^-32 = 1.3e-14: nothing beyond
+    /// The attraction is zero beyond this number of ranges: e^-32 = 1.3e-14.
+    static constexpr double ranges = 32.0;
 
     double work_ = 0.0;     ///< W of the whole law, without a factor
     double adhesion_ = 0.0; ///< A

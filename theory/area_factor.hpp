@@ -10,12 +10,12 @@ namespace asperity::theory {
 /// Definition of the area factor S(s).
 enum class AreaFactor {
     gaussian,    ///< mean of √(1+|∇h|²) over Gaussian slopes of variance s
-    small_slope, ///< 1 + s/2, its first two terms
+    small_slope, ///< 1 + s/2, the first two terms of `gaussian`
     none,        ///< A* = A
     lattice, ///< 1/(1 + c s): binding of a tilted interface of two lattices (flat_interface.hpp)
 };
 
 /// Returns S(s), 1 at s = 0. c: tilt cost of `lattice`.
-[[nodiscard]] double area_factor(AreaFactor reading, double slope_variance, double c = 0);
+[[nodiscard]] double area_factor(AreaFactor definition, double slope_variance, double c = 0);
 
 } // namespace asperity::theory

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Errors of the theory module: what is wrong (with the values), why, and what to do.
+// Errors of the theory module, whose messages have problem (with the values), reason and remedy.
 #pragma once
 
 #include <sstream>
@@ -10,13 +10,12 @@
 
 namespace asperity::theory {
 
-/// Error of a request that makes no sense (a negative modulus, an unsorted table).
+/// Error of invalid input (a negative modulus, an unsorted table).
 struct InvalidInput : std::invalid_argument {
     using std::invalid_argument::invalid_argument;
 };
 
-/// Error of a sound request without an answer (a contact past pull-off, a root that does not
-/// exist).
+/// Error of valid input without a solution (a contact beyond pull-off, a root that does not exist).
 struct NoSolution : std::domain_error {
     using std::domain_error::domain_error;
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Two flat surfaces of atoms at a separation u: the start of the renormalised theory
-// (python/asperity/theories/renormalised.py). A block site sees the substrate atoms in rings:
+// (python/asperity/theories/renormalised.py). The substrate atoms around a block site form rings:
 // `density` atoms per area of the interface at the lateral distance R. With V(r) the pair energy,
 // r² = R² + u², the energy per area is
 //     φ(u) = Σ_R density V(r).
@@ -26,7 +26,7 @@ struct PairInteraction {
     std::function<PairTerms(double)> at; ///< terms of V0 at r² [length²]
     double zero = 0;                     ///< distance of V0 = 0 [length]
     double minimum = 0;                  ///< distance of V0' = 0
-    double inflection = 0;               ///< distance of V0'' = 0: nearer sites are in contact
+    double inflection = 0;               ///< distance of V0'' = 0, below which a site is in contact
     double cutoff = 0;                   ///< r_c
     bool tail = false;
 
@@ -36,6 +36,7 @@ struct PairInteraction {
 
 /// Two flat surfaces of atoms, described by the rings of atoms around a site.
 struct FlatInterface {
+    /// A ring of atoms.
     struct Ring {
         double radius, density; ///< R [length], per area of a site [1/length⁴]
     };
@@ -50,14 +51,14 @@ struct FlatInterface {
     std::vector<Ring> rings;
     double spacing = 0;  ///< lattice spacing of the substrate
     double contact = 0;  ///< separation below which a site is in contact
-    double furthest = 0; ///< distance of the furthest atom that counts
+    double furthest = 0; ///< largest distance at which atoms interact
 
     [[nodiscard]] double energy(double u) const; ///< returns φ(u) [energy/length²]
 
     /// Returns c of Δγ(s) = Δγ (1 - c s), s the mean square slope: the cost of tilting both
     /// surfaces at the separation u of the minimum of φ, to second order. Sites stay over their
-    /// hollows, or (sliding) move to the place of the least c; then c = -1/2 would be the area that
-    /// a slope adds.
+    /// hollows, or, if `sliding`, move to the place with the smallest c. (c = -1/2 would correspond
+    /// to the additional area of a slope.)
     [[nodiscard]] double tilt_cost(double u, bool sliding) const;
 };
 

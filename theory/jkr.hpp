@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Johnson, Kendall and Roberts' adhesive sphere (its whole curve:
+// The adhesive sphere of Johnson, Kendall and Roberts (whole curve:
 // python/asperity/theories/sphere.py).
 #pragma once
 
@@ -12,7 +12,7 @@ namespace asperity::theory::jkr {
 /// Returns γ from a measured pull-off force.
 [[nodiscard]] double work_from_pull_off(double force, double radius);
 /// Returns γ from the energy U > 0 needed to separate a sphere without a load (JKR 1971), U =
-/// (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}), K = 4E*/3. It needs no largest force.
+/// (6πγR)^{5/3} / (10 K^{2/3} R^{1/3}), K = 4E*/3. The formula needs no pull-off force.
 [[nodiscard]] double work_from_binding_energy(double energy, double radius, double contact_modulus);
 
 /// A sphere: its radius, work of adhesion and contact modulus.

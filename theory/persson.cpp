@@ -260,8 +260,8 @@ CriticalRoughness critical_roughness(const AdhesiveContact& c) {
 // so
 //     S = ∫ √(1+st) e^{-t} dt = 1 + ½ √(πs) e^{1/s} erfc(1/√s).
 // Where the exponential overflows, the series S = 1 + (s/2)(1 - s/2 + 3s²/4 - ...) is exact.
-double area_factor(AreaFactor reading, double s, double c) {
-    switch (reading) {
+double area_factor(AreaFactor definition, double s, double c) {
+    switch (definition) {
     case AreaFactor::none:
         return 1;
     case AreaFactor::lattice:

@@ -7,8 +7,8 @@
 // Interpretation of the equations: σ_a² = γ_eff E* q with γ_eff < 0 counted as zero; U_el(ζ) in Eq.
 // (3) is the energy of roughness shorter than L/ζ; A* = A S with S named in area_factor.hpp. Eq.
 // (2) is solved by finite volumes (stress_distribution.hpp) on a coarse grid and on a grid twice as
-// fine in both directions; the difference is the reported error. A state takes less than 0.1 s as a
-// rule.
+// fine in both directions; the difference is the reported error. A state usually takes less than
+// 0.1 s.
 #pragma once
 
 #include <string_view>
@@ -30,16 +30,17 @@ struct AdhesiveContact {
     double tilt_cost = 0; ///< c of AreaFactor::lattice
 };
 
-/// Returns the elastic energy at area fraction a over that of full contact (Yang and Persson).
+/// Returns the elastic energy at area fraction a divided by that of full contact (Yang and
+/// Persson).
 [[nodiscard]] inline double energy_fraction(double a, double beta) {
     return a * (beta + (1 - beta) * a * a);
 }
 
 /// State of the contact.
 enum class Status {
-    adhesive,   ///< γ_eff(1) > 0: the surfaces are bound without any load
-    pressed,    ///< γ_eff(1) <= 0: the load alone holds the contact
-    no_contact, ///< the surfaces come apart: all results are exactly zero
+    adhesive,   ///< γ_eff(1) > 0: the surfaces adhere without a load
+    pressed,    ///< γ_eff(1) <= 0: only the load maintains the contact
+    no_contact, ///< the surfaces separate: all results are exactly zero
 };
 
 /// State of the contact at one magnification.
@@ -63,11 +64,12 @@ struct ContactState {
     double elastic_energy = 0;    ///< U_el(1)/A0 [energy/area]
     double gamma_ratio_error = 0; ///< error of gamma_ratio: difference of the last two grids
     double area_error = 0;
-    bool converged = true; ///< the two errors are below 1e-3 (that of a ratio above 1: relative)
+    /// Gamma_ratio_error and area_error are below 1e-3 (relative for a ratio above 1).
+    bool converged = true;
     std::vector<ProfilePoint> profile; ///< states on the finest grid, from ζ = 1 to ζ_1
 };
 
-/// Solves Eqs. (2) to (5). Throws InvalidInput if the contact makes no sense.
+/// Solves Eqs. (2) to (5). Throws InvalidInput for an invalid contact.
 [[nodiscard]] ContactState solve(const AdhesiveContact& contact);
 
 /// State with A = A0 at all magnifications: γ_full = Δγ S(q1) - (π/2) E* ∫ q² C dq.
@@ -76,22 +78,23 @@ struct FullContactState {
     double elastic_energy = 0; ///< U_el/A0 [energy/area]
     double real_area = 1;      ///< S(q1)
 };
+/// Computes the state of full contact. Throws InvalidInput for an invalid contact.
 [[nodiscard]] FullContactState full_contact(const AdhesiveContact& contact);
 
 /// Roughness at which adhesion ends. At zero load γ_eff and A vanish there together; under pressure
-/// γ_eff(1) goes through zero; under tension it is the last roughness that withstands the pull. The
-/// spectrum gives the shape only.
+/// γ_eff(1) changes sign; under tension it is the largest roughness at which the contact withstands
+/// the tension. The spectrum gives the shape only.
 struct CriticalRoughness {
     double h_rms = 0, error = 0; ///< h_c [length]
-    /// Rms height at which the full-contact approximation vanishes [length]
+    /// Rms height at which γ_eff of full contact vanishes [length].
     double full_contact_h_rms = 0;
 };
 /// Returns the roughness at which adhesion ends. Throws NoSolution if adhesion does not end.
 [[nodiscard]] CriticalRoughness critical_roughness(const AdhesiveContact& contact);
 
-[[nodiscard]] std::string_view name(Status status);
+[[nodiscard]] std::string_view name(Status status); ///< returns the name of a state
 
-/// Throws InvalidInput if the contact makes no sense.
+/// Throws InvalidInput for an invalid contact.
 void check(const AdhesiveContact& contact);
 
 } // namespace asperity::theory

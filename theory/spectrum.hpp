@@ -4,10 +4,10 @@
 // The roughness power spectrum C(q), isotropic, in Persson's normalisation
 //     <h²> = 2π ∫ q C(q) dq,   <|∇h|²> = 2π ∫ q³ C(q) dq.
 //
-// A power law with roll-off and the ring averages of a surface are both pieces on which C = c
+// A power law with roll-off and the ring averages of a surface both consist of pieces with C = c
 // (q/qa)^n. On each piece every moment has a closed form (a logarithm if the exponents cancel, as
-// at H = 1), however wide or narrow the spectrum. Gaps are wavevectors that no piece covers. Units:
-// any consistent set; q in 1/length, C in length⁴ (e.g. Å and Å⁴).
+// at H = 1), for any width. Gaps are intervals of q without a piece. Units: any consistent set; q
+// in 1/length, C in length⁴ (e.g. Å and Å⁴).
 #pragma once
 
 #include <span>
@@ -39,14 +39,15 @@ struct PowerLaw {
 /// The roughness power spectrum C(q) by pieces.
 class Spectrum {
 public:
-    /// Returns a power law with roll-off, scaled to h_rms.
+    /// Makes a power law with roll-off, scaled to h_rms.
     static Spectrum self_affine(const SelfAffine& options);
 
-    /// Returns the ring averages of a surface: C[k] between edges[k] and edges[k+1]. The first edge
-    /// is q_L even if C is zero there.
+    /// Makes a spectrum from the ring averages of a surface: C[k] between edges[k] and edges[k+1].
+    /// The first edge is q_L even if C is zero there.
     static Spectrum rings(std::span<const double> edges, std::span<const double> C);
 
-    /// Returns the same shape with another rms height; 0 is smooth, and remembers the shape.
+    /// Returns the spectrum scaled to another rms height; 0 gives a smooth surface that keeps the
+    /// shape for further scaling.
     [[nodiscard]] Spectrum with_rms_height(double h_rms) const;
 
     [[nodiscard]] double operator()(double q) const; ///< returns C(q) [length⁴]
@@ -57,17 +58,19 @@ public:
 
     /// Returns the moments of all roughness up to q.
     [[nodiscard]] Magnification at(double q) const;
+    /// Returns the moments of all roughness.
     [[nodiscard]] Magnification last() const { return at(q_largest_); }
-    /// Returns the moments up to q = q_first e^L; q_first is the smallest wavevector with any
-    /// roughness. Next to q_first the moments depend on the digits of L and not on those of q.
+    /// Returns the moments up to q = q_first e^L, with q_first the smallest wavevector with
+    /// roughness. Near q_first the moments are accurate in L, where q would lose digits.
     [[nodiscard]] Magnification from_first(double L) const;
 
-    /// Returns ln(q/q_first) of the two ends and of the edges of gaps, ascending; the first is 0.
+    /// Returns ln(q/q_first) of both ends and of the edges of gaps, in ascending order; the first
+    /// is 0.
     [[nodiscard]] std::vector<double> edges() const;
     /// Returns the pieces of the whole spectrum.
     [[nodiscard]] std::vector<PowerLaw> pieces() const;
 
-    /// Returns true without any roughness
+    /// Returns true if there is no roughness.
     [[nodiscard]] bool smooth() const { return flat_ || segments_.empty(); }
 
 private:

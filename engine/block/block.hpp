@@ -9,11 +9,11 @@
 // top. A block of one level is the plain lattice.
 //
 // Data of a level: u (displacement) and v (velocity at the half step), three arrays each; and
-// `transferred`, the forces handed to its lowest plane from below: by the interface on level 0, by
-// the constrained plane of the level below on the others. A step goes
-//   interpolate()  constrained planes follow     needs u with halos
+// `transferred`, the forces on its lowest plane from below: from the interface on level 0, from the
+// constrained plane of the level below on the others. A step consists of
+//   interpolate()  sets constrained planes       needs u with halos
 //   (interface)    fills transferred of level 0  needs u of the lowest plane
-//   advance()      level by level from below: forces and kick; force on the upper plane, passed to
+//   advance()      level by level from below: forces and kick; force on the upper plane, added to
 //                  the level above; drift of u in place, row after row behind the forces
 //   exchange()     halos of u
 //
@@ -34,12 +34,12 @@
 
 namespace asperity {
 
-/// Parameters of a step (drive.hpp), from which the block makes coefficients for each plane.
+/// Parameters of a step, from which the block computes coefficients for each plane.
 struct StepParameters {
     double dt = 0.0;              ///< fs
     double damping = 0.0;         ///< Gamma, 1/fs
     double damping_from = 0.0;    ///< fraction of the thickness above which damping acts
-    double medium_velocity = 0.0; ///< velocity of the top plane, Å/fs
+    double medium_velocity = 0.0; ///< velocity of the damping medium along z, Å/fs
     bool observe = false;         ///< sum the kinetic energy
     bool operator==(const StepParameters&) const = default;
 };
@@ -56,7 +56,7 @@ public:
     struct Level {
         LevelShape shape;
         Tile tile;
-        bool tiled = false;
+        bool tiled = false;     ///< cut into tiles; false: every rank holds the whole level
         double node_mass = 0.0; ///< mass of a node inside, eV fs^2/Å^2
         double depth = 0.0;     ///< depth of its lowest plane, in cells of edge a
         CellElasticity elasticity;
@@ -65,21 +65,23 @@ public:
         VectorField<double> v;
         VectorField<double> upper_force; ///< force on the prescribed plane; one plane
 
-        std::size_t bytes() const;
+        std::size_t bytes() const; ///< returns the memory of the fields, bytes
+        /// Returns the edge of a cell, Å. a: spacing of the atoms, Å.
         double edge(double a) const { return a * (1 << shape.level); }
         /// Returns the mass of a node of plane z, eV fs^2/Å^2.
         double mass(int z) const;
         /// Returns the number of this tile's nodes that move.
         long long nodes() const { return static_cast<long long>(tile.nx) * tile.ny * shape.cells; }
-        /// Returns the first plane at this fraction of the block's thickness or above it,
-        /// shape.cells if there is none. The plane decides which nodes are damped and receive
-        /// noise.
+        /// Returns the first plane at or above this fraction of the block's thickness; shape.cells
+        /// if there is none. Nodes from this plane on are damped and receive noise.
         int first_plane_from(double share_of_thickness, int thickness) const;
         /// Returns the cell for the kernels. a: spacing of the atoms, Å.
         LevelCell cell(double a) const { return {edge(a), elasticity}; }
+        /// Returns the view for the kernels. a: spacing of the atoms, Å.
         ElasticLevel view(double a);
     };
 
+    /// Allocates the undisplaced block at rest.
     Block(const BlockOptions& options, const Communicator& communicator, const ProcessGrid& grid);
 
     const BlockOptions& options() const { return options_; }
@@ -90,12 +92,15 @@ public:
     struct Fields {
         VectorField<double>&u, &v, &transferred;
     };
+    /// Returns the fields of a level for writing.
     Fields fields(const Level& level) {
         Level& own = levels_[static_cast<std::size_t>(level.shape.level)];
         return {own.u, own.v, own.transferred};
     }
 
+    /// Returns the displacements of the lowest layer, Å.
     VectorPlane<const double> lowest_layer() const { return levels_.front().u.view()[0]; }
+    /// Returns the forces of the interface on the lowest layer, eV/Å, for writing.
     VectorPlane<double> interface_force() { return levels_.front().transferred.plane(0); }
 
     /// Displaces the whole block by (0, 0, z), Å, and sets its velocity to (0, 0, w), Å/fs.
@@ -103,25 +108,27 @@ public:
     /// Sets the top plane's displacement along z, Å.
     void set_top(double z);
     double top() const { return top_; }
-    /// Records the top plane's displacement along z, Å, if the plane itself is on a device.
+    /// Records the top plane's displacement along z, Å, without writing the plane, which is on a
+    /// device.
     void note_top(double z) { top_ = z; }
 
     CellStrain strain() const {
         return options_.finite_strain ? CellStrain::finite : CellStrain::small;
     }
-    /// Returns the kicks of the planes of a level for a step.
+    /// Returns the coefficients of the kicks of the planes of a level for a step.
     LevelKicks kicks(const Level& level, const StepParameters& step) const;
 
-    /// Returns true if there are constrained planes; a block of one level has none.
+    /// Returns true if the block has constrained planes, which is so for two or more levels.
     bool has_constrained_planes() const { return levels_.size() > 1; }
     /// Sets the constrained planes by interpolation from the coarse planes. u needs current halos.
     void interpolate();
-    /// Computes forces, kicks and drifts all levels from below, and adds to the sums.
+    /// Computes the forces of all levels from below, kicks and drifts the nodes, and adds to the
+    /// sums. Collective.
     void advance(const StepParameters& step, KickSums& sums);
     /// Updates the halos of u. Collective.
     void exchange();
-    /// Computes the forces on all moving planes (transferred ones included) into out[level], in
-    /// place of advance().
+    /// Computes the forces on all moving planes, transferred forces included, into out[level],
+    /// eV/Å, without moving the nodes. Collective.
     void forces(std::vector<VectorField<double>>& out);
 
     // Shares of this rank in global values:
@@ -134,11 +141,13 @@ public:
     void add_lowest_z(ExactSum& sum) const;
     /// Returns the mass of all nodes that move, of all ranks, eV fs^2/Å^2. Not collective.
     double mass() const;
+    /// Returns the memory of the block on this rank, bytes.
     std::size_t bytes() const;
+    /// Returns the bytes sent so far in halo exchanges.
     std::size_t halo_bytes() const { return halo_.bytes_sent(); }
 
-    /// Returns true if this rank counts a level's nodes in global sums (levels held whole count
-    /// once).
+    /// Returns true if this rank adds a level's nodes to global sums: every rank for tiled levels,
+    /// the root alone for levels that every rank holds whole.
     bool counts(const Level& level) const { return level.tiled || communicator_.root(); }
 
 private:

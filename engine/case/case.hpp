@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The case: a scene complete with its consequences, in the engine's units (Å, eV, fs). Runs, plans
-// and theories take a case; none of them checks keys or derives numbers from them.
+// The case: a checked scene with all derived numbers, in the engine's units (Å, eV, fs). Runs,
+// plans and theories take a case; none of them checks keys or derives numbers from keys.
 //
 // resolve() is the only way from a scene to a case. It parses lists (resolve.cpp,
 // pair_potentials.cpp), looks for contradictions between keys (checks.cpp), switches effects on
@@ -37,108 +37,114 @@ namespace asperity {
 struct Case {
     Scene scene;            ///< scene of the case
     int ranks = 1;          ///< number of ranks of the case
-    std::string file;       ///< file of the map or the atoms, as found; empty: the scene has none
+    std::string file;       ///< path of the file of the map or atoms; empty: none
     SurfaceOptions surface; ///< options of the substrate; a map with rms = 0 keeps its own
     OutputOptions output;
     MapTimes maps;
     TheoryOptions theory;
     std::vector<std::string> types;       ///< types of atoms: rows of simulation.interface.by_type
     std::vector<std::string> table_files; ///< files of simulation.interface.tables
-    std::optional<std::uint32_t> table_digest; ///< digest of the numbers in these files
-    /// Bound of the error that splines and noise of the tables leave in energies of flat surfaces,
-    /// over the work of adhesion
+    std::optional<std::uint32_t> table_digest; ///< digest of the numbers in table_files
+    /// Bound of the error of energies of flat surfaces from the splines and the noise of the
+    /// tables, divided by the work of adhesion.
     std::optional<double> table_error;
-    Effects effects; ///< effects of the scene, from which the following is built
+    Effects effects; ///< effects of the scene, which decide the options below
     SimulationOptions simulation;
-    std::vector<LevelShape> levels;
-    FlatReference flat; ///< flat on flat, same cutoff and lattices
-    /// Scales of the scene. Their stiffness is a bound, like largest_tension.
+    std::vector<LevelShape> levels; ///< levels of the block
+    FlatReference flat;             ///< flat on flat with the same interface and lattices
+    /// Scales of the scene; the stiffness is an upper bound, like largest_tension.
     Scales scales;
     std::string force_scale; ///< description of scales.force
     double tolerance = 0.0;  ///< drive.tolerance times scales.force, eV/Å
-    /// Bounds over flat on flat and over flat layers of each type of atoms:
-    double largest_tension = 0.0; ///< GPa
+    /// Largest tension of flat surfaces, over all types of atoms, GPa.
+    double largest_tension = 0.0;
     /// Factor by which rows of sites that hold the edge of a contact make a sphere's pull-off force
     /// too large; 1 if the spacing resolves the attraction beside the edge.
     double edge_pinning = 1.0;
-    /// Longest step of a quasi-static path, Å: half the potential's width; infinite if nothing
-    /// attracts
+    /// Longest step of a quasi-static path, Å: half the potential's width; infinite if the solids
+    /// do not attract each other.
     double longest_step = HUGE_VAL;
-    /// Stability limit 2/omega_max at the bottom of the well, fs; usable_timestep() of it is used.
+    /// Stability limit of the time step at the bottom of the well, 2/omega_max, fs
+    /// (usable_timestep()).
     double longest_timestep = 0.0;
-    std::vector<std::string> notes; ///< facts worth knowing that are no mistakes
-    /// Problems that stop a run; `theory` and `surface` can use the case.
+    std::vector<std::string> notes; ///< notes to the user that are no mistakes, one sentence each
+    /// Problems that prevent a run; `theory` and `surface` can use the case.
     std::vector<io::Problem> refused;
 
     /// Returns the segments of the path; never empty in a valid scene.
     const std::vector<Segment>& path() const { return simulation.drive.path; }
-    /// Returns the paths of the files that were read: the scene, the map or the atoms, tables,
-    /// the branches, maps of the sites.
+    /// Returns the paths of all files that were read: scene, map or atoms, tables, branches, maps
+    /// of the sites.
     std::vector<std::string> inputs() const;
     /// Returns the digests of the numbers in tables and in maps of the sites, by the keys that name
     /// them: "interface.table", "interface.adhesion".
     std::vector<std::pair<std::string, std::uint32_t>> digests() const;
+    /// Returns true if the path has a segment of this kind.
     bool has(Segment::Kind kind) const;
     /// Returns true if the path has segments other than approach and pull-off.
     bool guided() const;
+    /// Returns true if the first segment is of this kind.
     bool starts_with(Segment::Kind kind) const { return !path().empty() && path()[0].kind == kind; }
     /// Returns the area of the interface, Å^2.
     double area() const { return edge() * edge(); }
     /// Returns the edge of the box, Å.
     double edge() const { return simulation.block.edge(); }
-    /// Returns the number of sites.
+    /// Returns the number of sites, N^2.
     double sites() const {
         const double across = simulation.block.sites;
         return across * across;
     }
     /// Returns drive.load, MPa.
     double load_in_megapascal() const;
-    /// Returns the radius of the spherical cap, Å; empty: not curved.
+    /// Returns the radius of the spherical cap, Å; empty if the substrate is not curved.
     std::optional<double> radius() const {
         return surface.radius > 0.0 ? std::optional(surface.radius) : std::nullopt;
     }
-    /// Returns true if forces are reported in nN and lengths in nm: of a sphere or with free edges.
+    /// Returns true if forces are reported in nN and lengths in nm, which is so for spheres and for
+    /// free edges.
     bool in_newtons() const { return effects.free_edges || radius().has_value(); }
-    /// Returns the size of the box and of the block in words: "64 x 64 sites, box 166 Å, 64 layers
-    /// in 3 levels".
+    /// Returns the size of box and block as text: "64 x 64 sites, box 166 Å, 64 layers in 3
+    /// levels".
     std::string box_in_words() const;
-    /// Returns a number of sites over that of all sites.
+    /// Returns a number of sites divided by the number of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.
     int substrate() const { return surface.sites; }
     /// Returns the cut of the box: slabs of rows on quasi-static paths, tiles on dynamic ones.
-    /// Throws std::invalid_argument if it cannot be cut.
+    /// Throws std::invalid_argument if the box cannot be cut for the ranks of the case.
     ProcessGrid grid(int rank) const;
-    /// Throws io::SceneError with all problems that stop a run, if there are any.
+    /// Throws io::SceneError with all problems that prevent a run, if there are any.
     void require_runnable() const;
 };
 
-/// Derives a case and adds the mistakes of the scene to problems; keys with earlier problems get no
-/// others. The case is complete only if problems is empty.
+/// Derives a case and adds the mistakes of the scene to problems; a key that has a problem already
+/// gets no further one. The case is complete only if problems is empty.
 Case resolve(const Scene& scene, int ranks, io::Problems& problems);
-/// Derives a case. Throws io::SceneError with all mistakes.
+/// Derives a case for a number of ranks. Throws io::SceneError with all mistakes.
 Case resolve(const Scene& scene, int ranks = 1);
 
-/// Reads and resolves a scene. Throws io::SceneError with all mistakes.
+/// Reads a scene with overrides ("section.key=value") and derives its case. Throws io::SceneError
+/// with all mistakes.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {},
                int ranks = 1);
-/// Reads and resolves a scene from a text in memory. file: name shown in messages. Throws
+/// Reads a scene from a text in memory and derives its case. file: name shown in messages. Throws
 /// io::SceneError.
 Case read_case_text(const std::string& text, const std::string& file,
                     const std::vector<std::string>& overrides = {}, int ranks = 1);
 
-/// Makes the substrate; the root of `world` reads the map. Collective. Throws io::SceneError
-/// (options, contents of the file) or io::FileError.
+/// Makes the substrate; the root of `world` reads the map. Collective. Throws io::SceneError for
+/// wrong options or contents of the file, io::FileError if the file cannot be read.
 Surface surface_of(const Case& c, const Communicator& world = Communicator());
 
-/// Checks all that a run would check without running: require_runnable(), and the contents of the
-/// file of a surface. Returns the notes of the case and of such a surface. Collective. Throws
-/// io::SceneError.
+/// Makes the checks of a run without running: require_runnable(), and the contents of the file of a
+/// surface. Returns the notes of the case and of the surface. Collective. Throws io::SceneError.
 std::vector<std::string> examine(const Case& c, const Communicator& world = Communicator());
 
-/// Returns the usable part of a stability limit of flat contacts, fs: pressed sites vibrate faster.
+/// Returns the largest recommended time step for a stability limit of flat contacts, fs; pressed
+/// sites vibrate faster.
 double usable_timestep(double limit);
-/// Returns notes on a surface that is too steep or too high for its box, one sentence each.
+/// Returns notes on a surface that is too steep or too high for its box, one sentence each. rms,
+/// edge: Å; slope: rms slope.
 std::vector<std::string> notes_on_roughness(double rms, double slope, double edge);
 
 } // namespace asperity

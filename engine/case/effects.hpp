@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The effects of a scene, decided once, by resolve(), from the scene alone (and, for
-// numerics.device = "auto", from the devices of the machine). Code asks `c.effects.sliding`;
-// `asperity plan` prints all with the keys that decide, and result.json lists them (run.effects).
-// An effect that is off makes no call (tests/engine/effects_test.cpp).
+// The effects of a scene. resolve() decides once which are on, from the scene alone (and, for
+// numerics.device = "auto", from the devices of the machine). Code tests `c.effects.sliding`;
+// `asperity plan` prints all effects with the keys that decide, and result.json lists them
+// (run.effects). No code of an effect that is off is called (tests/engine/effects_test.cpp).
 //
 // A new effect is a member here, a row of list() and its rule in effects_of().
 #pragma once
@@ -51,23 +51,23 @@ struct Effects {
         theory,         ///< Persson's theory for the same scene
         device;         ///< time steps on a device in place of the processor
 
-    /// Returns true if the block is a half-space of one modulus, as the theories take it.
+    /// Returns true if the block has no layers and no surface stress, as the theories assume.
     bool one_modulus() const { return !layers && !surface_stress; }
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
 };
-/// Returns Effects::dynamic, which the options of the block need before the other effects are
-/// known.
+/// Returns Effects::dynamic. The options of the block need this effect before the others are known.
 Effect dynamic_effect(const Case& c);
-/// Reason why no theory applies to a scene, with the key that decides and what to do.
+/// Reason why no theory applies to a scene, with the key that decides and the remedy.
 struct NoTheory {
     std::string key{}, why{};
-    std::string limit{}; ///< contacts that the theories are of: "of endless surfaces"
+    std::string limit{}; ///< contacts that the theories describe: "of endless surfaces"
     std::string fix{};
 };
-/// Returns the reason why no theory applies to a scene with these effects; empty if one does.
+/// Returns the reason why no theory applies to a scene with these effects; empty members if a
+/// theory applies.
 NoTheory no_theory(const Scene& scene, const Effects& effects);
-/// Returns the effects of a case whose scene, path, effects.dynamic and maps are known.
+/// Returns the effects of a case. Uses its scene, path, effects.dynamic and maps.
 Effects effects_of(const Case& c);
 
 } // namespace asperity

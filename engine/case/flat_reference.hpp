@@ -13,20 +13,21 @@ namespace asperity {
 struct FlatReference {
     double work_of_adhesion = 0.0;   ///< -U / A at its minimum, meV/Å^2
     double separation = 0.0;         ///< separation at the minimum, Å
-    double largest_tension = 0.0;    ///< GPa
+    double largest_tension = 0.0;    ///< largest tension, GPa
     double tension_separation = 0.0; ///< separation of the largest tension, Å
     double stiffness = 0.0;          ///< U'' / A at the minimum, eV/Å^4
 };
 
-/// Returns energy (eV) and normal force (eV/Å) of one block site at a uniform gap over a flat
-/// substrate of spacing b, averaged over the registries of the two lattices (one for equal
-/// spacings: hollow sites); or over a wall.
+/// Returns energy (eV) and normal force (eV/Å) of one block site at a uniform gap (Å) over a flat
+/// wall or a flat substrate of atoms, averaged over the registries of the two lattices (for equal
+/// spacings the hollow site alone). sites, substrate_sites: atoms across the box of block and
+/// substrate; spacing: that of the block, Å.
 PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites,
                       int substrate_sites, double gap);
 
-/// Returns the reference for this potential, cutoff and lattices, or for this wall (all but the
-/// stiffness are zero for a wall without attraction). Throws std::invalid_argument if the two
-/// solids do not bind.
+/// Computes the reference for an interface and lattices; arguments as for flat_pair_sum(). For a
+/// wall without attraction all members except the stiffness are zero. Throws std::invalid_argument
+/// if solids with atoms do not bind.
 FlatReference flat_reference(const InterfaceOptions& options, double spacing, int sites,
                              int substrate_sites);
 

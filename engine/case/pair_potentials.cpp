@@ -148,7 +148,7 @@ struct Entry {
         std::istringstream in(text);
         for (std::string word; in >> word;)
             if (words.size() == 2 && words[1] == Tabulated::name)
-                words.push_back(word); // a file, whatever its name begins with
+                words.push_back(word); // any file name
             else if (std::string_view("+-.0123456789").find(word.front()) !=
                          std::string_view::npos &&
                      !words.empty())

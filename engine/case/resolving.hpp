@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Parts of resolve(): each uses the contents of the case so far.
+// Parts of resolve(). Each uses the members of the case that are already filled in.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -10,21 +10,21 @@
 namespace asperity {
 
 /// Fills in the types and the potentials of simulation.interface from interface.potential and
-/// interface.pairs.
+/// interface.pairs. Adds mistakes to problems.
 void find_potentials(Case& c, io::Problems& problems);
-/// Compares the errors of tables of potentials with the work of adhesion: fills in table_error,
+/// Compares the errors of tabulated potentials with the work of adhesion. Fills in table_error and
 /// adds notes. Returns false, with problems, if a table is too coarse or too noisy.
 bool check_tables(Case& c, io::Problems& problems);
-/// Fills in the scales except the stiffness, and the tolerance. smallest_tension: the largest
-/// tension of the least attractive type of atoms, GPa (0: nothing attracts).
+/// Fills in the scales except the stiffness, and the tolerance. smallest_tension: largest tension
+/// of the least attractive type of atoms, GPa; 0 without attraction.
 void find_scales(Case& c, double smallest_tension);
 /// Adds contradictions between keys to problems.
 void check_keys(const Case& c, io::Problems& problems);
-/// Returns the problems that keep the scene from a device.
+/// Returns the reasons why the scene cannot run on a device.
 std::vector<io::Problem> device_problems(const Case& c);
-/// Adds the keys that this release reads but cannot act upon yet, which stop a run.
+/// Adds to refused the keys that this release reads but does not support.
 void refuse_unsupported(const Case& c, io::Problems& refused);
-/// Refuses values out of proportion with the box, the block or the step.
+/// Adds to refused the values that are out of proportion with the box, the block or the step.
 void refuse_out_of_proportion(const Case& c, io::Problems& refused);
 /// Returns notes on the keys (a block thinner than wide, keys without effect), one sentence each.
 std::vector<std::string> notes_on_keys(const Case& c);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A field of sites from a file: a map with a value for each site, as the heights of the substrate
-// are. Every such field is read here, whatever it stands for.
+// A field of sites from a file: a map with a value for each site, for example the heights of the
+// substrate. All fields of sites are read here.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -12,18 +12,18 @@
 
 namespace asperity {
 
-/// File of a field, and how it is read.
+/// File of a field, and options for reading it.
 struct FieldFile {
     std::string name;     ///< file as the scene names it
-    std::string file;     ///< file as found
+    std::string file;     ///< path of the file
     io::MapOptions how{}; ///< unit, size, treatment of holes and of maps that are not square
 };
 
 /// Returns the file of the heights of a case whose surface is a map.
 FieldFile heights_of(const Case& c);
 
-/// Returns the map of a field on every rank. The root alone reads the file. Collective. Throws
-/// io::SceneError.
+/// Reads the map of a field and returns it on every rank; only the root reads the file. Collective.
+/// Throws io::SceneError.
 io::HeightMap read_field(const FieldFile& field, const Communicator& ranks);
 
 } // namespace asperity

@@ -38,9 +38,9 @@ std::optional<ContactEdge> edge_of(const Case& c) {
         if (shape->length() > 0.0) range = shape->length();
     }
     edge.strip = modulus * range * range / (adhesion * steep * steep);
-    // A row lets go at its largest tension, adhesion / range, whatever the work of adhesion: where
-    // the strip is short the force goes as spacing / strip. Between that and 1 as measured on
-    // smooth spheres (docs/explanation/model.md).
+    // A row lets go at its largest tension, adhesion / range, for any work of adhesion: where the
+    // strip is short the force goes as spacing / strip. Between that and 1 as measured on smooth
+    // spheres (docs/explanation/model.md).
     edge.pinning = std::pow(1.0 + std::pow(0.68 * spacing / edge.strip, 2.5), 0.4);
     edge.remedy =
         fmt::format("interface.range = {:.3g} Å or more, or surface.spacing = {:.3g} Å or less,",

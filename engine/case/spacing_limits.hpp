@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Limits of the spacing of the sites, and their importance: the edge of a contact over a wall of
-// short range, and waves of a few spacings.
+// Errors from the spacing of the sites: at the edge of a contact over a wall of short range, and
+// for waves a few spacings long.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -12,17 +12,17 @@
 
 namespace asperity {
 
-/// Returns Case::edge_pinning of a case whose options of the block are known.
+/// Computes Case::edge_pinning from the options of block and interface.
 double edge_pinning(const Case& c);
-/// Returns a sentence with that factor; nothing if the spacing resolves the edge.
+/// Returns a note with Case::edge_pinning; nothing if the spacing resolves the edge of the contact.
 std::optional<std::string> note_on_contact_edge(const Case& c);
-/// Refuses the pull-off of a sphere with a factor above 1.3, unless interface.edge_pinning allows
-/// it.
+/// Refuses the pull-off of a sphere if Case::edge_pinning exceeds 1.3, unless
+/// interface.edge_pinning = "allow".
 void refuse_pinned_edge(const Case& c, io::Problems& refused);
 
-/// Returns the energy to flatten the block against all waves of the surface, over the same energy
-/// with q E*/2 for a wave q: below 1 if the waves are a few spacings long. Lateral displacements
-/// are free.
+/// Returns the elastic energy of full contact with the lattice's stiffness, divided by that with
+/// the stiffness q E*/2 of a continuum; below 1 if the waves are a few spacings long. Lateral
+/// displacements are free.
 double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surface);
 
 } // namespace asperity

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Shapes of the law of a wall, which a ShapedWall reads (kernels/shaped_wall.hpp). The force of a
+// Shapes of the law of a wall; the tables of a ShapedWall (kernels/shaped_wall.hpp). The force of a
 // shape is tabulated, with straight lines between the rows; its energy is the exact integral, with
 // a depth of one.
 //
@@ -22,23 +22,25 @@
 
 namespace asperity {
 
+/// A tabulated shape of the law of a wall.
 class WallShape {
 public:
-    static WallShape dugdale();
-    static WallShape power(double exponent);
-    static WallShape nine_three();
-    static WallShape eight_two();
-    /// Makes a shape of energies at gaps, Å, ascending, which end in the energy of solids apart;
-    /// its length() is the depth over the largest tension. Throws std::invalid_argument if they
-    /// have no well, or do not repel above the energy of solids apart.
+    static WallShape dugdale();              ///< makes the shape "dugdale"
+    static WallShape power(double exponent); ///< makes the shape "power" with exponent n
+    static WallShape nine_three();           ///< makes the shape "9-3"
+    static WallShape eight_two();            ///< makes the shape "8-2"
+    /// Makes a shape from energies at ascending gaps, Å, of which the last is the energy of
+    /// separated solids. length() is the depth divided by the largest tension. Throws
+    /// std::invalid_argument if the energies have no well, or do not rise above that of separated
+    /// solids at small gaps.
     WallShape(std::span<const double> gap, std::span<const double> energy);
 
-    ShapedWall::Shape shape() const;
-    /// Returns the range of a law of this shape, Å; 0: any.
+    ShapedWall::Shape shape() const; ///< returns a view of the tables
+    /// Returns the range of the law of this shape, Å; 0 if the law may have any range.
     double length() const { return length_; }
 
 private:
-    /// Makes a shape from x = first to last. force: its force, times any factor.
+    /// Makes a shape from x = first to last. force: force as a function of x, in any unit.
     WallShape(double first, double last, bool repels, const std::function<double(double)>& force);
 
     std::vector<double> force_, convex_;

@@ -22,8 +22,7 @@ namespace asperity {
 
 class Communicator;
 
-/// Arguments of a call, as they were written. Options that a command does not take have their
-/// defaults.
+/// Arguments of a call, as text. Options that a command does not take keep their defaults.
 struct Arguments {
     std::vector<std::string> words; ///< the scene, and overrides that follow a --set
     std::vector<std::string> overrides;
@@ -32,7 +31,7 @@ struct Arguments {
     bool restart = false;
     std::string wall_limit;
     std::string progress; ///< mode; empty: "auto", or "off" with --quiet or --json
-    int ranks = 0;        ///< number of ranks to plan for; 0: as many as there are
+    int ranks = 0;        ///< number of ranks to plan for; 0: the ranks of this call
     std::string points;   ///< file with overrides, one line each
     bool markdown = false;
     bool plain = false;
@@ -43,60 +42,62 @@ struct Arguments {
     bool quiet = false;
 };
 
-/// Returns the case of the scene named by the words, with its overrides, for so many ranks. Throws
-/// io::SceneError.
+/// Reads the case of the scene that the words name, with its overrides, for a number of ranks.
+/// Throws io::SceneError.
 Case case_of(const Arguments& given, int ranks);
-/// Returns the same case for its surface alone: mistakes in keys of other sections are left out.
+/// Reads the case like case_of(), but ignores mistakes in keys that the surface does not need.
 /// Throws io::SceneError.
 Case surface_case_of(const Arguments& given, int ranks);
-/// Returns the scene's file and adds the overrides among the words to the list, so that `--set a=1
-/// b=2 scene.toml` means what it looks like. Throws io::SceneError.
+/// Returns the scene's file among the words and appends the other words to overrides, so that
+/// `--set a=1 b=2 scene.toml` sets both keys. Throws io::SceneError.
 std::string scene_file(const Arguments& given, std::vector<std::string>& overrides);
 /// Returns the options of a run. Throws io::SceneError.
 RunOptions run_options(const Arguments& given);
 
 /// An option of a command, and the argument that it sets.
 struct Option {
-    std::string name;  ///< "--out"; without dashes: a word
-    std::string value; ///< value of the option in --help; empty: a flag
+    std::string name;  ///< "--out"; without dashes: a positional argument
+    std::string value; ///< name of the value in --help; empty: a flag
     std::string explanation;
     std::variant<bool Arguments::*, int Arguments::*, std::string Arguments::*,
                  std::vector<std::string> Arguments::*>
         into;
     std::string short_name = {}; ///< "-o"; empty: none
-    bool needed = false;         ///< the command cannot be carried out without it
+    bool needed = false;         ///< the argument is required
 };
 
 /// A command of the program, or of the Python package.
 struct Command {
     std::string name;
     std::string purpose; ///< one line
-    /// Options; empty for a command of the Python package, which has its own
+    /// Options; empty for a command of the Python package, which defines its own.
     std::vector<Option> options;
-    /// Carries out the command and returns the exit code; empty: the Python package does.
+    /// Carries out the command and returns the exit code; empty for a command of the Python
+    /// package.
     std::function<int(const Arguments&, const Communicator&)> act = {};
-    bool looks_at_signals = false; ///< ends by itself after a signal (stop_signals.hpp)
+    bool looks_at_signals = false; ///< the command checks for signals itself (stop_signals.hpp)
 };
 
-/// Options of several commands, or with a value that is checked.
+/// Options that several commands take.
 namespace takes {
 extern const Option scene, set, json, progress, quiet;
+/// Returns the option --out. otherwise: explanation of the default.
 Option out(const std::string& otherwise);
 } // namespace takes
 
 /// Replaces this process by `python3 -m asperity` if argv names a command of the Python package
-/// (python/asperity), which calls this program back through $ASPERITY_PROGRAM. Returns nothing if
-/// argv names another command; the exit code, after printing the reason, if Python or the package
-/// was not found. Must be called before MPI is initialised.
+/// (python/asperity), which finds this program through $ASPERITY_PROGRAM. Returns nothing if argv
+/// names another command. If Python or the package was not found, prints the reason and returns the
+/// exit code. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
-/// Returns true if a program asks for this call: with --json, --progress json, `theory-points` or
-/// `hold`. Errors are then printed as JSON.
+/// Returns true for calls by programs, with --json, --progress json, `theory-points` or `hold`,
+/// whose errors are printed as JSON.
 bool is_for_programs(int argc, char** argv);
-/// Returns true if the call prints results for a program (--json) or results alone (--quiet).
+/// Returns true if the call prints nothing but results (--quiet or --json).
 inline bool only_results(const Arguments& given) { return given.quiet || given.json; }
-/// Reads the command line and carries out the command; answers --help and --version. Returns the
-/// exit code. Throws io::SceneError if the call cannot be understood.
+/// Reads the command line, carries out the command, or prints help or version. Returns the exit
+/// code. Throws io::SceneError for a wrong command line.
 int carry_out(const std::vector<Command>& commands, int argc, char** argv,
               const Communicator& world);
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The commands other than `run`. Each returns the exit code and throws io::SceneError with all
-// mistakes in the scene; rank 0 alone prints.
+// The commands except `run`. Each returns the exit code and throws io::SceneError with all mistakes
+// in the scene. Only rank 0 prints.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -18,23 +18,23 @@ struct Arguments;
 /// Writes a commented scene to start from (`asperity init`). Throws io::SceneError if the file
 /// exists.
 int init_command(const Arguments& given, const Communicator& world);
-/// Checks a scene (`asperity check`). --quiet: prints nothing if nothing is wrong; --json: prints
-/// the scene as it would be used, its [sweep], notes and limits, as one line.
+/// Checks a scene (`asperity check`). --quiet: prints nothing without mistakes; --json: prints the
+/// resolved scene, its [sweep], notes and limits as one line.
 int check_command(const Case& c, const Arguments& given, const Communicator& world);
 /// Plans a run on the ranks of the case (`asperity plan`). --json: prints plan_json() and the notes
 /// as one line.
 int plan_command(const Case& c, const Arguments& given, const Communicator& world);
 /// Writes heights.h5 and result.json (`asperity surface`) to --out (empty:
-/// results/<scene>-surface). --json: prints rms height (Å), rms slope of neighbours, notes, and
-/// those on the file of a map (doubts), as one line instead.
+/// results/<scene>-surface). --json: instead prints rms height (Å), rms slope from neighbours,
+/// notes, and possible mistakes in the file of a map (doubts), as one line.
 int surface_command(const Case& c, const Arguments& given, const Communicator& world);
-/// Prints the keys (`asperity defaults`) as TOML, with or without explanations, or as the page
-/// docs/reference/scene.md.
+/// Prints the keys as TOML (`asperity defaults`). markdown: as the page docs/reference/scene.md;
+/// plain: without explanations; results: the page docs/reference/result.md instead.
 int defaults_command(bool markdown, bool plain, bool results, const Communicator& world);
-/// Prints kind, unit, default, choices and meaning of every key (`asperity defaults --json`);
-/// results: unit and meaning of every value of result.json instead.
+/// Prints kind, unit, default, choices and meaning of every key as JSON (`asperity defaults
+/// --json`). results: prints unit and meaning of every value of result.json instead.
 int schema_command(bool results, const Communicator& world);
-/// Prints version, compiler and machine (`asperity info`). json: as one line.
+/// Prints version, compiler and machine (`asperity info`). json: prints one line of JSON.
 int info_command(bool json, const Communicator& world);
 
 /// Input of `asperity theory-points SCENE`, on one rank: many variations of one scene in one call,
@@ -51,14 +51,14 @@ struct TheoryPoints {
     std::string points;    ///< file of the points; "-": standard input; empty: the scene alone
     bool runnable = false; ///< report also the problems that would stop a run (examine())
     /// Output also theory.persson.critical_rms, and "profile": [{"name", "unit", "meaning",
-    /// "values"}], everything at every magnification.
+    /// "values"}], the theory at all magnifications.
     bool profile = false;
 };
 /// Prints the theories of the points (`asperity theory-points`). Throws io::FileError if the input
 /// cannot be read.
 int theory_points_command(const TheoryPoints& what);
-/// Takes the lock of a result directory and sends it through the Unix socket that is the standard
-/// input (`asperity hold`). Throws io::SceneError if the standard input is no socket, and
+/// Locks a result directory and sends the lock's file descriptor through the Unix socket at
+/// standard input (`asperity hold`). Throws io::SceneError if the standard input is no socket, and
 /// io::FileError if the directory is in use.
 int hold_command(const std::string& directory);
 

@@ -27,7 +27,7 @@ std::size_t columns(std::string_view text) {
     }));
 }
 
-/// Returns a text in lines of so many columns, broken at blanks.
+/// Returns a text in lines of this number of columns, broken at blanks.
 std::vector<std::string> wrapped(std::string_view text, std::size_t most) {
     std::vector<std::string> lines(1);
     while (!text.empty()) {

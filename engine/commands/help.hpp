@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The help of the program and of its commands, in one form and 80 columns: usage, what the command
-// does, arguments, options, exit codes. Commands of the Python package print the same form
-// (python/asperity/commands/command_line.py). Man page and completion are made of it
-// (packaging/generate.py).
+// The help of the program and of its commands, in 80 columns: usage, purpose, arguments, options,
+// exit codes. Commands of the Python package print the same form
+// (python/asperity/commands/command_line.py). packaging/generate.py makes man page and completions
+// from the help.
 #pragma once
 
 #include "engine/commands/command_line.hpp"

@@ -4,8 +4,8 @@
 
 namespace asperity {
 
-/// Carries out a command line, as main() gets it, and returns the exit code. Installs the handlers
-/// of signals and starts MPI: once a process.
+/// Carries out the command line of main() and returns the exit code. Installs the signal handlers
+/// and starts MPI; may be called once per process.
 int program(int argc, char** argv);
 
 } // namespace asperity

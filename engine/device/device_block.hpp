@@ -2,12 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // A block and its interface in the memory of a device: fields and tables, and the time step
-// (kernels/device/device.hpp). The host's block keeps the same shape; upload() and download() are
-// the only ways between the two. The bits are those of the host's step.
+// (kernels/device/device.hpp). The host's block keeps the same shape; only upload() and download()
+// copy between the two. Results are bitwise identical to those of the host's step.
 //
-// Each rank has a device of its own. Halos, and the forces that go to a level which every rank
-// holds, are packed on the device, copied to the host, sent by MPI, copied back and unpacked on the
-// device.
+// Each rank has its own device. Halos, and the forces on a level that every rank holds whole, are
+// packed on the device, copied to the host, sent by MPI, copied back and unpacked on the device.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -35,19 +34,21 @@ struct DeviceSums {
     ExactSum top_force, lowest_z, elastic;
 };
 
-/// Places of the arrays in device memory. They follow from the options alone, so the layout also
-/// tells the memory of a run before anything is allocated.
+/// Offsets of the arrays in device memory. The layout follows from the options alone and therefore
+/// also gives the memory of a run before anything is allocated.
 struct DeviceLayout {
     /// A part of the device memory, bytes.
     struct Region {
         std::size_t begin = 0, bytes = 0;
     };
     using Vector = std::array<Region, 3>; ///< regions of the components of a field
+    /// Regions of the fields of a level; u has two buffers.
     struct Level {
         std::array<Vector, 2> u;
         Vector v, transferred, upper_force;
     };
 
+    /// Computes the layout for this rank.
     DeviceLayout(const BlockOptions& block, const ProcessGrid& grid,
                  const InterfaceOptions& interface);
 
@@ -61,9 +62,9 @@ struct DeviceLayout {
 /// A block and its interface in the memory of a device.
 class DeviceBlock {
 public:
-    /// Allocates device memory and copies the tables. Throws io::FileError if the device or its
-    /// memory fails, std::invalid_argument for features that a device lacks: finite strain, a
-    /// substrate that is not the block's lattice.
+    /// Allocates device memory and copies the tables. Throws io::FileError if the device fails or
+    /// lacks memory, std::invalid_argument for finite strain and for a substrate without the
+    /// block's lattice, which a device does not support.
     DeviceBlock(const DeviceChoice& choice, const Block& block, const Interface& interface);
 
     /// Copies displacements and velocities, halos included, to the device.
@@ -71,8 +72,9 @@ public:
     /// Copies displacements and velocities, halos included, back to the block.
     void download(Block& block) const;
 
-    /// Makes one time step, halos included. block: gives constants, ranks and top plane; noise:
-    /// only in a scene with a temperature. Returns this rank's share of the sums. Collective.
+    /// Makes one time step, halos included, and returns this rank's share of the sums. block:
+    /// source of constants, ranks and top plane; reference_height: Å; noise: thermal noise, empty
+    /// without a temperature. Collective.
     DeviceSums step(const Block& block, double reference_height, const StepParameters& step,
                     const std::optional<ThermalNoise>& noise);
 
@@ -107,7 +109,7 @@ private:
     DeviceStep step_;
     PairPotential potential_;     ///< potential; a table's numbers are in device memory
     std::array<Strip, 2> strips_; ///< strips along x and along y
-    /// Level whose transferred forces are summed over the ranks; negative: none
+    /// Level whose transferred forces are summed over the ranks; negative: none.
     int shared_level_ = -1;
     VectorField<double> shared_;                ///< transferred forces of that level on the host
     std::optional<StepParameters> kicked_with_; ///< parameters of the kicks in device memory

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Begin and end of a dynamic path: the largest height at which the attraction matters.
+// Start of a dynamic path: the largest height at which the attraction matters.
 //
-// A rigid block that moves from beyond the interaction range down to the height h does the work
-// -U(h), exactly; so this part of the path need not be simulated. It neglects the deformation of
-// the block by the force F at h, an energy F²/2k. The block is no softer than if F acted on one
-// round patch of as many sites as share it, n = (sum f)² / sum f²: 1/k = 1/(2 E* r) + thickness/(M
-// A). The path starts at the height at which that energy is a small fraction of the deepest energy
-// of the rigid block, which is no more than the largest binding energy of the elastic one. The
-// neglected deformation becomes a wave in the block instead, whose amplitude is proportional to the
-// root of the fraction.
+// Moving a rigid block from beyond the interaction range down to the height h takes exactly the
+// work U(h), so that this part of the path need not be simulated. The error is the deformation of
+// the block by the force F at h, with an energy F²/2k. The block is at least as stiff as if F acted
+// on one round patch of n = (sum f)² / sum f² sites of radius r: 1/k = 1/(2 E* r) + thickness/(M
+// A). The path starts at the height at which F²/2k is a small fraction of the deepest energy of the
+// rigid block, which does not exceed the largest binding energy of the elastic block. The neglected
+// deformation becomes a wave in the block instead, whose amplitude is proportional to the root of
+// the fraction.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -32,12 +32,11 @@ struct ApproachStart {
     }
 };
 
-/// Largest energy of deformation at the start, over the deepest energy of the rigid block.
+/// Largest energy of deformation at the start, divided by the deepest energy of the rigid block.
 inline constexpr double share_at_start = 1e-6;
 
-/// Returns the start of a dynamic path; Interface::start_height(), where nothing attracts, if
-/// nothing does further down. The block must be undisplaced; its forces are overwritten.
-/// Collective.
+/// Finds the start of a dynamic path; Interface::start_height() if the solids do not attract each
+/// other. The block must be undisplaced; its forces are overwritten. Collective.
 ApproachStart approach_start(Block& block, const Interface& interface);
 
 } // namespace asperity

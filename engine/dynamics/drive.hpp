@@ -6,13 +6,13 @@
 //
 // An approach moves down at constant velocity until the total normal force on the lowest layer has
 // been attractive and has returned to the prescribed load (zero); a pull-off moves up until the
-// force vanishes; a load moves up or down until the force is there; a height, a hold and a slide
+// force vanishes; a load moves up or down until the force is the load; a height, a hold and a slide
 // end at rest. Velocities change along smooth ramps: a sudden change by dv would send a plane
 // stress wave rho c dv (0.6 GPa for 2 x 5 m/s) through the block, which acts on the interface as a
 // load.
 //
-// A slide moves the substrate under the block by the negative of its distance: this changes nothing
-// else in the frame of the block and of the damping medium that moves with it.
+// A slide moves the substrate under the block by the negative of its distance. The block and the
+// damping medium, which moves with the block, are unaffected in their own frame.
 #pragma once
 
 #include "engine/dynamics/top.hpp"
@@ -28,24 +28,25 @@
 
 namespace asperity {
 
-/// Returns true if a pull-off has come to its end: the top plane is back where the approach started
-/// or beyond (top, Å), and the force is no larger than at_start, or small beside the strongest
-/// attraction so far (eV/Å). The force alone is not enough: it passes through zero on the way out
-/// of compression.
+/// Returns true if a pull-off is complete: the displacement `top` of the top plane (Å) is not below
+/// its start (zero), and the force is at most at_start or small compared with the strongest
+/// attraction so far (eV/Å). The force alone is not sufficient, because it passes through zero when
+/// compression ends.
 bool beyond_range(double top, double force, double strongest, double at_start = 0.0);
 
-/// Velocity over time: from one value to another along half a cosine, and, from the time `cruise`,
-/// to rest along another.
+/// Velocity as a function of time: a ramp along half a cosine from one velocity to another and,
+/// from the time `cruise`, a ramp to rest.
 struct VelocityProfile {
     double from = 0.0, to = 0.0;    ///< Å/fs
     double cruise = units::forever; ///< time at which the second ramp begins, fs
 
-    /// Returns the velocity at time t after the beginning of the profile, Å/fs.
+    /// Returns the velocity at time t after the beginning of the profile, Å/fs. ramp: duration of a
+    /// ramp, fs.
     double at(double t, double ramp) const;
-    /// Returns the time of rest, fs.
+    /// Returns the time at which the second ramp ends, fs.
     double end(double ramp) const;
-    /// Returns the profile from a velocity (Å/fs) to rest at a distance (Å), at most at `velocity`
-    /// (above 0).
+    /// Returns the profile that starts with the velocity `from` and comes to rest at a distance
+    /// (Å), with a speed of at most `velocity` (Å/fs, above 0).
     static VelocityProfile over(double distance, double from, double velocity, double ramp);
 
     template <class Visitor>
@@ -56,13 +57,15 @@ struct VelocityProfile {
     }
 };
 
-/// A force averaged over thermal noise: exponentially, twice, so that a steady change of the force
-/// does not lag behind.
+/// A force averaged over thermal noise by double exponential smoothing, so that the average of a
+/// steadily changing force does not lag behind.
 struct AveragedForce {
-    double once = 0.0, twice = 0.0, square = 0.0; ///< eV/Å, eV/Å, (eV/Å)^2
-    double last = 0.0;                            ///< time of the last step, fs
+    /// Single and double exponential means, eV/Å, and mean square of the deviation, (eV/Å)^2.
+    double once = 0.0, twice = 0.0, square = 0.0;
+    double last = 0.0; ///< time of the last step, fs
 
-    /// Takes the force of a step into the average.
+    /// Adds the force of a step to the average. time, over: time of the step and averaging time,
+    /// fs.
     void look(double force, double time, double over);
     /// Returns the mean force, eV/Å.
     double mean() const { return 2.0 * once - twice; }
@@ -81,33 +84,37 @@ struct AveragedForce {
 /// The machine, which is rigid: it moves the top plane along the segments of a path.
 class Drive {
 public:
+    /// Copies the options; begin_at() must follow.
     explicit Drive(const DriveOptions& options);
-    /// Begins with the lowest layer at this height, Å, with no displacement of the top plane.
+    /// Begins the first segment with an undisplaced top plane. height: height of the lowest layer,
+    /// Å.
     void begin_at(double height);
 
-    /// Returns the number of the current segment, from 0; the last one when the path is done.
+    /// Returns the index of the current segment; that of the last segment once the path is done.
     std::size_t segment() const;
+    /// Returns the current segment.
     const Segment& now() const { return options_.path[segment()]; }
+    /// Returns true once all segments have ended.
     bool done() const { return at_ == options_.path.size(); }
-    /// Returns the motion of the top plane at time t, fs.
+    /// Returns the velocity of the machine at time t, fs.
     TopMotion motion(double t) const;
 
     /// State after a step: time (fs), force on the lowest layer (eV/Å, positive upwards),
-    /// displacement of the machine (Å), the result of beyond_range(), and the height of the
+    /// displacement `at` of the machine (Å), the result of beyond_range(), and the height of the
     /// lowest layer at zero displacement (Å).
     struct Observation {
         double time = 0.0, force = 0.0, at = 0.0;
         bool beyond_range = false;
         double reference_height = 0.0;
     };
-    /// Returns the average by which segments of a warm block end; empty: the force of each step
-    /// counts.
+    /// Returns the averaged force that ends the segments of a warm block; empty if the force of
+    /// each step is used.
     std::optional<AveragedForce> averaged() const {
         return options_.average_over > 0.0 ? std::optional(average_) : std::nullopt;
     }
-    /// Ends the current segment if this step fulfils its rule, and begins the next one. Returns
-    /// true if it did. Throws io::PhysicsError if a segment demands a stronger pull than the
-    /// attraction.
+    /// Ends the current segment if the step fulfils the rule of its end, and begins the next one.
+    /// Returns true if the segment has ended. Throws io::PhysicsError if a segment demands more
+    /// tension than the pull-off force.
     bool observe(const Observation& step);
 
     /// Passes the state of the machine to a visitor, for checkpoints.

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The simulation: a block under its top plane, an interface, and the time step. The caller says how
-// the machine moves over each step: the top plane itself, or the far end of its spring.
+// The simulation: a block under its top plane, an interface, and the time step. The caller
+// prescribes the velocity of the machine in each step: of the top plane, or of the far end of its
+// spring.
 //
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
-// With a device the fields are in its memory; block() and block_to_write() are the only access.
-// They copy the fields to the host if those of the device are newer; after block_to_write() the
-// fields are copied to the device before the next step. A reference that is kept over a step is out
-// of date.
+// With a device, its memory holds the fields; block() and block_to_write() are the only access.
+// Both copy the fields to the host if those of the device are newer; after block_to_write() the
+// fields are copied to the device before the next step. A reference to the block is out of date
+// after a step.
 #pragma once
 
 #include "engine/block/block.hpp"
@@ -36,56 +37,65 @@ class DeviceBlock;
 /// A block, its top plane and an interface, advanced step by step.
 class Simulation {
 public:
+    /// Makes block, interface and device; start() must follow. Collective. Throws io::FileError if
+    /// a device fails.
     Simulation(const SimulationOptions& options, const Surface& substrate,
                const Communicator& communicator, const ProcessGrid& grid);
     Simulation(Simulation&&) noexcept;
     ~Simulation();
 
-    /// Begins anew with the undeformed block, its lowest layer at this height (Å), moving along z
-    /// at this velocity (Å/fs).
+    /// Starts from the undeformed block, with its lowest layer at this height (Å) and all nodes
+    /// moving along z at this velocity (Å/fs).
     void start(double height, double velocity);
-    /// Makes one time step, during which the machine moves at these velocities, and returns the
-    /// record of the step. observe: true to sum energies and contacts too. Collective.
+    /// Makes one time step and returns its record. motion: velocity of the machine during the step;
+    /// observe: compute energies and contact counts too. Collective.
     const StepRecord& step(const TopMotion& motion, bool observe);
 
+    /// Returns the record of the last step.
     const StepRecord& now() const { return record_; }
-    /// Replaces v, the mean of the lowest layer's velocities half a step before and after now(), by
-    /// its velocities at now(), Å/fs. At a temperature these are the velocities before friction and
-    /// noise have acted (thermostat.hpp).
+    /// Replaces v, which holds the mean of the lowest layer's velocities half a step before and
+    /// after now(), by the velocities at now(), Å/fs. At a temperature these are the velocities
+    /// before friction and noise have acted (thermostat.hpp).
     void set_velocities_at_step(const VectorPlane<double>& v) const;
+    /// Returns works and dissipation since the start.
     const EnergyBalance& balance() const { return ledger_.balance(); }
     const SimulationOptions& options() const { return options_; }
     /// Returns the top plane at the next step.
     const Top& top() const { return top_; }
     /// Sets the displacement of the top plane and the machine at the next step, Å.
     void set_top(double z);
-    /// Returns the mass of the block and of a top plane on a spring, eV fs^2/Å^2. Not collective.
+    /// Returns the mass of the block, plus that of a top plane on a spring, eV fs^2/Å^2. Not
+    /// collective.
     double moving_mass() const { return block_.mass() + top_spring_.mass; }
-    long long steps() const { return step_; }
+    long long steps() const { return step_; } ///< returns the number of steps so far
+    /// Returns the time after these steps, fs.
     double time() const { return static_cast<double>(step_) * options_.dt; }
-    /// Returns the time in the middle of the next step, fs, to which the top's velocity belongs.
+    /// Returns the time in the middle of the next step, fs, at which the machine's velocity is
+    /// taken.
     double middle_of_step() const { return (static_cast<double>(step_) + 0.5) * options_.dt; }
+    /// Returns the block; with a device its fields are copied to the host.
     const Block& block() const {
         if (device_is_newer_) download();
         return block_;
     }
-    /// Returns the block for writing; with a device it is copied back before the next step.
+    /// Returns the block for writing; with a device its fields are copied back before the next
+    /// step.
     Block& block_to_write() {
         if (device_is_newer_) download();
         host_is_newer_ = true;
         return block_;
     }
-    /// Returns the fields of the lowest level as the host has them, to be viewed. What is written
-    /// to them counts after block_to_write().
+    /// Returns the fields of the lowest level on the host, for views. Values written to the fields
+    /// take effect only after block_to_write().
     Block::Fields fields_to_view() {
         if (device_is_newer_) download();
         return block_.fields(std::as_const(block_).levels().front());
     }
-    /// Adds forces from outside to those of the substrate in each step. Keeps the pointer; null:
-    /// none. Their work is counted. Not available with a device.
+    /// Adds external forces to those of the substrate in each step, and counts their work. Keeps
+    /// the pointer; nullptr: none. Not available with a device.
     void push(ExternalForces* external) { external_ = external; }
-    /// Begins a new energy balance with the next observed step, because writing to the fields from
-    /// outside is not work.
+    /// Begins a new energy balance with the next observed step. Called after fields were written,
+    /// which is not work.
     void restart_balance() { ledger_.restart(); }
     Interface& interface() { return interface_; }
     const Interface& interface() const { return interface_; }
@@ -97,7 +107,7 @@ public:
     void visit(Visitor& v);
 
 private:
-    /// Sums of a step, of this rank.
+    /// Shares of this rank in the sums of a step.
     struct Sums {
         InterfaceSums interface;
         KickSums kick;

@@ -3,8 +3,8 @@
 //
 // Work and dissipation of a simulation, integrated over its steps, and its energy balance.
 //
-// Works are trapezia between two steps. Energies that the medium takes or gives and that the noise
-// gives at a step count half before the energies of the step and half after.
+// Works are integrated by the trapezium rule between two steps. Half of the energies exchanged with
+// the medium and the noise at a step is counted before the energies of the step, half after.
 #pragma once
 
 #include "engine/step_record.hpp"
@@ -16,16 +16,19 @@ namespace asperity {
 
 /// Work and dissipation since the start, eV.
 struct EnergyBalance {
-    double top_work = 0.0;  ///< work of the machine on what it holds, sideways too
+    /// Work of the machine on the top plane or its spring, sideways included.
+    double top_work = 0.0;
     double lateral = 0.0;   ///< part of top_work that moves the block sideways
     double drag_work = 0.0; ///< work of the moving damping medium on the block
     double damped = 0.0;    ///< energy dissipated against the medium
     double heat = 0.0;      ///< heat given by the thermostat's noise
-    double external = 0.0;  ///< work of forces from outside
+    double external = 0.0;  ///< work of external forces
     double interface = 0.0; ///< int F dz of the mean height
+    /// Returns the work of the drive.
     double drive() const { return top_work + drag_work; }
+    /// Returns all work on the solids.
     double work() const { return drive() + external; }
-    /// Returns the net loss: at a temperature both damped and heat grow with time.
+    /// Returns the net loss, damped minus heat; at a temperature both grow with time.
     double net_damped() const { return damped - heat; }
 
     template <class Visitor>
@@ -44,16 +47,15 @@ struct EnergyBalance {
 struct StepTotals : PlaceAndForces, Energies {
     double drive_force = 0.0;                        ///< force on the machine along z, eV/Å
     double dissipated = 0.0, drag = 0.0, heat = 0.0; ///< eV
-    double external = 0.0; ///< work of forces from outside since the step before, eV
+    double external = 0.0; ///< work of external forces since the step before, eV
 };
 
 /// Ledger of the steps of a simulation.
 class StepLedger {
 public:
     const EnergyBalance& balance() const { return balance_; }
-    /// Adds a step to works and dissipation. record: the record of the step before, to which the
-    /// amounts of this one are written; with the energies and their balance if it is marked as
-    /// observed.
+    /// Adds a step to works and dissipation. record: record of the step before, overwritten with
+    /// the numbers of this step; energies and their balance are included if record.observed.
     void enter(const StepTotals& now, StepRecord& record);
     /// Begins a new energy balance with the next observed step.
     void restart() { energy_brought_.reset(); }
@@ -75,11 +77,11 @@ private:
     void balance_energies(const StepTotals& now, StepRecord& record);
 
     EnergyBalance balance_;
-    /// Energy at the first observed step, eV, which no work has brought.
+    /// Energy at the first observed step, eV, not brought by counted work.
     std::optional<double> energy_brought_;
     double scale_ = 0.0;        ///< largest energy seen, for the residual, eV
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
-    /// Terms of the step before, eV and eV/Å: integrated with those of the next step.
+    /// Terms of the step before, eV and eV/Å, to be integrated with those of the next step.
     struct Pending {
         double dissipated = 0.0, drag = 0.0, heat = 0.0, drive_force = 0.0;
     } pending_;

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The top plane of the block, which is rigid: where it is, and how it moves. The machine
-// (drive.hpp), or the caller of Simulation::step(), moves the plane itself, or the far end of a
-// spring that pulls a plane with a mass. The damping medium of the block moves with the machine.
+// Position and motion of the rigid top plane of the block. The machine (drive.hpp), or the caller
+// of Simulation::step(), moves the plane itself, or the far end of a spring that pulls a plane with
+// a mass. The damping medium of the block moves with the machine.
 #pragma once
 
 #include <array>
@@ -25,15 +25,16 @@ struct TopSpring {
     explicit operator bool() const { return stiffness > 0.0; }
 };
 
-/// Energies of a top plane on a spring in a step, eV, and its drag, eV fs/Å.
+/// Energies of a top plane on a spring in a step: kinetic and dissipated, eV, and momentum
+/// exchanged with the medium (dragged), eV fs/Å.
 struct TopEnergies {
     double kinetic = 0.0, dissipated = 0.0, dragged = 0.0;
 };
 
-/// The top plane. At a time step n velocities are those between n and n + 1.
+/// The top plane. At time step n its velocities are those between n and n + 1.
 struct Top {
-    double z = 0.0;                ///< displacement along z, Å
-    double drive = 0.0;            ///< displacement of the machine along z, Å; rigid: z
+    double z = 0.0;     ///< displacement along z, Å
+    double drive = 0.0; ///< displacement of the machine along z, Å; equal to z without a spring
     std::array<double, 2> place{}; ///< place of the block over the substrate, Å
     double velocity = 0.0;         ///< velocity along z, Å/fs
     TopMotion machine{};           ///< velocity of the machine
@@ -44,7 +45,7 @@ struct Top {
         advance(dt);
     }
     /// Moves the plane over a step of dt, fs, under the spring, the force of the block on the plane
-    /// (eV/Å) and the drag. Returns its energies at the middle of the two velocities.
+    /// (eV/Å) and the drag. Returns the plane's energies with the mean of its old and new velocity.
     TopEnergies move(double dt, const TopSpring& spring, double force) {
         const double before = velocity, damped = spring.damping * dt, g = 0.5 * damped;
         const double pull = spring.stiffness * (drive - z) + force;

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate's heights on a square lattice, whole on every rank: shared by the substrates of one
-// layer.
+// The substrate's heights on a square lattice, which every rank holds whole; used by all substrates
+// of one layer.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -16,8 +16,7 @@
 
 namespace asperity {
 
-/// Returns the number of blocks of sites along x, whose reach is bounded together, in a row of a
-/// tile.
+/// Returns the number of blocks of sites in a row of a tile; the reach is bounded per block.
 inline int blocks_in_row(const Tile& tile) {
     return (tile.nx + interface_block - 1) / interface_block;
 }
@@ -25,8 +24,8 @@ inline int blocks_in_row(const Tile& tile) {
 /// Heights of the substrate's atoms on a square lattice, periodic.
 class HeightMap {
 public:
-    /// Copies the heights of a substrate. sites: those of the block across the box; spacing: of
-    /// these, Å.
+    /// Copies the heights of a substrate. sites: number of the block's sites across the box;
+    /// spacing: spacing of the block's sites, Å.
     HeightMap(const Surface& substrate, int sites, double spacing);
 
     /// Returns the height of atom (i, j), which stands at (i b, j b), Å.
@@ -43,12 +42,13 @@ public:
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
     const std::vector<double>& heights() const { return height_; }
 
-    /// Moves all atoms by so many spacings.
+    /// Moves all atoms by (i, j) spacings b.
     void shift(int i, int j);
 
-    /// Returns the height at (x, y), bilinear between the four atoms around, Å.
+    /// Returns the height at (x, y), Å, interpolated bilinearly between the four nearest atoms.
     double between(double x, double y) const;
-    /// Calls visit(sideways distance, height) for every atom within `reach` sideways of (x, y).
+    /// Calls visit(lateral distance, height), both in Å, for every atom within the lateral distance
+    /// `reach` of (x, y), Å.
     template <class Visit>
     void around(double x, double y, double reach, Visit visit) const {
         const auto first = [&](double at) {
@@ -71,16 +71,16 @@ private:
     double spacing_, highest_, radius_;
 };
 
-/// Greatest and least heights of the substrate around each block of sites, ring by ring
-/// (ReachBounds).
+/// Largest and smallest heights of the substrate around each block of sites, for rings of lateral
+/// distance (ReachBounds).
 class ReachTable {
 public:
-    /// Makes the tables. widest: lateral distance of the outermost ring, Å; skip = false: bounds as
-    /// if atoms were everywhere.
+    /// Makes the tables. widest: lateral distance of the outermost ring, Å; margin: lateral
+    /// displacement of sites allowed for, Å; skip: false sets bounds with which no pair is skipped.
     ReachTable(const HeightMap& map, const Tile& tile, double spacing, double widest, double margin,
                bool skip);
 
-    ReachBounds view() const;
+    ReachBounds view() const; ///< returns a view of the tables for the sweep
     const std::vector<double>& highest() const { return highest_; }
     const std::vector<double>& lowest() const { return lowest_; }
     std::size_t bytes() const { return (highest_.size() + lowest_.size()) * sizeof(double); }
@@ -95,9 +95,10 @@ private:
     std::vector<double> highest_, lowest_;
 };
 
-/// Heights of a tile of atoms and a halo, over the highest atom, as the sweeps read them.
+/// Heights of a tile of atoms with a halo, relative to the highest atom, for the sweeps.
 class TileHeights {
 public:
+    /// Copies the heights. halo: width of the halo, atoms.
     TileHeights(const HeightMap& map, const Tile& atoms, int halo);
 
     SubstrateHeights view() const { return {field_.plane(0), datum_}; }

@@ -4,14 +4,14 @@
 // The interface: one tile of the block's lowest layer over the rigid substrate
 // (docs/explanation/model.md), which consists of atoms or is a wall.
 //
-// Built once per run, and anew for each spacing that the block slides. Every rank knows the whole
-// height map, so nothing is communicated here: the sweep is local to the tile, and its sums are
-// exact (ExactSum), to be merged over ranks in any order.
+// The interface is built once per run; its tables are rebuilt after each spacing that the block
+// slides. Every rank holds the whole height map, so that the sweep is local to the tile; its sums
+// are exact (ExactSum) and can be merged over ranks in any order.
 //
 // The kinds of substrate are small classes: OverLattice, OverRows, OverAtoms, OverWall. Each keeps
 // the data that its sweep reads around the tile, and passes rows of sites to its kernel.
-// substrate_of() selects one of them. Tables allow for sideways displacements up to two spacings;
-// sites beyond are summed by the reference loop, so no pair is ever missed.
+// substrate_of() selects one of them. Tables allow for lateral displacements up to two spacings;
+// sites displaced further are summed by the reference loop, so that no pair is missed.
 #pragma once
 
 #include "decomposition/communicator.hpp"
@@ -46,18 +46,18 @@ ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks
 struct InterfaceMaps {
     int nx = 0, ny = 0;
     std::vector<std::uint8_t> contact; ///< 1 if the nearest atom is within contact distance
-    /// Distance to the nearest atom, Å; infinite if no atom is within the cutoff; over a wall the
-    /// gap, 0 if it is negative, infinite over a hole.
+    /// Distance to the nearest atom, Å; infinite if no atom is within the cutoff. Over a wall the
+    /// gap, 0 if the gap is negative, infinite over a hole.
     std::vector<double> distance;
-    /// Height above the substrate below (a wall, or bilinear between its atoms), Å; NaN over a
-    /// hole.
+    /// Height above the substrate below the site (a wall, or interpolated bilinearly between
+    /// atoms), Å; NaN over a hole.
     std::vector<double> gap;
-    std::vector<double> pressure; ///< normal force on the site per a^2, GPa; positive pushes
+    std::vector<double> pressure; ///< normal force on the site per a^2, GPa; repulsion is positive
     /// Values of each map of the sites (InterfaceOptions::site_maps()), by its name.
     std::vector<std::pair<std::string, std::vector<double>>> of_sites;
 };
 
-/// Cuts a map of across x across sites to its first n x n sites.
+/// Cuts a map of across x across sites to its first n x n sites, in place.
 template <class T>
 void crop_map(std::vector<T>& map, int across, int n) {
     if (n == across) return;
@@ -70,58 +70,61 @@ void crop_map(std::vector<T>& map, int across, int n) {
 /// The interface of one tile of sites with the substrate.
 class Interface {
 public:
-    /// Makes the tables. spacing: a, the block's lattice constant, Å. The needed part of the
-    /// surface is copied.
+    /// Makes the tables; copies the needed part of the surface. spacing: a, the block's lattice
+    /// constant, Å.
     Interface(const Surface& substrate, const Tile& tile, double spacing,
               const InterfaceOptions& options);
 
-    /// Computes the forces of the substrate on the tile's sites (overwritten), eV/Å. Returns their
-    /// sums over the tile. how.mixed_precision: only if the options have mixed_on_request.
+    /// Overwrites `force` with the forces of the substrate on the tile's sites, eV/Å. Returns sums
+    /// over the tile. displacement: Å; how.mixed_precision requires options.mixed_on_request.
     InterfaceSums sweep(const VectorPlane<const double>& displacement,
                         const VectorPlane<double>& force, SweepOptions how = {}) const;
 
     /// Returns the height of the undisplaced lowest layer above the zero of the substrate's
-    /// heights, Å; at first start_height().
+    /// heights, Å; initially start_height().
     double reference_height() const { return reference_height_; }
+    /// Sets reference_height(), Å.
     void set_reference_height(double height) { reference_height_ = height; }
 
-    /// Moves the block to the place (x, y) over the substrate, Å; (0, 0) at first. Whole spacings
-    /// move a substrate of atoms and make its tables anew; the remainder is added to the
-    /// displacements of each sweep. A wall is moved by a Fourier shift. Only with options.slides.
+    /// Moves the block to the place (x, y) over the substrate, Å; initially (0, 0). A substrate of
+    /// atoms is moved by whole spacings, for which its tables are rebuilt; the remainder is added
+    /// to the displacements in each sweep. A wall is moved by a Fourier shift. Requires
+    /// options.slides.
     void slide_to(double x, double y);
+    /// Returns the place of the block over the substrate, Å.
     const std::array<double, 2>& place() const { return place_; }
 
-    /// Returns the wall, nullptr if the substrate consists of atoms.
+    /// Returns the wall; nullptr if the substrate consists of atoms.
     const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
 
-    /// Returns maps of the state, after a sweep of its own.
+    /// Returns maps of the sites at these displacements, Å.
     InterfaceMaps maps(const VectorPlane<const double>& displacement) const;
 
-    /// Returns the reference height from which undisplaced sites are beyond the interaction range,
-    /// Å: highest atom + reach_of().
+    /// Returns the lowest reference height at which undisplaced sites are beyond the interaction
+    /// range, Å: highest atom + reach_of().
     double start_height() const;
-    /// Returns the reference height down to which the attraction of undisplaced sites only grows,
-    /// Å; the start height if no better bound is known.
+    /// Returns a reference height down to which the attraction of an undisplaced block increases
+    /// monotonically, Å; start_height() if no better bound is known.
     double attraction_grows_down_to() const;
 
-    /// Tables that a device copies. Views are of this object.
+    /// Views of the tables that a device copies; valid as long as this object.
     struct Tables {
-        const OverLattice* lattice; ///< null if the substrate is of another kind
-        std::span<const double> map;
-        const Field<double>* mean_height; ///< mean heights, with the tail; otherwise null
+        const OverLattice* lattice;       ///< null if the substrate is of another kind
+        std::span<const double> map;      ///< all heights, Å
+        const Field<double>* mean_height; ///< mean heights for the tail, Å; nullptr without a tail
         double density;                   ///< density of the substrate's atoms, 1/Å^2
     };
-    Tables tables() const;
+    Tables tables() const; ///< returns the views
 
     const Tile& tile() const { return tile_; }
     InterfaceMethod method() const { return method_; }
     /// Returns the number of atoms across the box, for a substrate that is a map.
     int substrate_sites() const { return map_.sites(); }
     const InterfaceOptions& options() const { return options_; }
-    /// Returns the number of sites across the box, which are above the substrate; with free edges
-    /// the tile's are twice as many.
+    /// Returns the number of sites across the box above the substrate: N; with free edges the grid
+    /// of the tile has 2N.
     int sites_across() const { return options_.free_edges ? tile_.sites / 2 : tile_.sites; }
-    std::size_t bytes() const;
+    std::size_t bytes() const; ///< returns the memory of the tables, bytes
 
 private:
     /// Substrate; std::monostate: the reference loop over the map.
@@ -138,7 +141,7 @@ private:
     HeightMap map_; ///< heights; for atoms anywhere, those of the topmost atoms
     InterfaceMethod method_;
     Substrate substrate_;
-    /// Mean heights of the atoms within the cutoff sideways, Å; empty without a tail
+    /// Mean heights of the atoms within the cutoff laterally, Å; empty without a tail.
     Field<double> mean_height_;
     double reference_height_ = 0.0; ///< Å
 

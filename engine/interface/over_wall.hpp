@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A wall in place of atoms (kernels/wall_law.hpp). It acts along z alone. The height below site
-// (x, y) is value (x, y) of the surface, which has the block's lattice.
+// A wall in place of atoms (kernels/wall_law.hpp). The wall acts along z alone. The height below
+// site (x, y) is value (x, y) of the surface, which has the block's lattice.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -20,20 +20,21 @@ namespace asperity {
 class OverWall {
 public:
     /// Makes the wall below the sites of a tile. With free edges the map is below the first N x N
-    /// of 2N x 2N sites, and the others have no solid below them. Where the block slides over the
-    /// wall, which then has no free edges, the map moves.
+    /// of 2N x 2N sites, and the other sites have no solid below them. With options.slides, which
+    /// excludes free edges, slide_to() moves the map.
     OverWall(const HeightMap& map, const Tile& tile, const InterfaceOptions& options);
 
-    /// Moves the block to (x, y) over the wall, Å. Only if it slides.
+    /// Moves the block to (x, y) over the wall, Å. Requires options.slides.
     void slide_to(double x, double y) { sliding_->slide_to(x, y); }
-    /// Returns the derivative of height() with respect to the place along x or y. Only if it
-    /// slides.
+    /// Returns the derivative of height() with respect to the place along axis 0 (x) or 1 (y).
+    /// Requires options.slides.
     PlaneView<const double> slope(std::size_t axis) const { return sliding_->slope(axis); }
 
+    /// Computes the forces on row y of the sites and adds to the sums. how: options of the sweep.
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
-    /// Moves the sites of row y to their equilibria, each under its own force. row: all but the
-    /// wall's own data.
+    /// Moves the sites of row y to their equilibria, each under its own external force. row: data
+    /// of the row except those of the wall, which are filled in; sites: number of sites.
     template <class T>
     WallSums rest_row(int y, WallRow<T> row, const WallRule& rule, int sites) const {
         row.below = height().line(y);
@@ -44,11 +45,11 @@ public:
         else
             return kernels.rest_single(law_, row, rule, sites);
     }
-    /// Returns -dF/dg of a site of the tile at this gap, eV/Å^2.
+    /// Returns the stiffness -dF/dg of the law of a site of the tile at this gap, Å, in eV/Å^2.
     double stiffness_at(int x, int y, double gap) const;
 
-    /// Returns the height of the wall below each site of the tile, Å; not a number where there is
-    /// no solid.
+    /// Returns the height of the wall below each site of the tile, Å; NaN if there is no solid
+    /// below the site.
     PlaneView<const double> height() const {
         return sliding_ ? sliding_->height() : height_.plane(0);
     }
@@ -58,7 +59,7 @@ public:
     }
 
 private:
-    Field<double> height_; ///< empty if it slides
+    Field<double> height_; ///< empty with options.slides
     std::optional<SlidingMap> sliding_;
     Field<double> factor_; ///< factor of the law of each site; empty: one law for all
     WallLaw law_;

@@ -4,8 +4,8 @@
 // The heights of a wall under a block that slides over it, and their slopes.
 //
 // The map is moved under the block by a Fourier shift (decomposition/row_shift.hpp), always from
-// the place where it was read, so that heights depend on the place alone. The cap of a curved
-// substrate is no sum of few waves: it is left out of the shift and added where it then stands.
+// its original place, so that heights depend on the present place alone. The spherical cap of a
+// curved substrate is not band-limited: it is left out of the shift and added at its new place.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -21,15 +21,16 @@ namespace asperity {
 /// A map of heights that moves under a tile of sites.
 class SlidingMap {
 public:
+    /// Copies the map; the block is at (0, 0).
     SlidingMap(const HeightMap& map, const Tile& tile);
 
-    /// Moves the block to (x, y) over the map, Å; (0, 0) at first.
+    /// Moves the block to (x, y) over the map, Å.
     void slide_to(double x, double y);
     /// Returns the heights below the sites of the tile, Å.
     PlaneView<const double> height() const { return height_.plane(0); }
-    /// Returns the derivative of the heights with respect to the place along x or y.
+    /// Returns the derivative of height() with respect to the place along axis 0 (x) or 1 (y).
     PlaneView<const double> slope(std::size_t axis) const { return slope_[axis].plane(0); }
-    std::size_t bytes() const;
+    std::size_t bytes() const; ///< returns the memory of the fields, bytes
 
 private:
     using Complex = RowShift::Complex;
@@ -45,8 +46,8 @@ private:
     std::vector<double> map_; ///< heights without the cap, Å
     RowShift shift_;
     std::array<double, 2> place_{};
-    /// Waves along x of the tile's rows: of the heights at the place along y, Å, and of their
-    /// derivatives along y.
+    /// Waves along x of the tile's rows at the present place along y: of the heights, Å, and of
+    /// their derivatives along y.
     std::vector<Complex> waves_, waves_of_slope_;
     Field<double> height_;
     std::array<Field<double>, 2> slope_;

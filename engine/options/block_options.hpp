@@ -11,10 +11,10 @@
 
 namespace asperity {
 
-/// A spring in series with a dashpot, beside the block's own springs.
+/// A Maxwell branch: a spring in series with a dashpot, parallel to the block's springs.
 struct Branch {
-    double ratio = 0.0; ///< modulus over that of the block
-    double time = 0.0;  ///< relaxation time: the stress falls to 1/e in it, fs
+    double ratio = 0.0; ///< modulus divided by that of the block
+    double time = 0.0;  ///< relaxation time, in which the stress decays to 1/e, fs
 };
 
 /// Elastic constants of an isotropic solid.
@@ -22,13 +22,15 @@ struct Material {
     double young = 0.0; ///< Young's modulus, eV/Å^3
     double poisson = 0.42;
 
+    /// Returns the shear modulus mu, eV/Å^3.
     double shear_modulus() const { return young / (2.0 * (1.0 + poisson)); }
+    /// Returns Lamé's first parameter lambda, eV/Å^3.
     double lame() const { return young * poisson / ((1.0 + poisson) * (1.0 - 2.0 * poisson)); }
-    /// Returns the modulus of a solid that is compressed and cannot widen, lambda + 2 mu, eV/Å^3.
+    /// Returns the modulus of uniaxial strain, lambda + 2 mu, eV/Å^3.
     double modulus_of_compression() const { return lame() + 2.0 * shear_modulus(); }
     /// Returns E/(1 - nu^2), eV/Å^3.
     double contact_modulus() const { return young / (1.0 - poisson * poisson); }
-    /// Returns the constants of a lattice cell, of this edge in Å.
+    /// Returns the constants of a lattice cell. edge: edge of the cell, Å.
     CellElasticity cell(double edge) const {
         return {shear_modulus() * edge, (lame() - shear_modulus()) * edge / 16.0};
     }
@@ -50,7 +52,8 @@ struct BlockOptions : Material {
     bool multiscale = true;
     bool finite_strain = false;
     std::vector<Branch> branches{}; ///< branches of a viscoelastic block, without inertia
-    /// Layers of a block at rest, from its surface upwards; the block's own material is above them.
+    /// Layers of a block at rest, from its surface upwards; the block's own material is above the
+    /// last layer.
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
     /// Stiffness of the spring that holds the top plane of a block at rest, eV/Å^2; 0: none.
@@ -63,38 +66,39 @@ struct BlockOptions : Material {
     int grid() const { return free_edges ? 2 * sites : sites; }
     /// Returns all materials, that of the surface first.
     std::vector<Material> materials() const;
-    /// Returns the smallest modulus of a material that cannot widen, lambda + 2 mu, eV/Å^3.
+    /// Returns the smallest modulus of uniaxial strain of all materials, lambda + 2 mu, eV/Å^3.
     double softest_column() const;
     /// Returns the material of the surface.
     const Material& surface_material() const {
         return layers.empty() ? *this : layers.front().material;
     }
-    /// Returns the layers of cells of the block at rest, from its surface upwards: `layers` and
-    /// above them the block's own material. Neighbours of one material are one layer.
+    /// Returns the layers of cells of the block at rest, from its surface upwards: `layers`, then
+    /// the block's own material. Neighbouring layers of the same material are merged.
     std::vector<CellLayer> column() const;
-    /// Returns the stiffness of a wave at the lowest layer of nodes of the block at rest, eV/Å^2
-    /// for each site: that of the lattice, and the surface stress times (q a)^2 on its normal
-    /// component, (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2 on the lattice.
+    /// Returns the stiffness of a wave at the lowest layer of the block at rest, eV/Å^2 per site:
+    /// the lattice's, plus, for the normal component, the surface stress times the lattice's (q
+    /// a)^2 = (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2.
     SurfaceMatrix stiffness(WavePhase x, WavePhase y) const;
-    /// Returns the stiffness of the box's longest wave at the lowest layer of a block that is not
-    /// thin, eV/Å^4: E* q_L / 2, of a block with layers the lattice's. Thin blocks are stiffer.
+    /// Returns the stiffness of the longest wave of the box at the lowest layer of a thick block,
+    /// eV/Å^4: E* q_L / 2, or the lattice's for a block with layers. Thin blocks are stiffer.
     double softest_wave() const;
     /// Returns the speed of longitudinal waves, Å/fs.
     double sound_speed() const;
+    /// Returns the constants of the cells of a level.
     CellElasticity elasticity(int level) const;
-    /// Returns the largest angular frequency of the bulk lattice with the interface's stiffness per
-    /// site (eV/Å^2) added to a surface atom, 1/fs.
+    /// Returns an upper bound of the angular frequencies of the lattice, 1/fs. site_stiffness:
+    /// stiffness of the interface per site, eV/Å^2.
     double highest_frequency(double site_stiffness) const;
 };
 
-/// Number of a level, its nodes and its layers.
+/// Size of a level of the block.
 struct LevelShape {
-    int level = 0;
-    int sites = 0; ///< nodes across the box
-    int cells = 0; ///< layers
+    int level = 0; ///< index: the edge of a cell is 2^level a
+    int sites = 0; ///< number of nodes across the box
+    int cells = 0; ///< number of layers of cells
 };
-/// Returns levels that fill the thickness exactly, each at least layers_per_level cells thick,
-/// coarsening twofold while the box and the remaining thickness allow it.
+/// Returns levels that fill the thickness exactly, each at least layers_per_level cells thick; the
+/// cells double from level to level as long as box and remaining thickness allow.
 std::vector<LevelShape> level_shapes(const BlockOptions& options);
 /// Returns the number of nodes of all levels.
 double nodes_of(const std::vector<LevelShape>& levels);

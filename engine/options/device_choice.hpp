@@ -4,13 +4,15 @@
 
 namespace asperity {
 
-/// Device that makes the steps of a dynamic path (numerics.device).
+/// Processor or device that computes the steps of a dynamic path (numerics.device).
 struct DeviceChoice {
+    /// Kind of device.
     enum class Kind {
-        none,      ///< the processor
-        emulated,  ///< the emulated device
-        automatic, ///< a CUDA device if there is one that can run the scene; not in a case
-        cuda       ///< the CUDA device `index`
+        none,     ///< the processor
+        emulated, ///< the emulated device
+        /// A CUDA device that can run the scene, otherwise the processor; resolved in a case.
+        automatic,
+        cuda ///< the CUDA device `index`
     };
     Kind kind = Kind::none;
     int index = 0; ///< index of the CUDA device

@@ -11,26 +11,26 @@
 
 namespace asperity {
 
-/// Quantity that a quasi-static path moves from point to point.
+/// Quantity that a quasi-static path prescribes.
 enum class Control { top, mean_height };
 
 /// Options of the drive, in the units of the engine.
 struct DriveOptions {
     double velocity = 5e-5; ///< Å/fs
     double ramp = 0.0;      ///< time over which a velocity changes, fs
-    double stiffness = 0.0; ///< spring that holds the top plane, eV/Å^2; 0: it is rigid
-    double mass = 0.0;      ///< mass of a top plane on a spring, eV fs^2/Å^2; 0: that of the block
+    double stiffness = 0.0; ///< stiffness of the spring that holds the top plane, eV/Å^2; 0: rigid
+    double mass = 0.0;      ///< mass of a top plane on a spring, eV fs^2/Å^2; 0: mass of the block
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
     double area = 1.0;       ///< area of the interface, Å^2
-    /// Time over which the force that ends a segment is averaged, fs; 0: the force of the step. For
-    /// a warm block, whose force fluctuates.
+    /// Time over which the force that ends a segment is averaged, fs, for a warm block, whose force
+    /// fluctuates; 0: no average.
     double average_over = 0.0;
-    Control control = Control::top; ///< quantity that a quasi-static path moves
-    /// Largest displacement from point to point of a quasi-static path, Å
+    Control control = Control::top; ///< quantity that a quasi-static path prescribes
+    /// Largest step between points of a quasi-static path, Å.
     double displacement_step = 0.25;
-    /// Number of steps or points after which the run stops; empty: no limit
+    /// Number of steps or points after which the run stops; empty: no limit.
     std::optional<long long> max_steps;
-    /// Segments of the path
+    /// Segments of the path.
     std::vector<Segment> path = {{Segment::approach, 0.0, 0, "approach"},
                                  {Segment::pull_off, 0.0, 0, "pull-off"}};
 };

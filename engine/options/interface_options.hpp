@@ -18,59 +18,62 @@ namespace asperity {
 class PotentialTable;
 class WallShape;
 
-/// Methods of finding pairs. The reference loop is for tests; rows hold for any spacing.
+/// Methods of finding pairs. `reference` is the direct loop, for tests; `rows` works for any
+/// spacing of one layer.
 enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
 /// A number for each site of the box, from a map or a formula (a field of sites).
 struct SiteMap {
     std::string name;           ///< name in results: "adhesion"
     std::string source;         ///< file or formula, as the scene gives it
-    std::string file;           ///< file as found; empty: a formula
+    std::string file;           ///< path of the file; empty: a formula
     std::uint32_t digest = 0;   ///< digest of the values of the whole box
     int sites = 0;              ///< number of sites across the box
     std::vector<double> values; ///< values[y * sites + x], in the unit of the scene's key
-    double least = 0.0;         ///< least value of the whole box
+    double least = 0.0;         ///< smallest value of the whole box
     double largest = 0.0;       ///< largest value of the whole box
 
-    /// Returns the value of site (x, y); 0 beyond the box.
+    /// Returns the value of site (x, y); 0 outside the box.
     double at(int x, int y) const {
         if (x >= sites || y >= sites) return 0.0;
         return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
                       static_cast<std::size_t>(x)];
     }
-    /// Returns the part of so many sites across.
+    /// Returns the part of the first across x across sites.
     SiteMap corner(int across) const;
 };
 
 /// Options of the interface.
 struct InterfaceOptions {
     std::optional<WallLaw> wall = {};            ///< wall in place of atoms
-    std::shared_ptr<const WallShape> shape = {}; ///< shape that this law reads; null: none
-    /// Work of adhesion of each site over the wall, meV/Å^2, the largest that of the law; null:
-    /// that of the law
+    std::shared_ptr<const WallShape> shape = {}; ///< shape to which `wall` refers; nullptr: none
+    /// Work of adhesion of each site over the wall, meV/Å^2, of which the largest is the wall's;
+    /// nullptr: the wall's for all sites.
     std::shared_ptr<const SiteMap> adhesion = {};
     double mean_adhesion_factor = 1.0; ///< mean of adhesion_factor() over the sites
     PairPotential potential;
-    /// Potentials of atoms anywhere, by AtomPositions::type; empty: `potential` for all.
+    /// Potentials by AtomPositions::type; empty: `potential` for all atoms.
     std::vector<PairPotential> by_type = {};
-    /// Tables that these potentials read.
+    /// Tables to which the potentials refer.
     std::vector<std::shared_ptr<const PotentialTable>> tables = {};
     bool tail = false;             ///< continuum correction beyond the cutoff
     bool mixed = false;            ///< pairs in single precision, in the sweep over a lattice
-    bool mixed_on_request = false; ///< sweeps may be asked for with SweepOptions::mixed_precision
+    bool mixed_on_request = false; ///< SweepOptions::mixed_precision may be used
     bool free_edges = false;       ///< a wall below the first N x N of 2N x 2N sites
-    bool slides = false; ///< the block is moved over the substrate (Interface::slide_to())
+    bool slides = false;           ///< Interface::slide_to() may be used
     InterfaceMethod method = InterfaceMethod::automatic;
-    /// Skip offsets or atoms beyond reach; false: visit all (bitwise identical; for tests).
+    /// Skip offsets or atoms beyond reach; false: visit all, with bitwise identical results, for
+    /// tests.
     bool skip = true;
 
     /// Returns the maps of the sites that the interface has.
     std::vector<std::shared_ptr<const SiteMap>> site_maps() const;
-    /// Replaces each map of the sites by its part of so many sites across.
+    /// Replaces each map of the sites by its part of the first across x across sites.
     void crop_site_maps(int across);
-    /// Returns the factor of the law of site (x, y) over the wall (kernels/wall_law.hpp).
+    /// Returns the factor of the attraction of site (x, y) over the wall (kernels/wall_law.hpp).
     double adhesion_factor(int x, int y) const;
 
+    /// Returns the potentials by type.
     PairTable pairs() const {
         if (by_type.empty()) return potential;
         return {by_type.data(), static_cast<int>(by_type.size())};
@@ -79,17 +82,17 @@ struct InterfaceOptions {
 
 /// Options of one sweep.
 struct SweepOptions {
-    bool observe = false;         ///< energies, contacts and nearest distances too
-    bool mixed_precision = false; ///< forces with errors of some 1e-6 eV/Å suffice
+    bool observe = false;         ///< compute energies, contacts and nearest distances too
+    bool mixed_precision = false; ///< allow errors of the forces of about 1e-6 eV/Å
     std::optional<double> height =
-        {}; ///< reference height for this sweep, Å; none: the interface's own
+        {}; ///< reference height for this sweep, Å; empty: reference_height()
 };
 
-/// Returns the law of a wall with the mean of the sites' attractions.
+/// Returns the law of a wall with the attraction averaged over the sites.
 WallLaw mean_wall(const InterfaceOptions& options);
 
-/// Returns the distance beyond which the substrate does not act on a site, Å: the cutoff; with the
-/// tail, which has no end, 4 cutoffs, where 1/256 of its energy is left.
+/// Returns the interaction range, Å, beyond which the substrate is taken not to act on a site: the
+/// cutoff; with the tail, which has no end, 4 cutoffs, at which 1/256 of the tail's energy is left.
 double reach_of(const InterfaceOptions& options);
 
 } // namespace asperity

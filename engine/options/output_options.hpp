@@ -11,20 +11,21 @@
 
 namespace asperity {
 
-/// Contents of the output of a run, and their times.
+/// Output of a run and its periods.
 struct OutputOptions {
     std::optional<long long> trajectory; ///< steps between frames; empty: none
-    bool velocities = false;             ///< velocities in the frames too
+    bool velocities = false;             ///< write velocities in the frames too
     long long series = 100;              ///< steps between rows of the series
-    double checkpoint = 600.0;           ///< s of wall time between checkpoints; 0: none
+    double checkpoint = 600.0;           ///< wall time between checkpoints, s; 0: no checkpoints
 };
 
 /// Times at which maps are written (output.fields).
 struct MapTimes {
-    bool relaxed = false, pull_off = false;
-    bool segments = false;          ///< maps at the end of each segment of the path
-    std::optional<long long> every; ///< steps, or points of a quasi-static path
-    /// Delay after the end of the approach, ps, and name; in the order of the delays.
+    bool relaxed = false;           ///< maps of relaxed states
+    bool pull_off = false;          ///< map at the largest attraction of the pull-off
+    bool segments = false;          ///< maps at the end of each segment
+    std::optional<long long> every; ///< period, steps or points; empty: none
+    /// Delay after the end of the approach, ps, and name of the map, in ascending order.
     std::vector<std::pair<double, std::string>> after_approach;
 };
 

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate as numbers: its heights or atoms, and their statistics (engine/scene/surface.hpp
-// makes it).
+// Data of the substrate: heights or atoms, and their statistics (made by engine/scene/surface.hpp).
 #pragma once
 
 #include <cmath>
@@ -33,16 +32,16 @@ struct SurfaceStatistics {
     std::vector<SpectrumBin> spectrum; ///< bins of width q_L
 };
 
-/// Positions of atoms anywhere, Å.
+/// Positions of atoms of a substrate, Å.
 struct AtomPositions {
     std::vector<double> x, y, z;
-    /// Types, counted from 0 in the scene's pairs; empty: all atoms are of one.
+    /// Types, as indices of interface.pairs; empty: all atoms have one type.
     std::vector<std::int32_t> type{};
     std::size_t size() const { return x.size(); }
 };
 
-/// Returns the height of a spherical cap over its apex at (dx, dy) from it, Å: R - sqrt(R^2 -
-/// rho^2) downwards, written without the difference of two large numbers.
+/// Returns the height of a spherical cap relative to its apex, at (dx, dy) from the apex, Å:
+/// sqrt(R^2 - rho^2) - R, without the cancellation of this form.
 inline double cap_of(double radius, double dx, double dy) {
     const double rho2 = dx * dx + dy * dy;
     return -rho2 / (radius + std::sqrt(radius * radius - rho2));
@@ -53,21 +52,21 @@ struct Surface {
     int sites = 0;
     double length = 0.0; ///< Å
     double radius = 0.0; ///< radius of the cap that the heights include, Å; 0: none
-    /// height[y * sites + x] of the atom at (x, y) length / sites, Å; with `atoms`, of the topmost
-    /// atom nearest to this place.
+    /// height[y * sites + x]: height of the atom at (x, y) length / sites, Å; with `atoms`, height
+    /// of the topmost atom nearest to this place.
     std::vector<double> height;
-    AtomPositions atoms; ///< atoms in the box [0, length); empty: one for each height
-    long long holes = 0; ///< heights that are not numbers: no solid is there
+    AtomPositions atoms; ///< atoms in the box [0, length); empty: one atom per height
+    long long holes = 0; ///< number of NaN heights, which mean no solid
     SurfaceStatistics statistics;
-    std::string origin; ///< owner of a measured map, if its file names one
+    std::string origin; ///< author of a measured map, if its file names one
     /// CRC-32 of the values read from a file of a map or atoms, before any processing.
     std::optional<std::uint32_t> file_digest;
     std::vector<std::string> doubts; ///< sentences on possible mistakes in the file of a map
     std::vector<std::string> notes;  ///< sentences on clipping and resampling
 };
 
-/// Returns the length over which the heights of a substrate vary, Å: the wavelength of the mean
-/// wavevector of its roughness; of a smooth one a quarter of the box.
+/// Returns the correlation length of a substrate, Å: the wavelength of the mean wavevector of its
+/// roughness; a quarter of the box for a smooth substrate.
 inline double correlation_length(const Surface& s) {
     double power = 0.0, mean = 0.0;
     for (const SpectrumBin& bin : s.statistics.spectrum) {

@@ -10,11 +10,11 @@
 
 namespace asperity {
 
-/// Returns the sideways displacement of a site that the tables allow for, Å.
+/// Returns the largest lateral displacement of a site that the tables allow for, Å. spacing: Å.
 inline double sideways_margin(double spacing) { return 2.0 * spacing; }
 
-/// Returns the largest cutoff over a substrate of one layer, Å: by offsets between sites, which are
-/// `spacing` apart, and by rows of atoms, `between_atoms` apart.
+/// Returns the largest cutoff that the tables allow for over a substrate of one layer, Å. spacing:
+/// spacing of the sites, Å; between_atoms: spacing of the atoms, Å.
 inline double largest_cutoff(double spacing, double between_atoms) {
     return std::min((max_half_offsets - 2) * spacing, (max_rows - 3) * between_atoms) -
            sideways_margin(spacing);

@@ -11,7 +11,8 @@
 namespace asperity {
 
 using theory::AreaFactor;
-/// Spectrum of the theory: that which the scene asks for, or that of the surface made.
+/// Spectrum used by the theory: the scene's power law, or the spectrum of the surface that was
+/// made.
 enum class TheorySpectrum { target, realised };
 
 /// Options of Persson's theory.

@@ -24,22 +24,24 @@ namespace asperity {
 
 class Path;
 
-/// Writes arrays, each as whole planes, and numbers. fingerprint: of the scene; only the scene that
-/// wrote a checkpoint can resume from it. Collective. Throws io::FileError.
+/// Writes the arrays, each as whole planes, and the numbers. fingerprint: physics of the scene as
+/// text (physics_of()); only a scene with the same fingerprint can resume from the checkpoint.
+/// Collective. Throws io::FileError.
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint);
+/// Function that returns the arrays to fill from a checkpoint with these numbers.
 using ArraysOf = std::function<std::vector<RestoredArray>(const StateNumbers&)>;
-/// Reads the arrays and returns the numbers; the caller fills halos. arrays: returns the arrays to
-/// be read, which may depend on the numbers. Collective. Throws io::FileError if the file is
-/// damaged or cannot be read, io::SceneError if another scene wrote it.
+/// Reads the arrays and returns the numbers; the caller fills halos. arrays: called with the
+/// numbers; returns the arrays to fill. Collective. Throws io::FileError if the file is damaged or
+/// cannot be read, io::SceneError if another scene wrote it.
 StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                              const ProcessGrid& grid, const ArraysOf& arrays,
                              const std::string& fingerprint);
-/// Reads the numbers alone, whatever scene wrote them. Not collective. Throws io::FileError.
+/// Reads the numbers alone, of a checkpoint of any scene. Not collective. Throws io::FileError.
 StateNumbers read_checkpoint_numbers(const io::FilePlace& place);
 
-/// Returns the displacements and half-step velocities of each level.
+/// Returns the displacements and half-step velocities of each level of a block, for checkpoints.
 std::vector<StateArray> state_of(const Block& block);
 /// Returns the arrays of state_of() to be overwritten; the caller then calls exchange().
 std::vector<RestoredArray> state_to_restore(Block& block);
@@ -53,7 +55,7 @@ std::vector<Array> joined(std::vector<Array> list, const std::vector<Array>& mor
 /// The last good state, in memory, to be written when a guard stops the run.
 class Snapshot {
 public:
-    /// Copies the state of the path.
+    /// Copies the arrays and numbers of the path.
     void take(const Path& path);
     bool empty() const { return fields_.empty(); }
     /// Puts the path back to the copied state.

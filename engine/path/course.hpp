@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The course of a path, for progress: the part that is done, and the time that the rest will take.
-// A segment that has ended tells what its kind takes, and an approach also where its time went: the
-// pull-off passes the same heights again. Before that a model says where: of a dynamic path in
-// proportion to the time of the drive; of a quasi-static one mostly within the range of the
-// roughness and the attraction, where steps are short and relaxations long.
+// The time of a segment is estimated from the last ended segment of its kind. The time of a
+// pull-off is spread over the heights as that of the approach was, because both pass the same
+// heights. Until a segment has ended, a model spreads the time: in proportion to the time of the
+// drive on a dynamic path; on a quasi-static path mostly within the range of the roughness and the
+// attraction, where steps are short and relaxations long.
 #pragma once
 
 #include "engine/path/expected_path.hpp"
@@ -21,16 +22,16 @@ namespace asperity {
 /// Course of a path in the time that the run takes.
 class Course {
 public:
-    /// Begins the course of a case. rms: of the surface, start: height of the lowest layer at the
-    /// start, Å.
+    /// Begins the course of a case. rms: rms height of the surface, Å; start: height of the lowest
+    /// layer at the start, Å.
     Course(const Case& c, double rms, double start);
-    /// Looks at a step or point in a segment. seconds: time since the run began or was resumed, s;
-    /// it never falls.
+    /// Updates the course with a step or point of a segment. seconds: time since the run began or
+    /// was resumed, s, which never decreases.
     void look(std::size_t segment, const StepRecord& now, double seconds);
-    /// Returns the part of the whole time that has passed, 0 to 0.99. It never falls.
+    /// Returns the part of the whole time that has passed, 0 to 0.99, which never decreases.
     double fraction() const { return fraction_; }
-    /// Returns the time left, s; negative: not known yet. It follows a changed estimate within a
-    /// part of the time so far, and grows by three seconds a second at most.
+    /// Returns the estimated time left, s; negative if no estimate exists yet. A changed estimate
+    /// is approached gradually; the time left grows by three seconds a second at most.
     double left() const { return left_; }
 
 private:
@@ -54,12 +55,12 @@ private:
     double start_time_ = 0.0;    ///< simulated time when the path was first seen, fs
     StepRecord first_{};         ///< record at the beginning of the segment
     double first_seconds_ = 0.0; ///< wall time of the path at first_, s
-    bool whole_ = false;         ///< the segment was seen from its beginning
+    bool whole_ = false;         ///< look() has followed the segment from its beginning
     double strongest_ = 0.0;     ///< largest attraction of an approach so far, eV/Å
-    double part_ = 0.0;          ///< part of the segment that is done; it never falls
+    double part_ = 0.0;          ///< part of the segment that is done, which never decreases
     /// Weights and seconds of the segments that have ended, by kind.
     std::array<std::pair<double, double>, Segment::kinds> ended_{};
-    /// Seconds of the last approach down to falling places (Å).
+    /// Course of the last approach: decreasing heights, Å, and seconds until each.
     std::vector<std::pair<double, double>> descent_;
     double base_ = 0.0; ///< part that was done when the path was first seen
     double fraction_ = 0.0, left_ = -1.0, last_seconds_ = 0.0;

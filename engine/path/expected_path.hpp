@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The expected course of a path, as far as it is known beforehand, for progress and for `asperity
-// plan`.
+// The course of a path as estimated from the scene, for progress and for `asperity plan`.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -18,7 +17,8 @@ struct ExpectedPath {
     double deepest = 0.0; ///< largest depth below the start, Å
     double time = 0.0;    ///< duration of a dynamic path, fs
 };
-/// Returns the expected path. start: height of the lowest layer at the start, Å.
+/// Estimates distances and times of the case's path. start: height of the lowest layer at the
+/// start, Å.
 ExpectedPath expected_path(const Case& c, double start);
 
 } // namespace asperity

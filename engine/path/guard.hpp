@@ -15,13 +15,15 @@ namespace asperity {
 /// Largest relative error of the energy balance that counts as physics.
 inline constexpr double largest_energy_error = 0.02;
 
-/// Returns the error of a step or point, or nothing: a force or height that is not finite, an
-/// energy balance with an error above largest_energy_error, or a lowest layer below this height
-/// (Å), beyond the substrate. place: "step 1200".
+/// Returns the error message for a step or point that is not physical, or nothing. Conditions that
+/// are not physical: a force or height that is not finite, an error of the energy balance above
+/// largest_energy_error, a time step too long for the motion, and a mean height of the lowest layer
+/// below lowest_height (Å), inside the substrate. place: position for the message, "step 1200".
 std::optional<std::string> violation(const StepRecord& now, double lowest_height,
                                      const std::string& place);
 
-/// Returns the error of a step or point of a case with this surface, or nothing.
+/// Returns the error message for a step or point of a case that is not physical, or nothing; the
+/// lowest height follows from the surface.
 std::optional<std::string> violation(const StepRecord& now, const Case& c, const Surface& surface);
 
 /// Returns "site (3, 7) moves at 1e+05 m/s" for the site of the lowest layer with the largest

@@ -10,7 +10,7 @@ Works Works::operator-(const Works& earlier) const {
     Works between = *this;
     between.on_solids -= earlier.on_solids;
     between.lateral -= earlier.lateral;
-    between.relaxed -= earlier.relaxed;
+    between.dissipated_in_block -= earlier.dissipated_in_block;
     between.lost -= earlier.lost;
     if (between.stored) *between.stored -= earlier.stored.value_or(0.0);
     if (between.interface) *between.interface -= earlier.interface.value_or(0.0);
@@ -29,7 +29,7 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.steady = works.steady;
     ended.work = per_area(works.on_solids);
     ended.lost = per_area(works.lost);
-    if (case_.effects.branches) ended.relaxed = per_area(works.relaxed);
+    if (case_.effects.branches) ended.dissipated_in_block = per_area(works.dissipated_in_block);
     ended.stored = per_area(works.stored);
     ended.settling = per_area(works.settling);
     ended.interface_work = per_area(works.interface);
@@ -39,15 +39,15 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     results_.begin_segment();
 
     lost_since_apart_ += works.lost;
-    relaxed_since_apart_ += works.relaxed;
+    dissipated_in_block_since_apart_ += works.dissipated_in_block;
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
     // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
     if (results_.last(Segment::approach) && !case_.effects.temperature)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
     if (results_.last(Segment::approach) && case_.effects.branches)
-        results_.relaxed_in_cycle = per_area(relaxed_since_apart_);
-    lost_since_apart_ = relaxed_since_apart_ = 0.0;
+        results_.dissipated_in_block_in_cycle = per_area(dissipated_in_block_since_apart_);
+    lost_since_apart_ = dissipated_in_block_since_apart_ = 0.0;
     moved_apart_ = moving;
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Works and losses of the segments of a path, dynamic or quasi-static. For an approach from rest
-// beyond the interaction range, and a pull-off to rest there:
+// beyond the interaction range, and a pull-off that ends at rest beyond the range:
 //
 //     -(work of the drive, approach) = binding energy - lost - kinetic
 //      (work of the drive, pull-off) = binding energy + lost + kinetic there
@@ -13,7 +13,7 @@
 //     work of the drive = stored + lost + dissipated in the block,
 //
 // stored: the change of the energy of interface and block. Works are done on the solids; "kinetic"
-// is the energy of motion left at the end: kinetic energy, and that of vibrations about the state.
+// is the kinetic energy, and the energy of vibrations about the state, left at the end.
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -27,29 +27,31 @@ namespace asperity {
 
 /// Works and losses between two ends of segments, eV.
 struct Works {
-    double on_solids = 0.0;       ///< work of the drive or holder on the block
-    double lateral = 0.0;         ///< part of on_solids that moves the block sideways
-    double relaxed = 0.0;         ///< energy dissipated in time by a viscoelastic block
+    double on_solids = 0.0;           ///< work of the drive or holder on the block
+    double lateral = 0.0;             ///< part of on_solids that moves the block sideways
+    double dissipated_in_block = 0.0; ///< energy dissipated in time by a viscoelastic block
     double lost = 0.0;            ///< energy damped less the heat of a thermostat, or dissipated
     std::optional<double> stored; ///< change of the energy; quasi-static paths only
     /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where the mean
     /// height jumps.
     std::optional<double> interface;
-    /// Uncertainty of on_solids and lost; quasi-static paths only
+    /// Uncertainty of on_solids and lost; quasi-static paths only.
     std::optional<double> uncertainty;
-    /// Part of on_solids that brought a viscoelastic block into its steady shape; of such slides
+    /// Part of on_solids that brought a viscoelastic block into its steady shape; slides until
+    /// steady only.
     std::optional<double> settling = {};
     std::optional<double> distance = {};    ///< distance of a slide over a wall, Å
     std::optional<SteadySlide> steady = {}; ///< means of a slide over a wall
 
-    /// Returns the works from an earlier place on the path to this one.
+    /// Subtracts the works up to an earlier place on the path: returns the works from there to
+    /// here.
     Works operator-(const Works& earlier) const;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("on_solids", on_solids);
         v("lateral", lateral);
-        v("relaxed", relaxed);
+        v("relaxed", dissipated_in_block);
         v("lost", lost);
         v("stored", stored);
         v("interface", interface);
@@ -63,8 +65,9 @@ public:
     /// Keeps references to both arguments; conclude() writes to results.
     Ledger(const Case& c, PathResults& results) : case_(c), results_(results) {}
 
-    /// Adds the results of a segment that has ended at this step or point. kinetic: energy of
-    /// motion left there, eV; empty if nothing moves, or if it is not known.
+    /// Adds the results of a segment that has ended at this step or point. works: from the
+    /// beginning to the end of the segment; kinetic: kinetic and vibrational energy left at the
+    /// end, eV, empty on quasi-static paths or if not known.
     void conclude(std::size_t number, const StepRecord& now, const Works& works,
                   const std::optional<double>& kinetic);
 
@@ -72,7 +75,7 @@ public:
     template <class Visitor>
     void visit(Visitor& v) {
         v("lost_since_apart", lost_since_apart_);
-        v("relaxed_since_apart", relaxed_since_apart_);
+        v("relaxed_since_apart", dissipated_in_block_since_apart_);
         v("moved_apart", moved_apart_);
     }
 
@@ -83,8 +86,8 @@ private:
     const Case& case_;
     PathResults& results_;
     /// Energies since the last end of a pull-off, or since the start, eV.
-    double lost_since_apart_ = 0.0, relaxed_since_apart_ = 0.0;
-    double moved_apart_ = 0.0; ///< energy of motion at that time, eV
+    double lost_since_apart_ = 0.0, dissipated_in_block_since_apart_ = 0.0;
+    double moved_apart_ = 0.0; ///< kinetic and vibrational energy at that time, eV
 };
 
 } // namespace asperity

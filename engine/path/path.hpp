@@ -57,7 +57,7 @@ public:
 
     // Course of the path.
 
-    /// Place of a path in its course, which the last advance() has come to.
+    /// Stage of the path after the last advance().
     enum class Status {
         beginning,      ///< a segment begins
         under_way,      ///< the last step or point belongs to the segment, which goes on
@@ -69,18 +69,19 @@ public:
         done            ///< all segments have been concluded
     };
     Status status() const { return status_; }
-    /// Returns true if the last advance() has made a step or point, which now() has.
+    /// Returns true if the last advance() has made a step or point; now() returns its record.
     bool has_stepped() const {
         return status_ == Status::under_way || status_ == Status::at_end ||
                status_ == Status::behind_end;
     }
-    /// Returns the number of segments that have been concluded: the number of the one under way or
-    /// at its end.
+    /// Returns the number of concluded segments, which is also the index of the segment under way
+    /// or at its end.
     std::size_t concluded() const { return concluded_; }
 
-    /// Data that observers need of the next step; a point always has all of them.
+    /// Quantities that observers request from the next time step. Quasi-static points always
+    /// provide all of them.
     struct Wish {
-        bool energies = false;   ///< energies and contacts in now(): an observed step
+        bool energies = false;   ///< energies and contact counts in now()
         bool layer = false;      ///< layer() at that step
         bool velocities = false; ///< velocities() at that step
         void operator|=(const Wish& more) {
@@ -89,78 +90,89 @@ public:
             velocities |= more.velocities;
         }
     };
-    /// Goes on by one step, point, state or conclusion. Returns false if the watch has stopped a
-    /// relaxation: the same call goes on. Throws io::PhysicsError if there is no next point or
-    /// state, or if a segment demands a stronger pull than the attraction.
+    /// Advances the path by one step, point, state or conclusion. Returns false if the watch has
+    /// stopped a relaxation, which the next call continues. wish: quantities that observers need of
+    /// a step. Throws io::PhysicsError if no next point or state is found, or if a segment demands
+    /// more tension than the pull-off force.
     bool advance(const Wish& wish);
     /// Returns the state of force balance that was found, with its layer; at_rest only.
     const LayerAtRest& state() const { return *state_; }
     /// Called during relaxations with the iteration and the largest residual force, eV/Å. Returns
     /// true to stop the relaxation.
     using Watch = std::function<bool(long long iteration, double residual)>;
-    void watch(Watch told) { watch_ = std::move(told); }
+    /// Installs a watch; {} removes the watch.
+    void watch(Watch watch) { watch_ = std::move(watch); }
     /// Calls work() with the watch installed and removes the watch afterwards.
     template <class Work>
-    auto while_watched(Watch told, const Work& work) {
+    auto while_watched(Watch watched_by, const Work& work) {
         struct Watching {
             explicit Watching(Path& path) : of(path) {}
             ~Watching() { of.watch({}); }
             Path& of;
         };
-        watch(std::move(told));
+        watch(std::move(watched_by));
         const Watching until_here(*this);
         return work();
     }
     // State of the path.
 
+    /// Returns the record of the last step or point.
     virtual const StepRecord& now() const = 0;
-    /// Returns the number of steps, or of points after the first one, so far.
+    /// Returns the number of time steps so far, or of points after the first one.
     virtual long long steps() const = 0;
-    /// Returns the segment that now() belongs to; before the first step the first one.
+    /// Returns the index of the segment that now() belongs to; 0 before the first step.
     virtual std::size_t segment() const = 0;
-    /// Returns the displacements of the lowest layer at now(), Å, if they were wished for.
+    /// Returns the displacements of the lowest layer at now(), Å, if the last wish asked for the
+    /// layer.
     virtual VectorPlane<const double> layer() const = 0;
-    /// Returns the velocities of the lowest layer at now(), Å/fs: the mean of those half a step
-    /// before and after; at a temperature those before friction and noise act
-    /// (Simulation::set_velocities_at_step()). Dynamic paths only.
+    /// Returns the velocities of the lowest layer at now(), Å/fs, if the last wish asked for
+    /// velocities: the mean of the velocities half a step before and after; at a temperature the
+    /// velocities before friction and noise act (Simulation::set_velocities_at_step()). Empty on
+    /// quasi-static paths.
     virtual VectorPlane<const double> velocities() const { return {}; }
-    /// Returns the interface as it was at now().
+    /// Returns the interface in its state at now().
     virtual const Interface& interface() const = 0;
     const Case& scene_case() const { return case_; }
     const Surface& surface() const { return surface_; }
     const PathResults& results() const { return results_; }
-    virtual const ProcessGrid& grid() const = 0;
-    virtual const Communicator& communicator() const = 0;
-    /// Returns the position in words: "step 1200", "point 17".
+    virtual const ProcessGrid& grid() const = 0;          ///< returns the cut of the box
+    virtual const Communicator& communicator() const = 0; ///< returns the ranks
+    /// Returns the position on the path for messages: "step 1200", "point 17".
     virtual std::string position() const = 0;
     /// Returns the number of iterations of the points so far; nothing for a dynamic path.
     virtual std::optional<long long> iterations() const { return std::nullopt; }
-    /// Returns the wall time per phase of the steps. Dynamic paths only.
+    /// Returns the wall time per phase of the time steps; nullptr for a quasi-static path.
     virtual const Phases* phases() const { return nullptr; }
     /// Returns the memory of the block and the interface on this rank, bytes.
     virtual std::size_t bytes() const = 0;
-    /// Frees the memory that the path keeps for its next relaxation, before work that needs memory
-    /// of another kind.
+    /// Frees the memory that the path keeps for its next relaxation, so that other work can use the
+    /// memory.
     virtual void free_workspace() const {}
-    /// Likely reason of an error found by a guard at now(), and its remedy.
+    /// Reason and remedy of an error, for messages.
     struct Remedy {
         std::string why, fix;
     };
+    /// Returns the likely reason of an error found by a guard at now(), and its remedy.
     virtual Remedy remedy() const = 0;
 
     // Checkpoints: numbers, and arrays of whole planes, at any status. The reader of a checkpoint
-    // restores the numbers, reads the arrays, and calls restored(); the path then goes on bitwise
-    // identically, and begins a relaxation of a copy again.
+    // restores the numbers, reads the arrays, and calls restored(); the path then continues bitwise
+    // identically; a relaxation of a copy begins again.
 
+    /// Collects the numbers of the path.
     virtual void collect(CollectNumbers& numbers) const = 0;
+    /// Returns the arrays of the path to be copied or written.
     virtual std::vector<StateArray> arrays() const = 0;
+    /// Sets the numbers of the path.
     virtual void restore(RestoreNumbers& numbers) = 0;
+    /// Returns the arrays of the path to be read; call after restore().
     virtual std::vector<RestoredArray> arrays_to_restore() = 0;
+    /// Completes the restoration after the arrays have been read: fills halos and waves.
     virtual void restored() = 0;
 
 protected:
-    /// Makes the next step or point of the segment, or comes to its relaxation. Returns the status
-    /// then; nothing if the watch stopped a relaxation.
+    /// Makes the next step or point of the segment, or decides that its relaxation is next. Returns
+    /// the new status; nothing if the watch stopped a relaxation.
     virtual std::optional<Status> make_next(const Wish& wish) = 0;
     /// Makes the step behind the end of a segment. Returns false if a path has none.
     virtual bool make_behind_end(const Wish&) { return false; }
@@ -178,10 +190,11 @@ protected:
         v("ledger", ledger_);
         v("results", results_);
     }
-    /// Sets the status after a step that advance() has not made.
+    /// Sets the status after a step that was made without advance().
     void come_to(Status status) { status_ = status; }
     /// Returns the segment that is under way or at its end.
     const Segment& segment_to_conclude() const { return case_.path()[concluded_]; }
+    /// Tells the watch of an iteration. Returns true if the watch stops the relaxation.
     bool stopped_by_watch(long long iteration, double residual) const {
         return watch_ && watch_(iteration, residual);
     }
@@ -200,16 +213,17 @@ private:
     std::optional<LayerAtRest> state_;
 };
 
-/// An observer of a path during a run: the records, the maps, the line of progress. Observers only
-/// look; their order does not matter.
+/// An observer of a path during a run: the records, the maps, the line of progress. Observers
+/// change nothing; their order does not matter.
 class Observer {
 public:
     virtual ~Observer() = default;
-    /// Returns the data that the observer needs of the next step.
+    /// Returns the quantities that the observer needs of the next step.
     virtual Path::Wish wish(const Path&) const { return {}; }
-    /// Looks at the path after advance(): calls those of the following that its status calls for.
+    /// Looks at the path after advance(): calls the look_at_...() functions below that belong to
+    /// its status.
     void look(const Path& path);
-    /// Ends the observation with the run, whether or not the path has come to its end.
+    /// Ends the observation when the run ends, on a complete or an interrupted path.
     virtual void finish(const Path&) {}
 
 protected:
@@ -219,14 +233,15 @@ protected:
     virtual void look_at_end(const Path&) {}
     /// Looks at path.state().
     virtual void look_at_state(const Path&) {}
-    /// Looks at the beginning of a segment after another: path.concluded() is its number.
+    /// Looks at the beginning of a segment after the first; path.concluded() is the index of the
+    /// segment.
     virtual void look_at_beginning(const Path&) {}
 };
 
-/// Copies the owned sites of a layer.
+/// Copies the sites of a layer that this rank owns, without halos.
 void copy_layer(const VectorPlane<const double>& from, const VectorPlane<double>& to);
 
-/// Returns the path that the case calls for, at its start.
+/// Makes the path of the case, dynamic or quasi-static, at its start. Collective.
 std::unique_ptr<Path> path_of(const Case& c, const Surface& surface, const Communicator& ranks);
 
 } // namespace asperity

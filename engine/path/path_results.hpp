@@ -18,12 +18,13 @@
 
 namespace asperity {
 
-/// Results of a segment of the path that has ended: works on the way, and the state at its end.
+/// Results of a segment of the path that has ended: its works, and the state at its end.
 struct SegmentResults {
     std::size_t number = 0; ///< number in the path
     Segment::Kind kind = Segment::approach;
-    // Works are done on the solids, meV/Å^2; from rest beyond the interaction range if the path
-    // starts there, and to rest there at a pull-off.
+    // Works are done on the solids, meV/Å^2. The first segment counts from solids at rest beyond
+    // the interaction range if the path starts there; a pull-off counts until they are at rest
+    // beyond the range again.
     /// Work of the drive or holder of the block: the top plane (on a dynamic path with the damping
     /// medium, which moves along), or the holder of the mean height.
     double work = 0.0;
@@ -32,13 +33,14 @@ struct SegmentResults {
     std::optional<double> interface_work;
     /// Part of work that brought a viscoelastic block into the shape in which it slides steadily.
     std::optional<double> settling;
-    std::optional<double> relaxed; ///< energy dissipated in time by a viscoelastic block
-    double lost = 0.0;             ///< energy damped (less the heat of a thermostat) or dissipated
+    /// Energy dissipated by a viscoelastic block over time, apart from lost.
+    std::optional<double> dissipated_in_block;
+    double lost = 0.0; ///< energy damped (less the heat of a thermostat) or dissipated
     /// Change of the energy of interface and block; quasi-static only.
     std::optional<double> stored;
-    /// Energy of motion left at the end of a dynamic path at T = 0: kinetic energy and vibrations
-    /// about the state at zero load after an approach (empty if that state is not known), or about
-    /// the solids at rest apart after a pull-off.
+    /// Kinetic and vibrational energy left at the end, dynamic paths at T = 0: vibrations about the
+    /// state at zero load after an approach (empty if that state is not known), or about the solids
+    /// at rest apart after a pull-off.
     std::optional<double> kinetic;
     std::optional<double> uncertainty;  ///< uncertainty of works and lost; quasi-static only
     double attraction = 0.0;            ///< largest attraction, eV/Å
@@ -58,7 +60,7 @@ struct SegmentResults {
         v("work", work);
         v("work_of_interface", interface_work);
         v("settling", settling);
-        v("relaxed", relaxed);
+        v("relaxed", dissipated_in_block);
         v("lost", lost);
         v("stored", stored);
         v("kinetic", kinetic);
@@ -79,12 +81,13 @@ struct SegmentResults {
 /// Results of a path so far.
 struct PathResults {
     std::optional<ZeroLoad> zero_load;   ///< state after the last approach, or at the path's start
-    std::optional<double> lost_in_cycle; ///< energy lost from rest apart to rest apart, meV/Å^2
-    std::optional<double> relaxed_in_cycle; ///< the same of relaxed
-    double strongest = 0.0;                 ///< strongest attraction of the path so far, eV/Å
-    std::optional<double> contact_made;     ///< time of the end of the last approach, fs
-    std::optional<double> edge_distance;    ///< least distance of a contact from a free edge, Å
-    /// Dissipation of a quasi-static path, which lists it itself
+    std::optional<double> lost_in_cycle; ///< energy lost in the last cycle, meV/Å^2
+    /// Energy dissipated by a viscoelastic block in the last cycle, meV/Å^2.
+    std::optional<double> dissipated_in_block_in_cycle;
+    double strongest = 0.0;              ///< strongest attraction of the path so far, eV/Å
+    std::optional<double> contact_made;  ///< time of the end of the last approach, fs
+    std::optional<double> edge_distance; ///< least distance of a contact from a free edge, Å
+    /// Dissipation of a quasi-static path; the path keeps the numbers for checkpoints.
     std::optional<Dissipation> dissipated;
     std::vector<SegmentResults> segments; ///< segments that have ended
     // Largest attraction and force against a slide of the current segment, eV/Å.
@@ -97,24 +100,25 @@ struct PathResults {
         const auto found = std::find_if(segments.rbegin(), segments.rend(), is);
         return found == segments.rend() ? nullptr : &*found;
     }
+    /// Resets the extrema and the average of the current segment.
     void begin_segment() {
         attraction = lateral_most = 0.0;
         slide.begin();
     }
-    /// Records the forces of a step or point of the current segment.
+    /// Updates the largest forces with a step or point of the current segment.
     void record_force(const Segment& segment, const StepRecord& now) {
         attraction = std::max(attraction, -now.force);
         strongest = std::max(strongest, attraction);
         if (segment.kind == Segment::slide)
             lateral_most = std::max(lateral_most, against(segment, now));
     }
-    /// Returns the force against a slide, eV/Å.
+    /// Returns the component of the lateral force against a slide, eV/Å.
     static double against(const Segment& slide, const StepRecord& now) {
         const double force = now.lateral_force[static_cast<std::size_t>(slide.axis)];
         return slide.amount > 0.0 ? -force : force;
     }
     /// Returns the results of a segment that has ended with this step or point. lateral_work: work
-    /// that moves the block sideways, eV; distance: of a slide, Å.
+    /// that moved the block sideways, eV; distance: length of the slide, Å.
     SegmentResults ended(std::size_t number, const Segment& segment, const StepRecord& now,
                          double lateral_work, double distance) const {
         SegmentResults r;
@@ -133,11 +137,11 @@ struct PathResults {
         return r;
     }
 
-    /// Passes the results to a visitor, for checkpoints, except `dissipated`, which the path keeps.
+    /// Passes the results to a visitor, for checkpoints; the path passes `dissipated`.
     template <class Visitor>
     void visit(Visitor& v) {
         v("lost_in_cycle", lost_in_cycle);
-        v("relaxed_in_cycle", relaxed_in_cycle);
+        v("relaxed_in_cycle", dissipated_in_block_in_cycle);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);

@@ -119,7 +119,8 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
         }
         return list;
     };
-    const std::vector<double> work = rate(&SlidePoint::work), relaxed = rate(&SlidePoint::relaxed),
+    const std::vector<double> work = rate(&SlidePoint::work),
+                              in_block = rate(&SlidePoint::dissipated_in_block),
                               lost = rate(&SlidePoint::lost);
     std::size_t first = 0;
     double smallest = std::numeric_limits<double>::infinity();
@@ -138,17 +139,18 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.in_contact_error = error_of_mean(rest(contact));
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
-    s.relaxed = mean_from(relaxed, first);
+    s.dissipated_in_block = mean_from(in_block, first);
     s.lost = mean_from(lost, first);
     s.steady = is_steady(lengths);
     std::vector<double> friction = work;
-    if (s.steady && s.relaxed > 0.0)
-        std::transform(relaxed.begin(), relaxed.end(), lost.begin(), friction.begin(), std::plus());
+    if (s.steady && s.dissipated_in_block > 0.0)
+        std::transform(in_block.begin(), in_block.end(), lost.begin(), friction.begin(),
+                       std::plus());
     s.friction = mean_from(friction, first);
     s.friction_error = error_of_mean(rest(friction));
     if (s.steady)
-        s.friction_error =
-            std::max(s.friction_error, std::abs(mean_from(work, first) - s.relaxed - s.lost));
+        s.friction_error = std::max(
+            s.friction_error, std::abs(mean_from(work, first) - s.dissipated_in_block - s.lost));
     return s;
 }
 

@@ -3,22 +3,22 @@
 //
 // Means of a slide after its running-in.
 //
-// Friction is work over distance, so means are differences of what has added up. The slide is cut
-// into equal bins of whole spacings of the sites, from its end backwards. Of all numbers of bins
-// left out at its beginning, up to half, that is taken as the running-in with which the variance of
-// the bins over their number is least (White, Simulation 69, 323 (1997)). The standard error of the
-// mean is the largest that bins, pairs of bins, fours and so on give (Flyvbjerg and Petersen, J.
-// Chem. Phys. 91, 461 (1989)).
+// Friction is work over distance, so that means are differences of accumulated works. The slide is
+// cut into equal bins of whole spacings of the sites, from its end backwards. The running-in is the
+// number of bins, at most half of them, whose omission at the beginning minimises the variance of
+// the remaining bins divided by their number (White, Simulation 69, 323 (1997)). The standard error
+// of the mean is the largest of the errors from blocks of one, two, four, ... bins (Flyvbjerg and
+// Petersen, J. Chem. Phys. 91, 461 (1989)).
 //
-// The friction of a steady slide is also what is dissipated over the distance, and of a
-// viscoelastic block that is the more accurate of the two: forces at the ends of steps have the
-// rates there, from the steps before, which are (q d)^2/3 too large for waves q in steps of d that
-// are long beside the relaxation times. It is the friction then; where work and dissipation differ
-// by more than the standard error, this is the error.
+// The friction of a steady slide is also the dissipated energy over the distance. For a
+// viscoelastic block the dissipation is the more accurate of the two and is used: forces at the
+// ends of steps use rates of the steps before, which are (q d)^2/3 too large for waves q in steps d
+// that are long compared with the relaxation times. The error is then the larger of the standard
+// error and the difference of the two frictions.
 //
-// A slide is steady if the mean friction over a correlation length of the map has changed by less
-// than a hundredth since the one before, and what a geometric series of the last two changes has
-// still to come is less than that as well.
+// A slide is steady if the mean friction over a correlation length of the map differs by less than
+// a hundredth from the mean over the correlation length before, and if the remaining change,
+// extrapolated from the last two changes as a geometric series, is below a hundredth as well.
 #pragma once
 
 #include <optional>
@@ -26,16 +26,17 @@
 
 namespace asperity {
 
-/// Means of a slide after its running-in; uncertainties are standard errors.
+/// Means of a slide after its running-in; _error: standard error of a mean.
 struct SteadySlide {
-    double running_in = 0.0;                         ///< Å
+    double running_in = 0.0;                         ///< distance left out, Å
     double friction = 0.0, friction_error = 0.0;     ///< force against the slide, eV/Å
     double load = 0.0;                               ///< normal force, eV/Å
-    double in_contact = 0.0, in_contact_error = 0.0; ///< sites
-    double mean_height = 0.0;                        ///< Å
-    double relaxed = 0.0; ///< energy dissipated by a viscoelastic block, eV/Å
-    double lost = 0.0;    ///< energy dissipated at instabilities, eV/Å
-    bool steady = false;  ///< the friction no longer drifts
+    double in_contact = 0.0, in_contact_error = 0.0; ///< number of sites in contact
+    double mean_height = 0.0;                        ///< mean height of the lowest layer, Å
+    /// Energy dissipated by a viscoelastic block over the distance, eV/Å.
+    double dissipated_in_block = 0.0;
+    double lost = 0.0;   ///< energy dissipated at instabilities over the distance, eV/Å
+    bool steady = false; ///< the friction no longer drifts
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -46,7 +47,7 @@ struct SteadySlide {
         v("in_contact", in_contact);
         v("in_contact_error", in_contact_error);
         v("mean_height", mean_height);
-        v("relaxed", relaxed);
+        v("relaxed", dissipated_in_block);
         v("lost", lost);
         v("steady", steady);
     }
@@ -56,19 +57,19 @@ struct SteadySlide {
 struct SlidePoint {
     double distance = 0.0; ///< distance since the slide began, Å
     // Energies since the slide began, eV:
-    double work = 0.0;    ///< work of what moves the block sideways
-    double relaxed = 0.0; ///< dissipated by a viscoelastic block
-    double lost = 0.0;    ///< dissipated at instabilities
+    double work = 0.0;                ///< work that moves the block sideways
+    double dissipated_in_block = 0.0; ///< energy dissipated by a viscoelastic block
+    double lost = 0.0;                ///< energy dissipated at instabilities
     // State at the point:
     double load = 0.0;        ///< normal force, eV/Å
-    double in_contact = 0.0;  ///< sites
-    double mean_height = 0.0; ///< Å
+    double in_contact = 0.0;  ///< number of sites in contact
+    double mean_height = 0.0; ///< mean height of the lowest layer, Å
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("distance", distance);
         v("work", work);
-        v("relaxed", relaxed);
+        v("relaxed", dissipated_in_block);
         v("lost", lost);
         v("load", load);
         v("in_contact", in_contact);
@@ -76,22 +77,24 @@ struct SlidePoint {
     }
 };
 
-/// The slide under way.
+/// Points of the slide under way, and their means.
 class SlideAverage {
 public:
+    /// Forgets the points of the slide before.
     void begin() { points_.clear(); }
-    /// Adds a point. Long slides keep every second one, fourth and so on.
+    /// Adds a point. A long slide keeps every second point, later every fourth and so on.
     void add(const SlidePoint& point);
     /// Lengths of an interface, Å.
     struct Lengths {
-        double window = 0.0;  ///< correlation length of the map
-        double spacing = 0.0; ///< spacing of the sites, with which forces vary: bins are whole ones
-        /// Returns the window in whole spacings.
+        double window = 0.0; ///< correlation length of the map
+        /// Spacing of the sites, the period of lateral forces; bins are multiples.
+        double spacing = 0.0;
+        /// Returns the window rounded to a multiple of the spacing, Å.
         double whole_window() const;
     };
     /// Returns true if the friction no longer drifts.
     bool is_steady(const Lengths& lengths) const;
-    /// Returns the means so far; nothing before the second point.
+    /// Returns the means of the points so far; nothing before the second point.
     std::optional<SteadySlide> means(const Lengths& lengths) const;
 
     template <class Visitor>
@@ -100,7 +103,7 @@ public:
     }
 
 private:
-    /// Returns a member of the points at this distance, linear between points.
+    /// Returns a member at this distance, interpolated linearly between points.
     double at(double distance, double SlidePoint::*member) const;
 
     std::vector<SlidePoint> points_;

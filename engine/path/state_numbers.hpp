@@ -37,8 +37,9 @@ namespace asperity {
 /// Numbers by name; integers stay integers.
 using StateNumbers = std::map<std::string, std::variant<double, std::int64_t>>;
 
-/// Visitor that finds the numbers of an object; Self has number(name, double&) and integer(name,
-/// std::int64_t&, least, most).
+/// Visitor that walks through the members of an object and passes each number with its full name to
+/// Self, which has number(name, double&), integer(name, std::int64_t&, least, most) and
+/// longest_list().
 template <class Self>
 class NumberVisitor {
 public:
@@ -107,7 +108,7 @@ public:
         NumberVisitor::operator()(name, const_cast<T&>(value));
     }
 
-    /// Collects the members of an object, without a name before theirs.
+    /// Collects the members of an object under their own names, without a prefix.
     template <class T>
     void members_of(const T& object) {
         const_cast<T&>(object).visit(*this); // writes to none of them
@@ -119,6 +120,7 @@ public:
     void integer(const std::string& name, std::int64_t& value, std::int64_t, std::int64_t) {
         put(name, value);
     }
+    /// Returns the largest accepted length of a list.
     std::int64_t longest_list() const { return std::numeric_limits<std::int64_t>::max(); }
 
 private:
@@ -133,12 +135,13 @@ public:
     /// Keeps a reference to the numbers.
     explicit RestoreNumbers(const StateNumbers& numbers) : numbers_(numbers) {}
 
-    /// Sets a number. Throws io::FileError if there is none of the name, or if it is an integer.
+    /// Sets a number. Throws io::FileError if the name is missing or names an integer.
     void number(const std::string& name, double& value) const;
-    /// Sets an integer. Throws io::FileError if there is none of the name, or if it is no integer
-    /// between least and most.
+    /// Sets an integer. Throws io::FileError if the name is missing, or its value no integer from
+    /// least to most.
     void integer(const std::string& name, std::int64_t& value, std::int64_t least,
                  std::int64_t most) const;
+    /// Returns the largest accepted length of a list: a damaged count must not allocate memory.
     std::int64_t longest_list() const { return static_cast<std::int64_t>(numbers_.size()); }
 
 private:

@@ -58,7 +58,7 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
 void StaticPath::record_slide() {
     results_.slide.add({.distance = points_->way(),
                         .work = points_->lateral_work(),
-                        .relaxed = points_->relaxed(),
+                        .dissipated_in_block = points_->dissipated_in_block(),
                         .lost = points_->dissipation().in_segment,
                         .load = now().force,
                         .in_contact = static_cast<double>(now().in_contact),
@@ -109,7 +109,7 @@ void StaticPath::conclude() {
     const bool slide = kind == Segment::slide;
     Works works{.on_solids = points_->work(),
                 .lateral = slide ? points_->lateral_work() : 0.0,
-                .relaxed = points_->relaxed(),
+                .dissipated_in_block = points_->dissipated_in_block(),
                 .lost = points_->dissipation().in_segment,
                 .stored = points_->stored(),
                 .interface = {},

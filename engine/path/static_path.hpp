@@ -31,7 +31,7 @@ public:
     std::size_t bytes() const override { return block_.bytes() + interface_.bytes(); }
     void free_workspace() const override { block_.workspace()->free_kept(); }
     Remedy remedy() const override { return remedy_of_points(); }
-    /// Returns the remedy for points whose energy balance is off.
+    /// Returns the reason and remedy for points whose energy balance is violated.
     static Remedy remedy_of_points();
     const SpectralBlock& block() const { return block_; }
 
@@ -67,7 +67,7 @@ private:
     SlideAverage::Lengths lengths() const {
         return {correlation_length(surface_), block_.options().spacing};
     }
-    /// Records how close to a free edge the present contact comes. Collective.
+    /// Updates results.edge_distance with the present contact. Collective.
     void look_at_edges();
 
     const ProcessGrid grid_;

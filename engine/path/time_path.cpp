@@ -163,7 +163,7 @@ Works TimePath::so_far() const {
     const EnergyBalance& balance = simulation_.balance();
     return {.on_solids = balance.drive(),
             .lateral = balance.lateral,
-            .relaxed = 0.0,
+            .dissipated_in_block = 0.0,
             .lost = balance.net_damped(),
             .stored = {},
             .interface = interface_work_,

@@ -20,14 +20,15 @@ namespace asperity {
 class TimePath : public Path {
 public:
     /// Places the undeformed block at the start of the path. With a temperature the path starts
-    /// beyond the interaction range, so that the thermostat warms the block on its way down.
+    /// beyond the interaction range, so that the thermostat warms the block before contact.
+    /// Collective.
     TimePath(const Case& c, const Surface& surface, const Communicator& ranks);
 
-    /// Makes a step over which the caller moves the top plane, in place of the drive: no segment
-    /// ends with it; one that has ended is concluded next.
+    /// Makes a time step with the top plane moved by the caller instead of the drive. No segment
+    /// ends with such a step; a segment that had ended before is concluded next. Collective.
     void step(const TopMotion& motion, const Wish& wish);
-    /// Relaxes a copy of the lowest layer from its present place at zero load. Returns nothing if
-    /// the watch stopped the relaxation.
+    /// Relaxes a copy of the lowest layer at zero load, starting from its present displacements.
+    /// Returns nothing if the watch stopped the relaxation. Collective.
     std::optional<LayerAtRest> state_from_here();
 
     const StepRecord& now() const override { return simulation_.now(); }
@@ -74,7 +75,7 @@ public:
 private:
     std::optional<Status> make_next(const Wish& wish) override;
     bool make_behind_end(const Wish& wish) override;
-    /// Relaxes a copy of the lowest layer under no load; the block is not changed.
+    /// Relaxes a copy of the lowest layer at zero load; the block is not changed.
     std::optional<LayerAtRest> find_state() override;
     void conclude() override;
     void make_step(const TopMotion& motion, const Wish& wish);
@@ -89,13 +90,14 @@ private:
     Drive drive_;
     ApproachStart start_;
     std::size_t segment_ = 0;
-    /// Kinetic energy of the whole block at the drive's velocity, eV
+    /// Kinetic energy of the whole block moving at the drive's velocity, eV.
     double kinetic_at_full_speed_ = 0.0;
-    Works segment_start_;           ///< works since the start at the beginning of the segment
+    Works segment_start_;           ///< works from the start to the beginning of the segment
     double interface_work_ = 0.0;   ///< int F dz up to the end of the last segment, eV
     StepRecord end_;                ///< the step that ended the last segment
     std::optional<double> scatter_; ///< SegmentResults::scatter of the last segment, eV/Å
-    VectorField<double> layer_, velocities_; ///< copies of those at now(), if wished for
+    /// Displacements and velocities at now(), if wished for.
+    VectorField<double> layer_, velocities_;
 };
 
 } // namespace asperity

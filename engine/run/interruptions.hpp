@@ -13,23 +13,25 @@
 
 namespace asperity {
 
-/// Reasons to interrupt a run. If there are several, the last one counts.
+/// Reasons to interrupt a run. If there are several, the last one in this list counts.
 enum class Interruption { none, checkpoint, wall_limit, signal };
 
 /// Interruptions of a run.
 class Interruptions {
 public:
-    /// Starts the clock. checkpoint: seconds between two checkpoints; empty: none.
+    /// Starts the clock. checkpoint: seconds between two checkpoints; empty if none are written.
     Interruptions(const RunOptions& options, std::optional<double> checkpoint,
                   const Communicator& ranks)
         : options_(options), checkpoint_(checkpoint), ranks_(ranks) {}
 
     /// Returns the reason to interrupt now, the same on all ranks. Collective.
     Interruption now() const;
-    /// Returns true about every half second (more often with frequent checkpoints), when it is time
-    /// to call now(), for steps too short to call it at each. Collective.
+    /// Returns true about every half second (more often with frequent checkpoints). Callers with
+    /// short steps call now() only then. Collective.
     bool check_is_due();
+    /// Notes the time of a call of now().
     void checked() { last_check_ = seconds(); }
+    /// Notes the time of a checkpoint.
     void checkpoint_written() { last_checkpoint_ = seconds(); }
     /// Returns the seconds since the start.
     double seconds() const {
@@ -37,7 +39,7 @@ public:
     }
 
 private:
-    /// Returns the reason that this rank knows.
+    /// Returns the reason known to this rank.
     Interruption here() const;
 
     const RunOptions& options_;

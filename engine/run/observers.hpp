@@ -15,24 +15,25 @@ namespace asperity {
 
 class RunSession;
 
-/// Returns true if the next step makes a row of the series.
+/// Returns true if the next step is recorded as a row of the series.
 bool row_is_due(const Path& path);
 
 /// The observers of a run, in any order.
 class Observers {
 public:
+    /// Makes the observers that the scene asks for. Keeps a reference to the session.
     Observers(RunSession& session, const Path& path);
 
-    /// Returns the data that the observers need of the next step.
+    /// Returns the quantities that the observers need of the next step.
     Path::Wish wish(const Path& path) const;
     /// Looks at the path after advance().
     void look(const Path& path) const;
-    /// Looks at an iteration of a relaxation, for which the path has no point yet. residual:
-    /// largest force, eV/Å.
+    /// Shows an iteration of a relaxation in the line of progress. residual: largest residual
+    /// force, eV/Å.
     void look_within(const Path& path, long long iteration, double residual) const {
         look_within_(path, iteration, residual);
     }
-    /// Ends the observation with the run, whether or not the path has come to its end.
+    /// Ends the observation when the run ends, on a complete or an interrupted path.
     void finish(const Path& path) const;
 
 private:

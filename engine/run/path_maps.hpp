@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Maps along a path (output.fields). Maps at every so many steps or points, at the ends of
-// segments, of states and at times after the approach are written at once; those at the largest
-// attraction of the last pull-off are kept until the run ends.
+// Maps along a path (output.fields). Periodic maps, maps at the ends of segments, of relaxed states
+// and at times after the approach are written at once. The map at the largest attraction of the
+// last pull-off is kept in memory until the run ends.
 #pragma once
 
 #include "engine/path/path.hpp"
@@ -21,12 +21,13 @@ class RunSession;
 /// Observer that writes maps along a path.
 class PathMaps : public Observer {
 public:
+    /// Keeps a reference to the session.
     explicit PathMaps(RunSession& session);
 
     Path::Wish wish(const Path& path) const override;
     void finish(const Path& path) override;
 
-    /// Passes the numbers to a visitor, for checkpoints; arrays() lists the kept layer.
+    /// Passes the numbers to a visitor, for checkpoints; arrays() has the kept layer.
     template <class Visitor>
     void visit(Visitor& v) {
         v("attraction", attraction_);
@@ -34,7 +35,9 @@ public:
         v("kept", kept_);
         v("delayed_written", delayed_written_);
     }
+    /// Returns the kept layer to be written to a checkpoint; an empty list if none is kept.
     std::vector<StateArray> arrays() const;
+    /// Returns the kept layer to be read from a checkpoint.
     std::vector<RestoredArray> arrays_to_restore();
 
 protected:
@@ -53,7 +56,7 @@ private:
     // The lowest layer at the largest attraction of the pull-off.
     double attraction_ = 0.0;       ///< eV/Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å
-    bool kept_ = false;             ///< the kept layer is to be written
+    bool kept_ = false;             ///< a layer is kept and will be written
     VectorField<double> layer_;     ///< the layer; empty unless the scene asks for these maps
 };
 

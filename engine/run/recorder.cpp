@@ -62,8 +62,8 @@ void put_group(io::PayloadWriter& entry, const std::string& group, bool numbered
     entry.put<std::uint64_t>(numbered);
 }
 
-/// Adds a data set to an entry. unit: of a growing one; the others have theirs in
-/// io/quantities.hpp.
+/// Adds a data set to an entry. unit: unit of a growing data set; io/quantities.hpp has the units
+/// of the others.
 template <class T>
 void put_member(io::PayloadWriter& entry, MemberKind kind, const std::string& name,
                 const io::Hdf5File::Shape& shape, std::span<const T> values,

@@ -4,9 +4,9 @@
 // The records of a run: rows of the series, maps of states, frames of the trajectory (collective;
 // the root writes).
 //
-// They are appended to run.journal as entries (io/journal.hpp), to which a checkpoint refers.
-// run.h5 is made from them: at the start, at the end, and at checkpoints as long as that takes less
-// than a small fraction of the time. It is always whole.
+// Records are appended to run.journal as entries (io/journal.hpp), to which a checkpoint refers.
+// run.h5 is made from the journal at the start, at the end, and at checkpoints as long as writing
+// takes less than a small fraction of the time. run.h5 is complete at any time.
 #pragma once
 
 #include "engine/path/path.hpp"
@@ -28,10 +28,10 @@ namespace asperity {
 /// Recorder of a run.
 class Recorder {
 public:
-    /// Amount recorded at some moment.
+    /// Number of rows and length of the journal at a checkpoint.
     struct Position {
         std::uint64_t rows = 0;
-        io::Journal::Mark mark; ///< mark of the journal; the root's
+        io::Journal::Mark mark; ///< end of the journal, on the root
         template <class Visitor>
         void visit(Visitor& v) {
             v("rows", rows);
@@ -40,22 +40,25 @@ public:
         }
     };
 
-    /// Writes further contents of run.h5 after the records.
+    /// Function that writes further contents of run.h5 after the records.
     using AddToFile = std::function<void(io::Hdf5File&)>;
 
-    /// Makes a new journal, or continues one from a position that it holds (Journal::holds). The
-    /// surface must outlive the recorder. columns: those of the series.
+    /// Makes a new journal, or continues the journal of a directory from the position `resume`,
+    /// which the journal must hold (Journal::holds). The surface must outlive the recorder.
+    /// columns: columns of the series; add: called when run.h5 is written.
     Recorder(const io::Directory& directory, const Surface& surface,
              const Communicator& communicator, std::vector<const SeriesColumn*> columns,
              const std::optional<Position>& resume, AddToFile add);
 
-    /// Appends one row: an observed step, or a point of a quasi-static path (without time, kinetic
-    /// energy, damping and their columns), made with wish_of_row().
+    /// Appends the last step or point as one row. A time step must have been made with
+    /// wish_of_row().
     void row(const Path& path);
+    /// Returns the quantities that a row needs of a time step.
     Path::Wish wish_of_row() const;
+    /// Returns the number of rows so far.
     std::uint64_t rows() const { return rows_; }
-    /// Appends maps of a state: gap, pressure, contact, displacement; and the distribution of gaps
-    /// P(u). Must be called once for each name.
+    /// Appends the maps of a state (gap, pressure, contact, displacement) and the distribution of
+    /// gaps P(u). Each name may be used once.
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface);
     /// Returns the entry that fields() appends to the journal, on the root. Collective.
@@ -63,21 +66,22 @@ public:
                                              const VectorPlane<const double>& layer,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface);
-    /// Appends a frame of the trajectory (H5MD): the lowest layer at path.now(), and its velocities
-    /// if they are wanted.
+    /// Appends a frame of the trajectory (H5MD): the positions of the lowest layer at path.now(),
+    /// with its velocities if `velocities`.
     void frame(const Path& path, bool velocities);
 
     /// Writes all rows to the journal and returns its position.
     Position position();
-    /// Brings the journal to the disk.
+    /// Flushes the journal to the disk.
     void synchronize();
     /// Writes run.h5.
     void write();
-    /// Writes run.h5 at a checkpoint if that takes less than largest_share of the time since the
-    /// last.
+    /// Writes run.h5 at a checkpoint if writing takes less than largest_share of the time since
+    /// run.h5 was last written.
     void write_if_cheap();
 
-    // Root only.
+    // Functions for the root only.
+    /// Writes run.h5 without the other ranks.
     void write_on_root();
     /// Returns the columns of the series so far by their names in run.h5, one value a row.
     std::map<std::string, std::vector<double>> series() const;

@@ -16,17 +16,17 @@ namespace asperity {
 struct RunOptions {
     std::string out;                  ///< --out; empty: results/<scene>
     std::string resume;               ///< --resume: "", "auto", or a checkpoint file
-    bool restart = false;             ///< --restart: an unfinished run is thrown away
-    std::optional<double> wall_limit; ///< s
+    bool restart = false;             ///< --restart: discards an unfinished run in the directory
+    std::optional<double> wall_limit; ///< --wall-limit, s
     io::ProgressMode progress = io::ProgressMode::automatic;
     bool quiet = false; ///< print the summary alone
-    bool json = false;  ///< print result.json on one line in place of all else
+    bool json = false;  ///< print result.json on one line and nothing else
 
     bool resuming() const { return !resume.empty(); }
 };
 
-/// Runs the case on all ranks of the communicator, as many as the case was made for, and prints the
-/// summary on rank 0. Returns the exit code. Collective. Throws io::Error, which main prints.
+/// Runs the case on all ranks of the communicator, whose number must be that of the case, and
+/// prints the summary on rank 0. Returns the exit code. Collective. Throws io::Error.
 int run(const Case& c, const RunOptions& options, const Communicator& communicator);
 
 } // namespace asperity

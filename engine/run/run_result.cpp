@@ -73,11 +73,12 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         "kinetic.pull_off", "pull_off_force", "work_of_drive.uncertainty.pull_off",
         "work_of_interface.uncertainty.pull_off", "lost.uncertainty.pull_off");
     result.set("lost.cycle", results.lost_in_cycle);
-    if (in) result.set("dissipated_in_block.approach", in->relaxed);
-    if (out) result.set("dissipated_in_block.pull_off", out->relaxed);
-    result.set("dissipated_in_block.cycle", results.relaxed_in_cycle);
-    if (in && in->relaxed) result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
-    if (out && out->relaxed)
+    if (in) result.set("dissipated_in_block.approach", in->dissipated_in_block);
+    if (out) result.set("dissipated_in_block.pull_off", out->dissipated_in_block);
+    result.set("dissipated_in_block.cycle", results.dissipated_in_block_in_cycle);
+    if (in && in->dissipated_in_block)
+        result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
+    if (out && out->dissipated_in_block)
         result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
     if (in) result.set("stored.approach", in->stored);
     if (out) result.set("stored.pull_off", out->stored);
@@ -99,7 +100,8 @@ void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
     if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
+        result.set("contact_radius.relaxed",
+                   c.edge() * std::sqrt(*fraction / std::numbers::pi));
     if (const auto contact = result.number("contact_radius.relaxed"))
         result.set("instrument.contact_radius", 0.1 * *contact);
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
@@ -127,7 +129,8 @@ void add_steady(const SteadySlide& s, const Case& c, std::size_t i, io::Result& 
     result.set("segments[].steady_contact_fraction", i, s.in_contact / c.sites());
     result.set("segments[].steady_contact_fraction_error", i, s.in_contact_error / c.sites());
     result.set("segments[].steady_mean_height", i, s.mean_height);
-    if (c.effects.branches) result.set("segments[].steady_dissipated_in_block", i, s.relaxed);
+    if (c.effects.branches)
+        result.set("segments[].steady_dissipated_in_block", i, s.dissipated_in_block);
     result.set("segments[].steady_lost", i, s.lost);
 }
 
@@ -143,7 +146,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].work_of_drive", i, s.work);
         given("segments[].work_of_interface", s.interface_work);
         result.set("segments[].lost", i, s.lost);
-        given("segments[].dissipated_in_block", s.relaxed);
+        given("segments[].dissipated_in_block", s.dissipated_in_block);
         given("segments[].stored", s.stored);
         given("segments[].work_of_settling", s.settling);
         given("segments[].kinetic", s.kinetic);
@@ -292,7 +295,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
         if (c.effects.spring) result.set("energy.spring", now.machine_energy);
         if (c.effects.branches) {
             result.set("energy.branches", now.branch_energy);
-            result.set("energy.dissipated_in_block", now.relaxed);
+            result.set("energy.dissipated_in_block", now.dissipated_in_block);
         }
     } else if (const std::optional<ZeroLoad>& z = path.results().zero_load) {
         const double area = c.area() / units::milli_per_unit;

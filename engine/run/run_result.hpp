@@ -17,16 +17,17 @@ namespace asperity {
 io::Result scene_result(const Scene& scene);
 /// Returns scene_result() with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
-/// Returns the common part of the results of dynamic and quasi-static runs: the scene, its surface,
-/// its effects, the results, theory, ranks and threads.
+/// Returns surface_result() with the effects, the results of the path, theory, ranks and threads.
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results);
 
-/// Returns the part of a case that may not change between a checkpoint and its resumption: keys,
-/// and the map or the atoms of a file.
+/// Returns as text the part of a case that may not change between a checkpoint and its resumption:
+/// keys, and digests of the map or the atoms of a file.
 std::string physics_of(const Case& c, const Surface& surface);
 
-/// Adds steps and energies of a path. failed: the step or point at which a guard ended the path.
+/// Adds the number of steps and the energies of a path: of its last step or point, or of `failed`,
+/// at which a guard ended the path.
 void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Result& result);
+/// Adds the wall time and number of calls of each phase.
 void add_phases(const Phases& phases, io::Result& result);
 
 } // namespace asperity

@@ -27,7 +27,8 @@ namespace asperity {
 /// Session of a run.
 class RunSession {
 public:
-    /// Takes the result directory and makes the surface. Collective, as all member functions.
+    /// Locks the result directory and makes the surface. Keeps references to the case and the
+    /// options. All member functions are collective.
     RunSession(const Case& c, const RunOptions& options, const Communicator& ranks);
     RunSession(const RunSession&) = delete;
     RunSession& operator=(const RunSession&) = delete;
@@ -42,29 +43,31 @@ public:
 
     // Run as a whole.
 
-    /// Prints the opening, calls work(), writes the result (also of a failure, which is rethrown)
-    /// and prints the summary. Returns the exit code.
+    /// Prints the opening, calls work(), writes the result and prints the summary. Returns the exit
+    /// code. If work() throws, the failure is written to the result and the exception rethrown.
     int carry_out(const Path& path, const std::function<void()>& work);
-    /// Resumes from a checkpoint before the first step, if one was asked for and is there.
+    /// Resumes from a checkpoint, if the options ask for it and a checkpoint exists. Must be called
+    /// before the first step.
     void begin(Path& path);
-    /// Advances the path. Before a relaxation at the end of an approach a checkpoint is written:
-    /// a run that is stopped in the relaxation begins it again. Returns false if the watch has
-    /// stopped a relaxation. Throws io::PhysicsError if the energy balance or a coordinate of a
-    /// step or point is no longer physical (guard.hpp); a dynamic path is then put back to its last
-    /// good state, which is written to last-good.h5.
+    /// Advances the path (Path::advance()). Writes a checkpoint before a relaxation at the end of
+    /// an approach: a run that is stopped during the relaxation resumes from there. Returns false
+    /// if the watch has stopped a relaxation. Throws io::PhysicsError if the energy balance or a
+    /// coordinate of a step or point is no longer physical (guard.hpp); a dynamic path is then
+    /// restored to its last good state, which is written to last-good.h5.
     bool advance(Path& path, const Path::Wish& wish);
-    /// Copies the state of a dynamic path every few rows of the series, as the last good one, after
-    /// the observers have looked.
+    /// Copies the state of a dynamic path as its last good state, every few rows of the series.
+    /// Must be called after the observers have looked.
     void copy_good_state(const Path& path);
 
     // Reasons to stop.
 
-    /// Writes a checkpoint between two steps or points if it is time or the run must end. Returns
-    /// true if the run must end; a run does not end by drive.max_steps before a segment that has
-    /// ended is concluded. Throws io::FileError if the result directory was moved or removed.
+    /// Writes a checkpoint between two steps or points if a checkpoint is due or the run must end.
+    /// Returns true if the run must end; drive.max_steps does not end a run before an ended segment
+    /// is concluded. Throws io::FileError if the result directory was moved or removed.
     bool stop_here(const Path& path);
-    /// Returns true between two iterations if the relaxation must end, and after it, by stop_now(),
-    /// the run. Writes a checkpoint that is due if the path can be resumed within the relaxation.
+    /// Returns true between two iterations of a relaxation if the run must end: the caller ends the
+    /// relaxation and calls stop_now(). Writes a checkpoint that is due if the path can be resumed
+    /// within the relaxation.
     bool stop_within(const Path& path);
     /// Writes a checkpoint for a run that ends.
     void stop_now(const Path& path);
@@ -111,10 +114,10 @@ private:
     std::optional<Recorder> recorder_;
     std::optional<Recorder::Position> resumed_at_;
     Stopped stopped_ = Stopped::no;
-    /// Last good state of a dynamic path, and the numbers of the session there.
+    /// Last good state of a dynamic path, and the numbers of the session at that state.
     Snapshot last_good_;
     CollectNumbers session_at_last_good_;
-    /// The step or point that ended the run, if one did: the path may have been put back.
+    /// The step or point at which a guard ended the run; the path may have been restored since.
     std::optional<StepRecord> failed_;
     /// Processor time before the checkpoint that the run was resumed from, s
     double processor_before_ = 0.0;

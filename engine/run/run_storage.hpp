@@ -5,7 +5,7 @@
 //
 //     run.lock               while a run uses the directory (io/result_directory.hpp)
 //     run.journal            entries of the recorder; until the run is over
-//     run.h5                 the same as HDF5 (recorder.hpp)
+//     run.h5                 these entries as HDF5 (recorder.hpp)
 //     checkpoint.h5          the newest state, and the one before; until the run is over
 //     checkpoint-before.h5
 //     result.json            the result
@@ -31,26 +31,29 @@ namespace asperity {
 /// The result directory of a run.
 class RunStorage {
 public:
-    /// Takes the directory. Collective.
+    /// Locks the directory. Keeps a reference to the options. Collective. Throws io::FileError if
+    /// another run uses the directory or results would be overwritten.
     RunStorage(const RunOptions& options, const Case& c, const Communicator& ranks);
 
     // Functions for the root only.
-    const std::string& path() const { return directory().path(); }
+    const std::string& path() const { return directory().path(); } ///< returns its path
+    /// Returns the place of a file in the directory.
     io::FilePlace file(const std::string& name) const { return {directory(), name}; }
     const io::Directory& directory() const { return owner_->directory(); }
+    /// Throws io::FileError if the directory was moved or removed.
     void require_in_place() const { owner_->require_in_place(); }
-    /// Returns notes for the user and forgets them.
+    /// Returns the notes for the user since the last call.
     std::vector<std::string> take_notes();
 
-    /// Returns the newest checkpoint that is whole and whose entries the journal holds, if the run
-    /// was asked to resume and there is one. A damaged one is set aside (checkpoint-damaged.h5) and
-    /// noted. An empty result on other ranks means the same as on the root. Collective. Throws
+    /// Returns the newest undamaged checkpoint whose entries the journal holds; nothing if the run
+    /// was not asked to resume or no checkpoint exists. All ranks return the same. A damaged
+    /// checkpoint is renamed to checkpoint-damaged.h5, with a note. Collective. Throws
     /// io::FileError if all checkpoints are damaged.
     std::optional<io::FilePlace> checkpoint_to_resume();
-    /// Calls write_state(place) to write a checkpoint and keeps the last one as the one before.
-    /// Collective.
+    /// Renames the last checkpoint to checkpoint-before.h5 and calls write_state(place) to write a
+    /// new one. Collective.
     void save(const std::function<void(const io::FilePlace&)>& write_state);
-    /// Removes the files that only serve to resume, after the run.
+    /// Removes the files that are needed only to resume. Called after the run.
     void remove_checkpoints();
 
 private:
@@ -63,7 +66,8 @@ private:
     std::vector<std::string> notes_;
 };
 
-/// Returns the amount recorded at a checkpoint. Throws io::FileError if the numbers lack it.
+/// Returns the position of the recorder at a checkpoint. Throws io::FileError if the numbers lack
+/// it.
 Recorder::Position position_in(const StateNumbers& numbers);
 
 } // namespace asperity

@@ -25,9 +25,10 @@ struct SeriesColumn {
     io::Quantity quantity; ///< the name is that of the data set, "series/force"
     /// Returns the value at path.now(), the same on all ranks. Collective.
     double (*value)(const Path& path);
-    /// The value is computed from the sites, path.layer(), which is then needed in each row.
+    /// The value is computed from path.layer(), which each row then needs.
     bool of_sites = false;
 
+    /// Returns true if runs of such a path with these effects have the column.
     bool is_in(bool dynamic_path, const Effects& effects) const;
     /// Returns the name of the column, "force".
     std::string name() const {
@@ -35,7 +36,9 @@ struct SeriesColumn {
     }
 };
 
+/// Returns all columns, in the order of run.h5.
 std::span<const SeriesColumn> series_columns();
+/// Returns the descriptions of all columns, for the reference.
 std::vector<io::Quantity> series_quantities();
 
 } // namespace asperity

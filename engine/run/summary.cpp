@@ -225,8 +225,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     rows.push_back({form.named("lost", "segments[].lost"),
                     [&](const SegmentResults& s) { return form.energy(s.lost); }});
     if (c.effects.branches)
-        rows.push_back({form.named("dissipated in the block", "segments[].dissipated_in_block"),
-                        [&](const SegmentResults& s) { return form.energy(s.relaxed); }});
+        rows.push_back(
+            {form.named("dissipated in the block", "segments[].dissipated_in_block"),
+             [&](const SegmentResults& s) { return form.energy(s.dissipated_in_block); }});
     if (!c.effects.dynamic)
         rows.push_back({form.named("stored", "segments[].stored"),
                         [&](const SegmentResults& s) { return form.energy(s.stored); }});

@@ -19,15 +19,15 @@
 
 namespace asperity {
 
-/// Statistics of a map in its own grid, by finite differences. Points that are NaN are left out.
+/// Statistics of a map on its own grid, by finite differences. NaN heights are left out.
 struct MapStatistics {
     double rms_height = 0.0;            ///< Å
     double rms_slope = 0.0;             ///< sqrt(<hx^2 + hy^2>), differences of neighbours
     double rms_curvature = 0.0;         ///< sqrt(<(hxx + hyy)^2>) / 2, second differences, 1/Å
     double lowest = 0.0, highest = 0.0; ///< Å
 };
-/// Returns the statistics. dx, dy: size of a pixel, Å; periodic: take differences across the edges
-/// too, otherwise only within the map.
+/// Computes the statistics of a map. dx, dy: size of a pixel, Å; periodic: include differences
+/// across the edges.
 MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::size_t ny,
                              double dx, double dy, bool periodic);
 
@@ -37,6 +37,7 @@ struct LineStatistics {
     std::vector<double> r, acf; ///< Å, Å^2; r from a pixel to L / 2
     std::vector<double> slope;  ///< scale-dependent slope at r
 };
+/// Computes the statistics of lines. length: edge of the map, Å.
 LineStatistics line_statistics(const std::vector<double>& h, int n, double length);
 
 } // namespace asperity

@@ -12,8 +12,8 @@
 
 namespace asperity {
 
-/// Returns one segment for each member of drive.path; adds wrong members to problems and leaves
-/// them out. area: of the interface, Å^2.
+/// Returns one segment for each valid member of drive.path and adds the wrong members to problems.
+/// area: area of the interface, Å^2, for loads in MPa.
 std::vector<Segment> parse_path(const std::vector<std::string>& path, double area,
                                 io::Problems& problems);
 

@@ -52,19 +52,23 @@ void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
                                  of + " names no map of a wall"};
     schema
         .number_or(name + "_size", map.size, "auto", "Å", positive(),
-                   "edge of the map of " + of + "; \"auto\": what the file says, else the box")
+                   "edge of the map of " + of +
+                       "; \"auto\": as the file states, otherwise the edge of the box")
         .needs = {given};
-    schema.key(name + "_unit", map.unit, "its unit; \"auto\": what the file says, else " + unit)
+    schema
+        .key(name + "_unit", map.unit,
+             "unit of the map of " + of + "; \"auto\": as the file states, otherwise " + unit)
         .needs = {given};
     schema
         .choice<MapMissing>(name + "_missing", map.missing,
                             {{"refuse", MapMissing::refuse}, {"fill", MapMissing::fill}},
-                            "points of this map without a number: as surface.file_missing")
+                            "points without a value in the map of " + of +
+                                ", as surface.file_missing")
         .needs = {given};
     schema
         .choice<MapCrop>(name + "_crop", map.crop,
                          {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
-                         "such a map that is not square: as surface.file_crop")
+                         "a map of " + of + " that is not square, as surface.file_crop")
         .needs = {given};
 }
 
@@ -97,8 +101,9 @@ bool Scene::is_dynamic() const {
 
 io::Schema bind(Scene& scene) {
     io::Schema schema;
-    const auto kept = std::make_shared<const Needs>(scene); // the closures of the needs look at it
-    const Needs& needs = *kept;
+    const auto shared_needs =
+        std::make_shared<const Needs>(scene); // the closures of the needs refer to it
+    const Needs& needs = *shared_needs;
 
     auto& surface = scene.surface;
     schema.section("surface", "The rigid, rough substrate.");
@@ -107,17 +112,17 @@ io::Schema bind(Scene& scene) {
                                 {"self-affine", SurfaceKind::self_affine},
                                 {"file", SurfaceKind::file},
                                 {"atoms", SurfaceKind::atoms}},
-                               "the substrate: one layer of atoms with heights, made or from a "
-                               "map; \"atoms\": the atoms of a file, at any positions");
+                               "the substrate: one layer of atoms with heights, generated or from "
+                               "a map; \"atoms\": atoms of a file at arbitrary positions");
     schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
-                           "N; the periodic box is N spacings wide; a length (\"133 nm\") is "
-                           "rounded to whole spacings");
+                           "number of sites along an edge of the box, N; or its width (\"133 "
+                           "nm\"), rounded to whole spacings");
     schema
         .choice<Boundary>(
             "boundary", surface.boundary,
             {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
-            "edges of the box: the surfaces repeat beyond them, or the substrate ends there below "
-            "a half-space that goes on (a tip, a lens, a punch; over a wall, quasi-static)")
+            "edges of the box: periodic surfaces, or a substrate that ends at the edges below an "
+            "infinite half-space (a tip, a lens, a punch; over a wall, quasi-static)")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
                                  "a surface without images is known wave by wave, at rest",
                                  "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
@@ -128,8 +133,8 @@ io::Schema bind(Scene& scene) {
                   "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
     schema
         .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
-                "block spacing over substrate spacing; 1.618 is incommensurate (rounded to whole "
-                "atoms)")
+                "block spacing divided by substrate spacing, rounded to whole atoms; 1.618 is "
+                "incommensurate")
         .needs = {
         needs.heights("the atoms stand where their file says",
                       "leave it out: the file has its own spacing"),
@@ -139,51 +144,52 @@ io::Schema bind(Scene& scene) {
                        "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
     io::Schema::Key& rms =
         schema.number("rms", surface.rms, "Å", at_least(0.0),
-                      "rms height; a map from a file is scaled to it only if the scene gives it");
+                      "rms height; a map from a file is scaled only if the scene sets this key");
     rms.omitted = [&scene] { return scene.surface.reads_file() && !scene.gives_rms(); };
     rms.needs = {needs.rough, needs.heights("the atoms stand where their file says",
                                             "leave it out, and scale the file")};
     schema.number("hurst", surface.hurst, "", between(0.0, 1.0), "Hurst exponent H").needs = {
         needs.self_affine};
-    schema.number("rolloff", surface.rolloff, "", at_least(1.0), "q0 / q_L: C(q) is constant below")
+    schema
+        .number("rolloff", surface.rolloff, "", at_least(1.0),
+                "roll-off wavevector q0 / q_L, below which C(q) is constant")
         .needs = {needs.self_affine};
     schema
         .number_or("q_max", surface.q_max, "nyquist", "", at_least(1.0),
-                   "q1 / q_L: C(q) is zero above; \"nyquist\" is sites/2, and no surface has "
-                   "shorter waves")
+                   "largest wavevector q1 / q_L, above which C(q) is zero; \"nyquist\" is sites/2, "
+                   "the upper limit")
         .needs = {needs.self_affine};
     schema.removed({"surface.cutoff", "", "it is called surface.q_max",
                     "write q_max with the same number; without it the spectrum ends at Nyquist"});
     schema
         .choice<Amplitudes>("amplitudes", surface.amplitudes,
                             {{"gaussian", Amplitudes::gaussian}, {"fixed", Amplitudes::fixed}},
-                            "random amplitudes and phases, or random phases alone")
+                            "random amplitudes and phases, or random phases only")
         .needs = {needs.self_affine};
     schema
         .integer("seed", surface.seed, at_least(0),
                  "seed of the surface: the same seed makes a bitwise identical surface")
         .needs = {needs.self_affine};
-    schema.number_or("radius", surface.radius, "none", "Å", positive(), "of a spherical cap")
+    schema
+        .number_or("radius", surface.radius, "none", "Å", positive(),
+                   "radius of a spherical cap under the roughness")
         .needs = {
         needs.heights("the atoms stand where their file says", "leave it out, and curve the file")};
     schema
-        .key(
-            "file", surface.file,
-            "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of "
-            "numbers; "
-            "for kind = \"atoms\": HDF5 with /position, /type and the block's periodic /box; other "
-            "formats are converted first (asperity convert); looked for beside the scene, then in "
-            "the "
-            "working directory")
+        .key("file", surface.file,
+             "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of "
+             "numbers; for kind = \"atoms\": HDF5 with /position, /type and the block's periodic "
+             "/box; `asperity convert` converts other formats; searched in the folder of the "
+             "scene, then in the working directory")
         .needs = {needs.file};
     schema
         .number_or("file_size", surface.file_size, "auto", "Å", positive(),
-                   "edge of the map; \"auto\": what the file says, else the box")
+                   "edge of the map; \"auto\": as the file states, otherwise the edge of the box")
         .needs = {needs.heights("the file says how wide its periodic box is", "leave it out"),
                   needs.map};
     schema
         .key("file_unit", surface.file_unit,
-             "unit of the map's heights; \"auto\": what the file says, else Å")
+             "unit of the map's heights; \"auto\": as the file states, otherwise Å")
         .needs = {
         needs.heights("files of atoms say their unit, or are in Å",
                       "leave it out; give /position and /box of the file an attribute unit"),
@@ -192,8 +198,8 @@ io::Schema bind(Scene& scene) {
         .choice<Detrend>(
             "detrend", surface.detrend,
             {{"none", Detrend::none}, {"plane", Detrend::plane}, {"periodic", Detrend::periodic}},
-            "what is taken off a map from a file: nothing, the mean plane, or that "
-            "and the jumps between opposite edges")
+            "removes from a map of a file nothing, the mean plane, or the mean plane and the jumps "
+            "between opposite edges")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
                   needs.map};
     schema
@@ -202,27 +208,28 @@ io::Schema bind(Scene& scene) {
                              {"fill", MapMissing::fill},
                              {"hole", MapMissing::hole}},
                             "points of the map without a height: refused, filled by Laplace's "
-                            "equation, or holes of a wall: no solid is there (a punch)")
+                            "equation, or holes without a solid in a wall (a punch)")
         .needs = {needs.map};
     schema
         .choice<MapCrop>("file_crop", surface.file_crop,
                          {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
-                         "a map that is not square: refused, or its middle taken")
+                         "a map that is not square: refused, or cut to its middle")
         .needs = {needs.map};
     schema
-        .choice<LineNoise>("line_noise", surface.line_noise,
-                           {{"keep", LineNoise::keep},
-                            {"align-rows", LineNoise::align_rows},
-                            {"isotropic", LineNoise::isotropic}},
-                           "noise of a scan from line to line: kept; the median steps between "
-                           "lines taken off; the waves across the lines scaled down to the "
-                           "spectrum along them")
+        .choice<LineNoise>(
+            "line_noise", surface.line_noise,
+            {{"keep", LineNoise::keep},
+             {"align-rows", LineNoise::align_rows},
+             {"isotropic", LineNoise::isotropic}},
+            "noise of a scan from line to line: kept; reduced by subtracting the median steps "
+            "between lines; or waves across the lines scaled down to the spectrum along the lines")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
                   needs.map};
     schema
-        .choice<Resample>("resample", surface.resample,
-                          {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
-                          "how a map that has not N x N values is brought onto the lattice")
+        .choice<Resample>(
+            "resample", surface.resample,
+            {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
+            "resampling of a map without N x N values to the lattice: refused, or band-limited")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
                   needs.map};
 
@@ -232,10 +239,8 @@ io::Schema bind(Scene& scene) {
         .choice<BlockModel>(
             "model", block.model,
             {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
-            "on a dynamic path: every atom, or coarser with depth; on a quasi-static path the "
-            "block is "
-            "the waves "
-            "of its lattice")
+            "dynamic paths: every atom, or cells that become coarser with depth; quasi-static "
+            "paths use the exact static response of the lattice")
         .needs = {needs.dynamic};
     schema.removed({"block.model", "spectral",
                     "a quasi-static path is always one of waves, and a dynamic path never",
@@ -249,8 +254,8 @@ io::Schema bind(Scene& scene) {
         needs.dynamic};
     schema
         .count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
-                         "in lattice layers, or a length (\"33 nm\"), rounded to whole layers; N "
-                         "where the scene does not say")
+                         "thickness in lattice layers, or a length (\"33 nm\"), rounded to whole "
+                         "layers; by default N")
         .needs = {
         {needs.periodic.is_met, "surface.boundary is \"free\", and the block is a half-space"}};
     schema
@@ -265,14 +270,14 @@ io::Schema bind(Scene& scene) {
         needs.dynamic, "on a quasi-static path",
         "on such a path the block is a sum of waves, and at finite strain waves do not add up",
         "take drive.mode = \"dynamic\" with an approach, or strain = \"linear\"")};
-    auto& prony =
-        schema.rows<2>("prony", block.prony,
-                       {{{"modulus over young", "", positive(), "0.5"},
-                         {"relaxation time", "ps", positive(), "\"1 ns\""}}},
-                       "branches of a viscoelastic block, on a quasi-static path, as in [[9.0, \"1 "
-                       "ns\"], [1.5, \"20 ns\"]], the times growing; young is then the relaxed "
-                       "modulus, and drive.velocity says how fast time passes; or the file that "
-                       "`asperity prony` made of a master curve, which gives young as well");
+    auto& prony = schema.rows<2>(
+        "prony", block.prony,
+        {{{"modulus over young", "", positive(), "0.5"},
+          {"relaxation time", "ps", positive(), "\"1 ns\""}}},
+        "branches of a viscoelastic block (quasi-static paths) with ascending times, for example "
+        "[[9.0, \"1 ns\"], [1.5, \"20 ns\"]]; young is then the relaxed modulus, and "
+        "drive.velocity determines the time between points; or a file that `asperity prony` has "
+        "made from a master curve, which also sets young");
     prony.text = &scene.fit.file;
     prony.example = "rubber.toml";
     prony.needs = {needs.refusing(needs.equilibria, "on a dynamic path",
@@ -287,13 +292,13 @@ io::Schema bind(Scene& scene) {
                  {{{"thickness", "Å", positive(), "\"2 nm\""},
                    {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
                    {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
-                 "coatings between the block's own material and its surface, on a quasi-static "
-                 "path, from the surface upwards; a thickness is rounded to whole lattice layers")
+                 "coatings between the block's own material and its surface (quasi-static paths), "
+                 "from the surface upwards; a thickness is rounded to whole lattice layers")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
                                  "take drive.mode = \"quasistatic\", or leave layers out")};
     schema
         .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
-                "tension of the block's surface, on a quasi-static path")
+                "tension of the block's surface (quasi-static paths)")
         .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
                                  "take drive.mode = \"quasistatic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
@@ -302,51 +307,43 @@ io::Schema bind(Scene& scene) {
                     "rigid top would return"});
 
     auto& interface = scene.interface;
-    schema.section("interface", "What acts between substrate and lowest layer.");
+    schema.section("interface", "The interaction between substrate and lowest layer.");
     schema.choice<InterfaceKind>("kind", interface.kind,
                                  {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
-                                 "pairs of atoms, or a wall: a law of the gap below each site, "
-                                 "without lateral forces (quasi-static "
-                                 "paths)");
+                                 "pairs of atoms, or a wall, which acts by a law of the gap below "
+                                 "each site without lateral forces (quasi-static paths)");
     std::vector<std::pair<std::string, int>> names;
     each_potential(interface.potentials,
                    [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
     schema
         .choice<int>("potential", interface.potential, names,
-                     "potential of the pairs, or of the atoms for which a smeared wall stands")
+                     "potential of the pairs, or of the atoms of a smeared wall")
         .needs = {needs.pairs};
     each_potential(interface.potentials, [&]<class P>(P& p) {
         bind_potential(schema, p, {needs.pairs, needs.potential(P::name)});
     });
     schema
         .key("table", interface.table,
-             "file of potential = \"table\": text of distances in Å and energies in eV (of law = "
-             "\"table\": gaps, and energies of any scale, which adhesion sets); of more "
-             "columns a "
-             "line above names them (\"# r F V\"); looked for beside the scene, then in the "
-             "working directory")
+             "file of potential = \"table\": text of distances in Å and energies in eV (law = "
+             "\"table\": gaps in Å, and energies in any unit, which adhesion scales); a line above "
+             "more than two columns names them (\"# r F V\"); searched in the folder of the scene, "
+             "then in the working directory")
         .needs = {needs.table};
     schema
         .number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
-                   "distance beyond which atoms do not interact; half the box at most. \"4 r0\": "
-                   "four times the distance "
-                   "at which the potential is zero, with interface.pairs that of each type; of a "
-                   "table its last distance, if that is less")
+                   "distance beyond which atoms do not interact, at most half the box. \"4 r0\": "
+                   "four times the distance of zero energy, for each type of interface.pairs, and "
+                   "at most the last distance of a table")
         .needs = {needs.pairs};
     schema.removed({"interface.morse_r0", "",
                     "it is the place of the minimum, and interface.r0 where the energy is zero",
                     "write interface.morse_r_min with the same number"});
     schema
-        .list(
-            "pairs", interface.pairs, {},
-            "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C "
-            "morse "
-            "0.02 1.5 3.9 "
-            "10\"] with the potential's name and the cutoff, if they are not those above, and its "
-            "parameters in the order above; units may follow. []: the potential above, for atoms "
-            "of "
-            "one "
-            "type")
+        .list("pairs", interface.pairs, {},
+              "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C "
+              "morse 0.02 1.5 3.9 10\"] each with the potential's name and the cutoff, if they "
+              "differ from potential and cutoff, and the parameters in the order above; units may "
+              "follow. []: interface.potential for atoms of one type")
         .needs = {
         needs.refusing({[&scene] { return scene.surface.kind == SurfaceKind::atoms; }, ""},
                        "without a substrate of atoms from a file",
@@ -356,7 +353,7 @@ io::Schema bind(Scene& scene) {
         needs.pairs, needs.heights("the tail is that of one layer of known density",
                                    "take a larger interface.cutoff, and tail = false")};
     schema.key("frictionless", interface.frictionless,
-               "quasi-static paths: no lateral tractions, normal displacements only");
+               "no lateral tractions, and normal displacements only (quasi-static paths)");
     schema
         .choice<WallLawKind>(
             "law", interface.law,
@@ -367,11 +364,10 @@ io::Schema bind(Scene& scene) {
              {"9-3", WallLawKind::nine_three},
              {"8-2", WallLawKind::eight_two},
              {"table", WallLawKind::table}},
-            "law of a wall: an attraction exp(-gap/range), one of constant tension "
-            "up to the range, or 1/(1 + gap/range)^exponent, over a linear "
-            "repulsion; (range/gap)^9 against its cube, or the eighth power "
-            "against the square, deepest at the range; interface.table; or the "
-            "substrate's atoms smeared over their layer (potential, cutoff, tail)")
+            "law of a wall: attraction exp(-gap/range), of constant tension up to the range, or "
+            "1/(1 + gap/range)^exponent, with a linear repulsion; powers 9 and 3, or 8 and 2, of "
+            "range/gap, deepest at the range; interface.table; or the substrate's atoms smeared "
+            "over their layer (potential, cutoff, tail)")
         .needs = {needs.wall};
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
@@ -382,59 +378,59 @@ io::Schema bind(Scene& scene) {
         schema.number_or_text(
             "adhesion", interface.adhesion, interface.adhesion_map.source, "meV/Å^2", at_least(0.0),
             "map.npy",
-            "work of adhesion of flat surfaces, Δγ, of a wall that is not smeared; 0: no "
-            "attraction. One "
-            "for each site: a map, in a file as surface.file takes it, or a formula, \"stripes LOW "
-            "HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", \"rings MEAN AMPLITUDE PERIOD\" or "
-            "\"patches LOW HIGH LENGTH SEED\" (random, with this correlation length), as in "
-            "\"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\""),
+            "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
+            "attraction. A value for each site is given by a map, in a file as for surface.file, "
+            "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
+            "\"rings MEAN AMPLITUDE PERIOD\" or \"patches LOW HIGH LENGTH SEED\" (random, with "
+            "this correlation length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\""),
         interface.adhesion_map, needs.adhesion);
-    schema.number("range", interface.range, "Å", positive(), "of these laws").needs = {
-        needs.ranged};
-    schema.number("exponent", interface.exponent, "", io::Range{1.0, 100.0}, "of law = \"power\"")
+    schema
+        .number("range", interface.range, "Å", positive(),
+                "range of the laws except smeared and table")
+        .needs = {needs.ranged};
+    schema
+        .number("exponent", interface.exponent, "", io::Range{1.0, 100.0},
+                "exponent of law = \"power\"")
         .needs = {needs.power};
     schema
         .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-                   "stiffness of the linear repulsion; \"auto\": nearly a hard wall, "
-                   "a thousand times the stiffness of the block for its shortest wave, 500 π E* "
-                   "/ spacing, and at least 50 adhesion / "
-                   "range²")
+                   "stiffness of the linear repulsion; \"auto\": nearly a hard wall, 500 π "
+                   "E*/spacing (a thousand times the stiffness of the block for its shortest "
+                   "wave), and at least 50 adhesion/range²")
         .needs = {needs.touched};
 
     schema
         .choice<EdgePinning>("edge_pinning", interface.edge_pinning,
                              {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
-                             "whether a pull-off of a sphere runs although its force is more than "
-                             "1.3 times too large: "
-                             "the spacing does not resolve the range, and rows of sites hold the "
-                             "edge of the contact")
+                             "allows or refuses the pull-off of a sphere whose force would be more "
+                             "than 1.3 times too large, because the spacing does not resolve the "
+                             "range and rows of sites pin the edge of the contact")
         .needs = {needs.adhesion};
 
     auto& drive = scene.drive;
-    schema.section("drive", "What is done to the top plane, and how time passes.");
+    schema.section("drive", "The motion of the top plane, and the time step.");
     schema.choice<DriveMode>(
         "mode", drive.mode,
         {{"dynamic", DriveMode::dynamic}, {"quasistatic", DriveMode::quasistatic}},
         "time steps (velocity Verlet), or force balance at each position");
     schema.list(
         "path", drive.path, {},
-        "the segments of the run, in order: \"approach\" to drive.load, \"pull-off\", "
-        "\"relax\" (quasi-static, first: the state under drive.load), \"load 100 MPa\", "
-        "\"height 12 Å\" (of the lowest layer of the undeformed block, or its mean height "
-        "where that is controlled), \"slide x 5 Å\" (or y, at the same height; over a wall also "
-        "\"under load\" and \"until steady\"), \"hold 20 ps\" (dynamic, or with "
-        "block.prony)");
+        "segments of the run, in order: \"approach\" to drive.load, \"pull-off\", \"relax\" "
+        "(quasi-static, first: the state under drive.load), \"load 100 MPa\", \"height 12 Å\" "
+        "(height of the lowest layer of the undeformed block, or its mean height if controlled), "
+        "\"slide x 5 Å\" (or y, at the same height; over a wall also \"under load\" and \"until "
+        "steady\"), \"hold 20 ps\" (dynamic, or with block.prony)");
     schema
         .number("velocity", drive.velocity, "m/s", positive(),
-                "speed of the top plane (dynamic), or of what drive.control prescribes (with "
+                "speed of the top plane (dynamic), or of the quantity of drive.control (with "
                 "block.prony)")
         .needs = {needs.time};
     schema
-        .choice<Control>("control", drive.control,
-                         {{"top", Control::top}, {"mean-height", Control::mean_height}},
-                         "what a quasi-static path prescribes: the height of the top plane, or the "
-                         "mean height of "
-                         "the lowest layer, with which the block never jumps as a whole")
+        .choice<Control>(
+            "control", drive.control,
+            {{"top", Control::top}, {"mean-height", Control::mean_height}},
+            "quantity that a quasi-static path prescribes: the height of the top plane, or the "
+            "mean height of the lowest layer, for which the block never jumps as a whole")
         .needs = {
         needs.refusing(needs.equilibria, "on a dynamic path",
                        "a dynamic path prescribes the top plane; the mean height of the lowest "
@@ -447,59 +443,57 @@ io::Schema bind(Scene& scene) {
                     "leave it out; `asperity states SCENE` searches for further states"});
     schema
         .number("displacement_step", drive.displacement_step, "Å", positive(),
-                "largest displacement from point to point of a quasi-static path, of what "
-                "drive.control prescribes; half a spacing of the sites in a slide over a wall if "
-                "that is longer")
+                "largest step of the quantity of drive.control between points of a quasi-static "
+                "path; in a slide over a wall at least half a spacing of the sites")
         .needs = {needs.equilibria};
     schema
         .number_or("stiffness", drive.stiffness, "none", "N/m", positive(),
-                   "of the spring that holds the top plane of the whole box, as the cantilever of "
-                   "an instrument does: the drive moves its far end; \"none\": the drive moves the "
-                   "top plane")
+                   "stiffness of a spring between drive and top plane, for the whole box, like the "
+                   "cantilever of an instrument; \"none\": the drive moves the top plane itself")
         .needs = {
         {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
     schema
         .number_or("mass", drive.mass, "block", "u", positive(),
-                   "of the top plane on the spring of drive.stiffness; \"block\": that of the "
-                   "block's nodes, so that block and spring oscillate together, and no faster")
+                   "mass of the top plane on the spring of drive.stiffness; \"block\": the mass of "
+                   "the block's nodes, so that the spring does not oscillate faster than the block")
         .needs = {
         needs.dynamic,
         {[&scene] { return scene.drive.stiffness.has_value(); }, "drive.stiffness = \"none\""}};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
-    schema.number("timestep", drive.timestep, "fs", positive(), "of velocity Verlet").needs = {
-        needs.dynamic};
+    schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
+        .needs = {needs.dynamic};
     schema
         .number("damping", drive.damping, "1/ps", at_least(0.0),
-                "rate Γ of the force -m Γ v, v relative to the top plane")
+                "rate Γ of the damping force -m Γ v, with v relative to the top plane")
         .needs = {needs.dynamic};
     schema
         .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
                 "fraction of the thickness above which damping acts")
         .needs = {needs.dynamic, needs.damping};
     schema
-        .number_or(
-            "ramp", drive.ramp, "auto", "ps", at_least(0.0),
-            "time over which the top plane's velocity is reversed smoothly; \"auto\": one sound "
-            "transit of the block")
+        .number_or("ramp", drive.ramp, "auto", "ps", at_least(0.0),
+                   "duration of smooth changes of the top plane's velocity; \"auto\": one sound "
+                   "transit of the block")
         .needs = {needs.dynamic};
-    schema.quantity_or("load", drive.load, "MPa", {"nN", "a force", &scene.force},
-                       "pressure, or force on the box (\"20 nN\"), at which an approach ends, or "
-                       "under which \"relax\" finds the state; "
-                       "the state after an approach carries none");
+    schema.quantity_or(
+        "load", drive.load, "MPa", {"nN", "a force", &scene.force},
+        "pressure, or force on the box (\"20 nN\"), at which an approach ends, or under which "
+        "\"relax\" finds the state; the state after an approach is without load");
     schema
         .number("temperature", drive.temperature, "K", at_least(0.0),
-                "above 0: Langevin thermostat")
+                "temperature; above 0 with a Langevin thermostat")
         .needs = {needs.dynamic};
-    schema.integer("seed", drive.seed, at_least(0), "of the thermal noise").needs = {
+    schema.integer("seed", drive.seed, at_least(0), "seed of the thermal noise").needs = {
         needs.dynamic, needs.temperature};
     schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
-                          "stop after so many steps (points of a quasi-static path)");
+                          "largest number of time steps, or points of a quasi-static path, after "
+                          "which the run stops");
     schema
         .number("tolerance", drive.tolerance, "", positive(),
-                "largest residual force of a relaxation, as a fraction of the smallest force on "
-                "a site that decides the state (`asperity plan` prints it); of a quasi-static "
-                "path, error of the energy for each site and Å")
+                "largest residual force of a relaxation, as a fraction of the smallest force on a "
+                "site that decides the state (`asperity plan` prints this force); on a "
+                "quasi-static path also the error of the energy per site and Å")
         .was = {"eV/Å",
                 "it is a fraction of the smallest force on a site that decides the state, "
                 "which `asperity plan` prints",
@@ -509,11 +503,11 @@ io::Schema bind(Scene& scene) {
     schema.section("theory", "Persson's theory for the same surface.");
     schema
         .number_or("delta_gamma", theory.delta_gamma, "flat", "meV/Å^2", positive(),
-                   "\"flat\": the flat reference of this scene's interface")
+                   "Δγ of the theory; \"flat\": the flat reference of the scene's interface")
         .needs = {needs.one_layer};
     schema
         .number("beta", theory.beta, "", io::Range{0.0, 1.0, true, false},
-                "correction to the elastic energy")
+                "β, correction to the elastic energy of partial contact")
         .needs = {needs.one_layer};
     schema
         .choice<AreaFactor>("area_factor", theory.area_factor,
@@ -521,13 +515,13 @@ io::Schema bind(Scene& scene) {
                              {"small-slope", AreaFactor::small_slope},
                              {"none", AreaFactor::none},
                              {"lattice", AreaFactor::lattice}},
-                            "how the true area follows from the slope")
+                            "relation of the true area to the slope")
         .needs = {needs.one_layer};
     schema
         .choice<TheorySpectrum>(
             "spectrum", theory.spectrum,
             {{"target", TheorySpectrum::target}, {"realised", TheorySpectrum::realised}},
-            "spectrum of the theory: that which the scene asks for, or that of the surface itself")
+            "spectrum of the theory: the scene's power law, or the spectrum of the surface")
         .needs = {needs.one_layer};
     schema.key("clip", theory.clip, "clip the target spectrum at Nyquist, like the surface")
         .needs = {needs.one_layer};
@@ -538,9 +532,8 @@ io::Schema bind(Scene& scene) {
     schema.section("numerics", "Arithmetic.");
     schema.choice<Precision>("precision", numerics.precision,
                              {{"double", Precision::double_precision}, {"mixed", Precision::mixed}},
-                             "precision of the pairs across the interface; \"mixed\": they are "
-                             "computed in single precision, over a "
-                             "substrate of the block's lattice");
+                             "precision of the pairs across the interface; \"mixed\": single "
+                             "precision, for a substrate with the block's lattice");
     schema.removed(
         {"numerics.accuracy", "",
          "it held for one material; `asperity cost` measures the errors of the scene itself",
@@ -552,16 +545,15 @@ io::Schema bind(Scene& scene) {
     for (int n = 0; n < 8; ++n)
         devices.push_back({std::to_string(n), {Device::cuda, n}});
     schema
-        .choice<DeviceChoice>(
-            "device", numerics.device, devices,
-            "what makes the time steps: the processor (\"none\"), or a CUDA device by its number "
-            "(further ranks of "
-            "a machine take the next ones in turn); \"auto\": one if there is one; "
-            "\"emulated\": on the processor, for tests")
+        .choice<DeviceChoice>("device", numerics.device, devices,
+                              "computes the time steps on the processor (\"none\"), or on a CUDA "
+                              "device by its number (further ranks of a machine use the following "
+                              "devices in turn); \"auto\": on a CUDA device if there is one; "
+                              "\"emulated\": a device emulated by the processor, for tests")
         .numerals = true;
 
     auto& output = scene.output;
-    schema.section("output", "What is written.");
+    schema.section("output", "The output of a run.");
     schema
         .number_or("trajectory", output.trajectory, "none", "", at_least(1),
                    "steps between frames of the lowest layer (H5MD, in run.h5)")
@@ -570,14 +562,13 @@ io::Schema bind(Scene& scene) {
         "leave it out: the maps of output.fields hold the states")};
     schema
         .key("velocities", output.velocities,
-             "whether the frames of the trajectory hold velocities too")
+             "writes velocities in the frames of the trajectory too")
         .needs = {needs.trajectory};
-    schema.list(
-        "fields", output.fields,
-        {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},
-        "when maps are written: of the relaxed state, so many ps after the approach has ended, at "
-        "the largest attraction of the pull-off, at the end of each segment of drive.path, every "
-        "so many steps (points of a quasi-static path)");
+    schema.list("fields", output.fields,
+                {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},
+                "times of maps: of the relaxed state, a number of ps after the end of the "
+                "approach, at the largest attraction of the pull-off, at the end of each segment "
+                "of drive.path, and periodically, in steps (points of a quasi-static path)");
     schema.removed(
         {"output.fields", "zero-load", "the state can carry a load", "write \"relaxed\""});
     schema.removed({"output.fields", "after-zero-load:", "it is the time after the approach",
@@ -591,7 +582,7 @@ io::Schema bind(Scene& scene) {
                        "What `asperity sweep` varies: any key above, with a list of values or a "
                        "range start:stop:step or start:stop:xFACTOR. Other commands pass over it.",
                        "surface.rms = [1, 2, 3]", &scene.sweep});
-    schema.keep(kept);
+    schema.own(shared_needs);
     return schema;
 }
 

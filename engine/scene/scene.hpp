@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The scene: all choices of a user, as a plain struct in the units of the scene file.
+// The scene: all settings of a user, as a plain struct in the units of the scene file.
 //
-// Scene{} is the paper's flat case. bind() ties every field to its key, unit, range and line of
-// documentation; that list is the only place with the names of keys, and the reader, `asperity
-// defaults`, result.json and docs/reference/scene.md all follow from it. Names and defaults do not
-// change from release to release: tests/engine/scene_test.cpp has them all. resolve()
-// (engine/case/case.hpp) derives the meaning of a scene and finds its mistakes.
+// Scene{} is the paper's flat case. bind() connects every field with its key, unit, range and line
+// of documentation. Its list is the only place with the names of keys; the reader, `asperity
+// defaults`, result.json and docs/reference/scene.md follow from the list. Names and defaults do
+// not change from release to release: tests/engine/scene_test.cpp has them all. resolve()
+// (engine/case/case.hpp) checks a scene and derives the case.
 #pragma once
 
 #include "engine/options/device_choice.hpp"
@@ -28,22 +28,23 @@
 
 namespace asperity {
 
+// Choices of the keys of a scene; bind() has their words and meanings.
 enum class Detrend { none, plane, periodic };
 enum class Boundary { periodic, free };
 enum class MapMissing { refuse, fill, hole };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
-/// Resolution of the block on a dynamic path. On quasi-static paths the block is the waves of the
-/// lattice.
+/// Resolution of the block on a dynamic path. Quasi-static paths use the exact static response of
+/// the lattice instead.
 enum class BlockModel { lattice, multiscale };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential, dugdale, power, nine_three, eight_two, table };
-/// Treatment of rows of sites that hold the edge of a contact.
+/// Treatment of spheres whose contact edge is pinned by rows of sites.
 enum class EdgePinning { refuse, allow };
 enum class DriveMode { dynamic, quasistatic };
 enum class Precision { double_precision, mixed };
-/// Returns a tuple with one of each kind of PairPotential (never called).
+/// Returns a tuple with one object of each kind of PairPotential; declared for its type only.
 template <class... P>
 std::tuple<P...> one_of_each(const std::variant<P...>&);
 using EachPotential = decltype(one_of_each(PairPotential()));
@@ -79,13 +80,14 @@ struct SiteMapKeys {
 
 /// A scene, with one struct for each section.
 struct Scene {
+    /// Section [surface].
     struct Surface {
         SurfaceKind kind = SurfaceKind::self_affine;
         int sites = 512;                        ///< N
         double spacing = 2.6;                   ///< a, Å
         Boundary boundary = Boundary::periodic; ///< edges of the box
-        double lattice_ratio = 1.0;             ///< block spacing over substrate spacing
-        double rms = 3.0; ///< Å; a map from a file is scaled to it only if it is given
+        double lattice_ratio = 1.0;             ///< block spacing divided by substrate spacing
+        double rms = 3.0; ///< Å; maps from a file are scaled only if the key is given
         double hurst = 0.8;
         double rolloff = 3.0;        ///< q0 / q_L
         std::optional<double> q_max; ///< q1 / q_L; empty: the Nyquist wavevector, sites/2
@@ -93,9 +95,10 @@ struct Scene {
         long long seed = 1;
         std::optional<double> radius;    ///< Å; empty: not curved
         std::string file = "heights.h5"; ///< file as the scene gives it
-        /// Edge of the map, Å; empty: that of the file, else of the box.
+        /// Edge of the map, Å; empty: as the file states, otherwise the edge of the box.
         std::optional<double> file_size;
-        std::string file_unit = "auto"; ///< unit of the heights; "auto": that of the file, else Å
+        /// Unit of the heights; "auto": as the file states, otherwise Å.
+        std::string file_unit = "auto";
         MapMissing file_missing = MapMissing::refuse;
         MapCrop file_crop = MapCrop::none;
         Detrend detrend = Detrend::none;
@@ -105,34 +108,36 @@ struct Scene {
         bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
     } surface;
 
+    /// Section [block].
     struct Block {
         BlockModel model = BlockModel::multiscale;
         double young = 77.2; ///< GPa
         double poisson = 0.42;
         double atom_mass = 197.0; ///< u
-        int thickness = 512; ///< lattice layers; after reading: N unless the scene says otherwise
+        int thickness = 512;      ///< number of lattice layers; default after reading: N
         int layers_per_level = 4;
         Strain strain = Strain::linear;
-        /// Branches: modulus over young, relaxation time, ps.
+        /// Branches: modulus divided by young, and relaxation time, ps.
         std::vector<std::array<double, 2>> prony;
         /// Layers from the surface upwards: thickness, Å, Young's modulus, GPa, Poisson's ratio.
         std::vector<std::array<double, 3>> layers;
         double surface_stress = 0.0; ///< N/m
     } block;
 
-    /// The file of block.prony, which has filled in block.prony and block.young.
+    /// Origin of block.prony and block.young if block.prony names a file.
     struct Fit {
-        std::string file;   ///< name in the scene; empty: the scene has the branches itself
-        std::string found;  ///< place of the file
-        std::string source; ///< the measurement to which the branches were fitted
-        double young = 0.0; ///< relaxed modulus of the file, GPa
-        std::optional<double> rms_error; ///< error of the fit, over the moduli measured
+        std::string file;                ///< name in the scene; empty: the scene lists the branches
+        std::string found;               ///< path of the file
+        std::string source;              ///< the measurement to which the branches were fitted
+        double young = 0.0;              ///< relaxed modulus of the file, GPa
+        std::optional<double> rms_error; ///< relative error of the fit
     } fit;
 
+    /// Section [interface].
     struct Interface {
         InterfaceKind kind = InterfaceKind::atoms;
         int potential = 0; ///< index of a kind of PairPotential
-        /// Parameters of all kinds, by their keys; cutoffs come from the one below
+        /// Parameters of all kinds; the cutoff is the member below.
         EachPotential potentials;
         std::string table = "table.txt"; ///< file of potential = "table", as the scene gives it
         std::optional<double> cutoff;    ///< Å; empty: 4 r0; r0 is the zero of the potential
@@ -141,14 +146,15 @@ struct Scene {
         /// Normal displacements only; after reading: true over a wall.
         bool frictionless = false;
         WallLawKind law = WallLawKind::exponential; ///< law of a wall
-        double adhesion = 100.0;                    ///< meV/Å^2, of all laws but the smeared one
-        /// Work of adhesion of each site; a case has the largest in `adhesion`.
+        double adhesion = 100.0; ///< work of adhesion, meV/Å^2; laws except "smeared"
+        /// Work of adhesion of each site; in a case `adhesion` is the largest.
         SiteMapKeys adhesion_map{
             {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
              "a work of adhesion is zero or more: a site repels at contact alone"}};
-        double range = 1.0;    ///< Å, of these laws but a table
+        double range = 1.0;    ///< range, Å; laws except "smeared" and "table"
         double exponent = 3.0; ///< exponent of the law "power"
-        /// GPa/Å, of a law whose shape begins where the solids touch; empty: derived from the block
+        /// Stiffness of the repulsion, GPa/Å, of laws whose shape begins at contact; empty: derived
+        /// from the block.
         std::optional<double> stiffness;
         EdgePinning edge_pinning = EdgePinning::refuse;
 
@@ -159,18 +165,20 @@ struct Scene {
                 if (map->given()) given.push_back(map);
             return given;
         }
-        /// Returns true for a wall whose law has a work of adhesion of its own.
+        /// Returns true for a wall with a law other than "smeared", which has a work of adhesion as
+        /// a key.
         bool has_adhesion() const {
             return kind == InterfaceKind::wall && law != WallLawKind::smeared;
         }
-        /// Returns true for a shape with a repulsion of its own.
+        /// Returns true for laws whose shape includes a repulsion.
         bool shape_repels() const {
             return law == WallLawKind::nine_three || law == WallLawKind::eight_two ||
                    law == WallLawKind::table;
         }
-        std::string potential_name() const;
+        std::string potential_name() const; ///< returns the value of interface.potential
     } interface;
 
+    /// Section [drive].
     struct Drive {
         DriveMode mode = DriveMode::dynamic;
         std::vector<std::string> path = {"approach", "pull-off"}; ///< segments (segment.hpp)
@@ -192,21 +200,23 @@ struct Scene {
 
     TheoryOptions theory;
 
+    /// Section [numerics].
     struct Numerics {
         Precision precision = Precision::double_precision;
         DeviceChoice device;
     } numerics;
 
+    /// Section [output].
     struct Output : OutputOptions {
         std::vector<std::string> fields = {"relaxed"};
     } output;
 
     std::vector<io::Variation> sweep; ///< [sweep]: for `asperity sweep` only
 
-    /// surface.sites and block.thickness if they are given as lengths, Å; reading derives the
-    /// numbers from them.
+    /// surface.sites and block.thickness given as lengths, Å; reading converts the lengths to
+    /// numbers of sites and layers.
     std::optional<double> width, height;
-    /// drive.load if it is given as a force, nN; reading derives the pressure from it.
+    /// drive.load given as a force, nN; reading converts the force to a pressure.
     std::optional<double> force;
 
     // Origin of the scene.
@@ -214,26 +224,26 @@ struct Scene {
     std::string name = "scene"; ///< the file's name without folder and ending
     io::Positions positions;
 
-    /// Returns true if the path is dynamic: time steps, not equilibria.
+    /// Returns true for a dynamic path, which is made of time steps.
     bool is_dynamic() const;
-    /// Returns true if the path is one relaxation.
+    /// Returns true if the path is a single relaxation.
     bool only_relaxes() const;
     /// Returns the edge of the box, Å
     double edge() const { return surface.sites * surface.spacing; }
-    /// Returns an empty list of problems with this scene's positions.
+    /// Returns an empty list of problems that knows the positions of this scene's keys.
     io::Problems problems() const { return io::Problems(positions); }
     bool has_free_edges() const { return surface.boundary == Boundary::free; }
-    /// Returns true if the scene itself sets surface.rms: only then is a map scaled.
+    /// Returns true if the scene sets surface.rms; otherwise maps are not scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
 
-/// Returns every key, bound to the fields of this scene (which must outlive the schema).
+/// Returns all keys, bound to the fields of this scene, which must outlive the schema.
 io::Schema bind(Scene& scene);
 
-/// Adds the keys whose values are refused for want of what they need (the column `needs` of
-/// bind()).
+/// Adds to problems the keys whose needs (column `needs` of bind()) are not met and which are
+/// refused without them.
 void refuse_unmet_needs(const Scene& scene, io::Problems& problems);
-/// Returns notes on the keys that are set and have no effect, one sentence for each reason.
+/// Returns notes on keys that are set but have no effect, one sentence for each reason.
 std::vector<std::string> notes_on_idle_keys(const Scene& scene);
 
 /// Reads the keys of a scene. Overrides are "section.key=value". Throws io::SceneError with the
@@ -242,14 +252,16 @@ Scene read_scene(const std::string& file, const std::vector<std::string>& overri
 /// Reads a scene from a text in memory. file: name shown in messages. Throws io::SceneError.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides = {});
-/// Reads a scene from a text in memory and adds its mistakes to problems; wrong keys have their
+/// Reads a scene from a text in memory and adds its mistakes to problems; wrong keys keep their
 /// defaults.
 Scene read_scene_text(const std::string& text, const std::string& file,
                       const std::vector<std::string>& overrides, io::Problems& problems);
 
+/// Returns the scene as TOML, with_docs: with a comment for each key.
 std::string scene_toml(const Scene& scene, bool with_docs = true);
+/// Returns the values of all keys: {section: {key: value}}.
 nlohmann::ordered_json scene_json(const Scene& scene);
-/// Returns the unit of each value of scene_json().
+/// Returns the unit of each value of scene_json(), in the same form.
 nlohmann::ordered_json scene_units(const Scene& scene);
 /// Returns the page docs/reference/scene.md.
 std::string scene_markdown();

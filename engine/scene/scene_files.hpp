@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Files that a scene names: where they are looked for, and the branches of a viscoelastic block.
+// Files that a scene names: their search, and the file of the branches of a viscoelastic block.
 #pragma once
 
 #include "engine/scene/scene.hpp"
@@ -10,10 +10,10 @@
 
 namespace asperity {
 
-/// Returns the file that a key names, beside the scene or in the working directory (in reverse
-/// order if it was named on the command line); empty if there is none.
+/// Finds the file that a key names in the folder of the scene or in the working directory (searched
+/// first if the key was set on the command line). Returns its path; empty if it does not exist.
 std::string find_beside_scene(const Scene& scene, const std::string& file, const std::string& key);
-/// Returns the places in which find_beside_scene() looks, in words.
+/// Returns the folders that find_beside_scene() searches, as text for messages.
 std::string places_looked_at(const Scene& scene, const std::string& file, const std::string& key);
 
 /// Reads the file of block.prony, a TOML file with

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Needs of a scene's keys of each other: the column `needs` of bind(), from which refusals and
+// Conditions under which keys have an effect: the column `needs` of bind(), from which refusals and
 // notes follow.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace asperity {
 
-/// States of keys that others need.
+/// Conditions on a scene that keys may need, each with the text for the case that it is not met.
 struct Needs {
     using Need = io::Schema::Need;
 
@@ -69,18 +69,19 @@ struct Needs {
     Need trajectory{[this] { return scene.output.trajectory.has_value(); },
                     "output.trajectory is \"none\""};
 
-    /// Returns one_layer for a key whose value is refused over atoms anywhere.
+    /// Returns the need of a substrate of one layer, for a key that is refused with surface.kind =
+    /// "atoms".
     Need heights(std::string why, std::string fix) const {
         return refusing(one_layer, "with surface.kind = \"atoms\"", std::move(why), std::move(fix));
     }
-    /// Returns a need with a refusal.
+    /// Returns a need with the message of a refusal: problem, reason and remedy.
     static Need refusing(Need need, std::string refused, std::string why, std::string fix) {
         need.refused = std::move(refused);
         need.why = std::move(why);
         need.fix = std::move(fix);
         return need;
     }
-    /// Returns the need of the parameters of a potential.
+    /// Returns the need of parameters of a potential: the scene uses the potential.
     Need potential(const std::string& name) const {
         return {[this, name] {
                     return scene.interface.potential_name() == name ||

@@ -19,7 +19,7 @@ namespace asperity {
 
 namespace {
 
-/// A map does not repeat if steps over the box's edges are so many times those inside.
+/// A map is not periodic if the steps across the box's edges exceed those inside by this factor.
 constexpr double worst_seam = 2.0;
 
 using std::numbers::pi;
@@ -39,7 +39,7 @@ double clipped_cutoff(const SurfaceOptions& o) { return std::min(o.cutoff, 0.5 *
 
 /// Returns C(q) up to a factor: flat to the roll-off, then q^(-2(1+H)); q in q_L.
 double shape(const SurfaceOptions& o, double q) {
-    // The small allowance keeps the waves that lie on a border whatever the rounding.
+    // The small tolerance includes waves exactly on a border in spite of rounding.
     if (q < 1.0 - 1e-9 || q > clipped_cutoff(o) * (1.0 + 1e-12)) return 0.0;
     return q <= o.rolloff ? 1.0 : std::pow(q / o.rolloff, -2.0 * (1.0 + o.hurst));
 }

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 //
 // The substrate's height map (docs/explanation/model.md): flat, self-affine, or measured; curved on
-// request. Or its atoms, at positions of their own, with the map of the topmost ones.
+// request. A substrate of atoms has positions and the map of the topmost atoms instead.
 //
-// A self-affine surface is made by Fourier filtering: each integer wavevector draws its amplitude
-// and phase from a counter-based generator keyed by seed and wavevector, so the same seed gives
-// bitwise identical heights on every rank, and the same large-scale shape when the grid grows.
+// A self-affine surface is made by Fourier filtering: amplitude and phase of each integer
+// wavevector are drawn from a counter-based generator keyed by seed and wavevector, so that a seed
+// gives bitwise identical heights on every rank, and the same large-scale shape on a finer grid.
 // Every rank makes the whole map: it is one plane, small beside the block.
 //
 // Conventions (Persson): h_rms^2 = 2 pi int q C(q) dq; on the grid C(q) = |h_q|^2 (L / 2 pi)^2 with
@@ -24,7 +24,9 @@
 
 namespace asperity {
 
+/// Kind of a substrate.
 enum class SurfaceKind { flat, self_affine, file, atoms };
+/// Amplitudes of the waves of a self-affine surface: of random or of fixed modulus.
 enum class Amplitudes { gaussian, fixed };
 
 /// Options of a substrate.
@@ -43,38 +45,39 @@ struct SurfaceOptions {
     bool periodic = false; ///< measured maps: remove the jumps between opposite edges
     LineNoise line_noise =
         LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
-    bool holes = false;    ///< measured maps: heights may be NaN, where no solid is
+    bool holes = false;    ///< measured maps: heights may be NaN, which means no solid
     bool repeats = true;   ///< false: the surface ends at the edges of the box
-    double map_edge = 0.0; ///< measured maps: their edge, Å; 0: that of the box
+    double map_edge = 0.0; ///< measured maps: edge of the map, Å; 0: edge of the box
 
     bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
 };
 
-/// Makes the flat or self-affine surface of the options. Throws std::invalid_argument if they
-/// describe none.
+/// Makes the flat or self-affine surface of the options. Throws std::invalid_argument for
+/// impossible options.
 Surface make_surface(const SurfaceOptions& options);
 
-/// Returns the number of lattice sites along the edge of a measured map: `sites` if it fills the
-/// box to 0.5 %.
+/// Returns the number of lattice sites along the edge of a measured map: options.sites if the map's
+/// edge is that of the box within 0.5 %.
 int sites_of_map(const SurfaceOptions& options);
 
-/// Makes a surface of a measured map heights[y * nx + x]. A map with as many values as sites is
-/// taken as it is; another is resampled band-limited (exactly, for the waves of both grids). A map
-/// wider than the box is cut to its middle. Throws std::invalid_argument if the map is narrower.
+/// Makes a surface from a measured map heights[y * nx + x], Å. A map with as many values as sites
+/// is not resampled; other maps are resampled band-limited (exactly, for waves on both grids). A
+/// map wider than the box is cut to its middle. Throws std::invalid_argument if the map is narrower
+/// than the box.
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
                              int ny);
 
-/// Makes a surface of atoms in the box of the options. Heights are those of the topmost atom
-/// nearest to each site of the lattice; sites without one are filled by Laplace's equation; the
-/// mean becomes z = 0. Throws std::invalid_argument if atoms coincide.
+/// Makes a surface from atoms in the box of the options. The height of a site is that of the
+/// topmost atom nearest to the site; sites without an atom are filled by Laplace's equation; the
+/// mean height is shifted to z = 0. Throws std::invalid_argument if atoms coincide.
 Surface surface_from_atoms(const SurfaceOptions& options, AtomPositions atoms);
 
 /// Returns Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's
 /// Nyquist wavevector.
 double target_spectrum(const SurfaceOptions& options, double q);
 
-/// Returns the number of atoms across the box for a ratio of block spacing to substrate spacing, at
-/// least one.
+/// Returns the number of substrate atoms across the box, at least one, for a ratio of block spacing
+/// to substrate spacing.
 int substrate_sites(int block_sites, double lattice_ratio);
 
 } // namespace asperity

@@ -26,7 +26,7 @@ constexpr double least_distance = 0.5;
 /// on both sides.
 void refuse_coinciding(const AtomPositions& atoms, double edge) {
     struct Place {
-        double row, x, y, z; ///< row: of least_distance along y
+        double row, x, y, z; ///< row of height least_distance along y
         std::size_t atom;
     };
     std::vector<Place> places;

@@ -92,10 +92,10 @@ namespace {
 class Looking {
 public:
     Looking(std::function<bool(long long, double)>& watch, const Look& look)
-        : watch_(watch), now_and_then_(look) {
+        : watch_(watch), throttled_look_(look) {
         watch_ = [this](long long, double) {
             try {
-                now_and_then_();
+                throttled_look_();
             } catch (...) {
                 thrown_ = std::current_exception();
             }
@@ -110,11 +110,11 @@ public:
 
 private:
     std::function<bool(long long, double)>& watch_;
-    LookNowAndThen now_and_then_;
+    ThrottledLook throttled_look_;
     std::exception_ptr thrown_;
 };
 
-/// The last point of a path, to come back to.
+/// Copy of the last point of a path, to be restored.
 class KeptPoint {
 public:
     explicit KeptPoint(const QuasistaticPath& points) {

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: MIT
 //
 // A quasi-static path led by hand (asperity.Statics of Python): the caller, in place of the scene's
-// segments, leads the solids, which are in force balance. The state found depends on the way there,
-// as on the path of a run; energy lost on the way is counted. The path starts beyond the
+// segments, moves the solids from one state of force balance to the next. As in a run, a state
+// depends on the states before, and dissipated energy is counted. The path starts beyond the
 // interaction range.
 //
-// The mean height is held, or the top plane: the first one that is set decides; a load holds the
-// quantity of drive.control. A dynamic scene is treated as if drive.mode were "quasistatic".
+// The first of the mean height and the top plane to be set is held; a load holds the quantity of
+// drive.control. A dynamic scene is treated as if drive.mode were "quasistatic".
 #pragma once
 
 #include "engine/script/stepped_path.hpp"
@@ -22,6 +22,8 @@ namespace asperity {
 /// A quasi-static path led by hand.
 class LedPath {
 public:
+    /// Places the block beyond the interaction range. Throws io::SceneError for a scene that a run
+    /// would refuse.
     explicit LedPath(const Case& c);
     const Case& scene_case() const { return case_; }
     const Surface& surface() const { return surface_; }
@@ -30,31 +32,32 @@ public:
 
     void set_mean_height(double z); ///< sets the mean height above the substrate's zero, Å
     void set_top(double z);         ///< sets the displacement of the top plane since the start, Å
-    /// Sets the load, MPa; positive presses. It is reached when the force comes to it, from below
-    /// on the way in, from above on the way out.
+    /// Sets the load, MPa; positive presses. The path ends at the first point whose force is the
+    /// load, from below while moving down, from above while moving up.
     void set_load(double pressure);
-    /// Holds the present position for a time, ps, of a viscoelastic block.
+    /// Sets a rest at the present position for a time, ps, of a viscoelastic block.
     void set_hold(double time);
 
-    /// A point in force balance. Work, damped (dissipated at instabilities), instabilities and step
-    /// (points) count from the beginning of the path: beyond the interaction range, or the last
-    /// restore() or release().
+    /// A point in force balance. Work, damped (energy dissipated at instabilities), instabilities
+    /// and step (number of points) count from the beginning of the path: from beyond the
+    /// interaction range, or from the last restore() or release().
     struct Point : StepRecord {
         long long instabilities = 0;
         double contact_fraction = 0.0, repulsive_fraction = 0.0;
         double energy() const { return interface_energy + elastic_energy; }
     };
-    /// Leads the block to the goal, point by point; without a goal it relaxes in place. If look
-    /// throws, the same call goes on. Throws io::PhysicsError if no equilibrium is found, or if the
-    /// solids part before a pull is reached; the path is then at its last point, without a goal.
+    /// Moves the block to the goal, point by point; without a goal relaxes it in place. After an
+    /// exception of look, the next call continues. Throws io::PhysicsError if no equilibrium is
+    /// found, or if the solids separate before a tensile load is reached; the path is then at its
+    /// last point, without a goal.
     Point relax(const Look& look);
-    Point now() const; ///< returns the point of the last relax()
-    InterfaceMaps maps() const;
+    Point now() const;          ///< returns the point of the last relax()
+    InterfaceMaps maps() const; ///< returns maps of the sites at the point of the last relax()
 
-    /// Relaxes the sites from their present places under drive.load, with nothing held; from beyond
-    /// the interaction range the result is the state of the segment "relax" of a run. The next
-    /// relax() begins a new path there. If no state is found (io::PhysicsError), or look throws,
-    /// the sites stay in place.
+    /// Relaxes the sites from their present places under drive.load, with top plane and mean height
+    /// free; from beyond the interaction range the result is the state of the segment "relax" of a
+    /// run. The next relax() begins a new path at the state. Throws io::PhysicsError if no state is
+    /// found; after this error, or an exception of look, the sites are unchanged.
     RestState release(const Look& look);
 
     /// All numbers that determine a state.
@@ -66,9 +69,9 @@ public:
         /// component][y][x], Å; empty: the block has relaxed there.
         std::vector<double> branches{};
     };
-    State copy() const;
-    /// Puts the sites, a held top plane and the branches into a state. The next relax() begins a
-    /// new path there, at the state's mean height if that is held. Throws io::SceneError for
+    State copy() const; ///< returns the present state
+    /// Sets the sites, a held top plane and the branches to a state. The next relax() begins a new
+    /// path there, at the state's mean height if the mean height is held. Throws io::SceneError for
     /// another number of sites and for values that are not finite.
     void restore(const State& state);
 
@@ -87,12 +90,12 @@ private:
     SpectralBlock block_;
     std::optional<QuasistaticPath> points_; ///< empty until a path begins
     std::optional<Held> held_;
-    /// Beginning of the next path: with the memory of the branches (true), relaxed in place
-    /// (false), or beyond the interaction range (empty).
+    /// Start of the next path: true with the memory of the branches, false relaxed in place, empty
+    /// beyond the interaction range.
     std::optional<bool> remembers_;
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
     std::function<bool(long long, double)> watch_;
-    Point before_; ///< last point of the path before
+    Point before_; ///< last point of the previous path
     struct Goal {
         std::optional<double> at{}, load{}, hold{}; ///< Å, eV/Å, fs
     };

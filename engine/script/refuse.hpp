@@ -9,7 +9,8 @@
 
 namespace asperity {
 
-/// Throws io::SceneError for a call of a script. where: the function or attribute that was used.
+/// Throws io::SceneError for a wrong call of a script. where: the function or attribute that was
+/// used; what, why, fix: problem, reason and remedy.
 [[noreturn]] inline void refuse(const char* where, std::string what, std::string why,
                                 std::string fix) {
     throw io::SceneError(io::Problem{where, std::move(what), std::move(why), std::move(fix)});

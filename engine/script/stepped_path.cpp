@@ -88,14 +88,14 @@ long long SteppedPath::step(long long n, const Look& look) {
     };
     const Stepping guard(stepping_);
     take_in_writes();
-    LookNowAndThen now_and_then(look);
+    ThrottledLook throttled_look(look);
     long long taken = 0;
     try {
         while (taken < n && !done()) {
             const bool last = taken + 1 == n;
             one_step(last);
             ++taken;
-            if (!last) now_and_then();
+            if (!last) throttled_look();
         }
     } catch (...) {
         bring_up_views();
@@ -235,9 +235,9 @@ RestState SteppedPath::relax(const Look& look) {
                "the state at zero load is that without forces from outside",
                "take the field away before (external = None)");
     take_in_writes();
-    LookNowAndThen now_and_then(look);
+    ThrottledLook throttled_look(look);
     const auto told = [&](long long, double) { // an exception ends the search
-        now_and_then();
+        throttled_look();
         return false;
     };
     const std::optional<LayerAtRest> found =

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // A dynamic path (engine/path/time_path.hpp) in a loop of the caller's own (asperity.Simulation of
-// Python): it is stepped, observed, led by hand, pushed and saved. It is the same path as that of a
-// run, but for the state after an approach, which is found when the caller asks for it.
+// Python), who steps, observes, moves, pushes and saves it. The path is that of a run, except that
+// the state after an approach is found only when the caller asks for it.
 //
 // All ranks of the communicator make the same calls with the same arguments; each writes to the
 // sites of its own tile.
@@ -22,20 +22,21 @@
 
 namespace asperity {
 
-/// A scene as it was given, which a saved path holds.
+/// The text of a scene and its overrides, stored in a saved path.
 struct SceneText {
     std::string text, file; ///< text, and the file's name shown in messages
     std::vector<std::string> overrides;
+    /// Reads the case for a number of ranks. Throws io::SceneError.
     Case read(int ranks) const { return read_case_text(text, file, overrides, ranks); }
 };
 
-/// Called about twenty times a second between steps or iterations. An exception ends the call
-/// there; the state is whole.
+/// Called about twenty times a second between steps or iterations. An exception ends the call in a
+/// consistent state.
 using Look = std::function<void()>;
-/// Caller of a Look at most twenty times a second.
-class LookNowAndThen {
+/// Functor that calls a Look at most twenty times a second.
+class ThrottledLook {
 public:
-    explicit LookNowAndThen(const Look& look) : look_(look) {}
+    explicit ThrottledLook(const Look& look) : look_(look) {}
     void operator()() {
         if (!look_ || Clock::now() < next_) return;
         look_();
@@ -57,7 +58,9 @@ struct RestState : ZeroLoad {
 /// Copy of the owned nodes of a layer, to detect writes.
 class LayerCopy {
 public:
+    /// Returns true if the layer has the copied values.
     bool same(const VectorPlane<const double>& layer) const;
+    /// Copies a layer.
     void take(const VectorPlane<const double>& layer);
 
 private:
@@ -70,20 +73,22 @@ public:
     /// Places the path at its start. Throws io::SceneError for a quasi-static scene and for a scene
     /// that a run would refuse.
     SteppedPath(Case c, SceneText source, const Communicator& ranks);
-    /// Resumes from a file of save(), bitwise identically.
+    /// Resumes a path from a file of save(); it continues bitwise identically. Throws io::FileError
+    /// if the file cannot be read.
     static std::shared_ptr<SteppedPath> resume(const std::string& file, const Communicator& ranks);
 
-    /// Makes n steps, or fewer at the end of the path, and returns their number. The last one is
-    /// observed, as are those of output.series and of observers. Throws io::PhysicsError if a guard
-    /// stops the path, which has then ended.
+    /// Makes n steps, or fewer at the end of the path, and returns their number. The last step is
+    /// observed, as are the steps of output.series and of observers. Throws io::PhysicsError if a
+    /// guard stops the path; no step can follow.
     long long step(long long n, const Look& look);
-    /// Calls f after each step whose number divides by n, which is observed. Observers may read and
-    /// write between two steps, as the program may, but not step.
+    /// Registers f to be called after every n-th step, which is observed. f may read and write as
+    /// between two steps, but not step.
     void every(long long n, std::function<void()> f);
-    /// Returns true if the path has come to its end; never while the top is led by hand.
+    /// Returns true if the path is complete; false while the top plane is moved by the caller.
     bool done() const { return !hand_ && path_.status() == Path::Status::done; }
-    std::string segment() const; ///< returns the segment as the scene has it; "done" after the last
-    /// Returns the number of the last step's segment, from 0; -1 while the top is led by hand.
+    std::string
+    segment() const; ///< returns the segment's text in drive.path; "done" after the last
+    /// Returns the index of the last step's segment; -1 while the top plane is moved by the caller.
     int segment_number() const;
 
     const Case& scene_case() const { return case_; }
@@ -94,39 +99,45 @@ public:
     /// Returns the record of the last step; zeros before the first one.
     const StepRecord& now() const { return path_.now(); }
 
-    // The top plane: displacement since the start, Å, and velocity in the next step, m/s.
+    // The top plane.
 
+    /// Returns the displacement since the start, Å.
     double top_position() const { return simulation().top().z; }
+    /// Sets the displacement since the start, Å.
     void set_top_position(double z);
+    /// Returns the velocity in the next step, m/s.
     double top_velocity() const;
-    /// Leads the top plane by hand, at this velocity, m/s: nothing slides, and no segment ends. The
-    /// scene's drive resumes if no value is given: a height, a hold or a slide ends at its planned
-    /// time, wherever the top plane is.
+    /// Sets the velocity of the top plane, m/s, in place of the scene's drive: nothing slides, and
+    /// no segment ends. Without a value the scene's drive resumes; a height, a hold or a slide then
+    /// ends at its planned time at any position of the top plane.
     void set_top_velocity(std::optional<double> v);
 
-    // Fields of the lowest layer, not copied, current until the next step and again after step().
-    // The next step uses values written to u or v, and the energy balance then starts anew. The
-    // holder of a view keeps its lease, which keeps this object.
+    // Views of fields of the lowest layer, without a copy, valid between calls of step(). The next
+    // step uses values written to u or v, and the energy balance then starts anew. Who keeps a view
+    // must keep a lease(), which keeps this object alive.
 
     using View = VectorPlane<double>;
+    /// Returns the displacements, Å.
     View u() { return fields_to_write().u.plane(0); }
+    /// Returns the velocities at the half step, Å/fs.
     View v() { return fields_to_write().v.plane(0); }
-    /// Returns the forces of the last step, for reading. Not available on a device.
+    /// Returns the forces of the last step, eV/Å, for reading. Throws io::SceneError on a device.
     View f();
-    std::shared_ptr<const void> lease();
+    std::shared_ptr<const void> lease(); ///< returns an owner of this object for a view
     Tile tile() const { return path_.grid().tile(0); }
-    InterfaceMaps maps(); ///< returns maps of the sites as they are now
+    InterfaceMaps maps(); ///< returns maps of the sites at their present places
 
-    /// Copies forces on the sites, eV/Å, which act beside the substrate's from the next step on.
+    /// Copies external forces on the sites, eV/Å, which act from the next step on in addition to
+    /// the substrate's.
     void set_external(const VectorPlane<const double>& field);
-    void clear_external();
-    /// Returns the field of external forces, to be changed in place; nothing if none acts.
+    void clear_external(); ///< removes the forces of set_external()
+    /// Returns the field of external forces, eV/Å, for writing; nothing if none act.
     std::optional<View> external();
 
     /// Relaxes a copy of the sites from their present places at zero load.
     RestState relax(const Look& look);
 
-    /// Saves everything except the observers in one file (HDF5). Throws io::SceneError if the file
+    /// Saves the path in one file (HDF5), except the observers. Throws io::SceneError if the file
     /// exists and is no checkpoint.
     void save(const std::string& file);
 
@@ -156,7 +167,7 @@ private:
     const Communicator ranks_;
     const Surface surface_;
     TimePath path_;
-    std::optional<TopMotion> hand_; ///< motion of a top plane that is led by hand
+    std::optional<TopMotion> hand_; ///< motion of a top plane that the caller moves
     ExternalForces pushing_;        ///< forces of external_
     std::vector<Observer> observers_;
     bool stepping_ = false;

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Energy that a quasi-static path dissipates. When a state becomes unstable, the block moves to the
-// next one at the same position of the held quantity (top plane or mean height), and the energy set
-// free goes into vibrations that the path does not follow.
+// next state at the same value of the held quantity (top plane or mean height). The energy released
+// goes into vibrations that the path does not follow.
 #pragma once
 
 #include "engine/options/segment.hpp"
@@ -24,8 +24,8 @@ struct Instability {
     double top = 0.0;                                   ///< displacement of the held quantity, Å
     double height_before = 0.0, height_after = 0.0;     ///< mean height of the lowest layer, Å
     std::array<double, 2> slide{};                      ///< place over the substrate, Å
-    double force_before = 0.0, force_after = 0.0;       ///< force of the holder, eV/Å
-    std::int64_t contact_before = 0, contact_after = 0; ///< sites
+    double force_before = 0.0, force_after = 0.0;       ///< force that holds the coordinate, eV/Å
+    std::int64_t contact_before = 0, contact_after = 0; ///< number of sites in contact
     int site_x = 0, site_y = 0;   ///< the site of the lowest layer that moved most
     double largest_move = 0.0;    ///< distance moved by that site, Å
     std::int64_t sites_moved = 0; ///< sites that moved more than half as far
@@ -53,13 +53,17 @@ struct Instability {
 struct Dissipation {
     double in_segment = 0.0; ///< energy dissipated in the current segment, eV
     double before = 0.0;     ///< energy dissipated in the earlier segments, eV
-    /// Part of the total in steps too long to tell the part of the block, eV
+    /// Part of the total in steps too long to be separated from the dissipation of a viscoelastic
+    /// block, eV.
     double not_followed = 0.0;
-    long long events = 0;           ///< points of the path with dissipation
-    std::vector<Instability> jumps; ///< the strongest, in the order of the path
+    long long events = 0;           ///< number of points of the path with dissipation
+    std::vector<Instability> jumps; ///< the strongest instabilities, in the order of the path
 
+    /// Returns the energy dissipated so far, eV.
     double total() const { return before + in_segment; }
+    /// Begins a segment: adds in_segment to before and sets it to zero.
     void begin_segment() { before += std::exchange(in_segment, 0.0); }
+    /// Adds an instability; the list keeps the 20 strongest.
     void add(const Instability& jump) {
         in_segment += jump.energy;
         ++events;

@@ -11,7 +11,7 @@
 
 namespace asperity {
 
-/// The force, eV/Å, that leading takes at a place x, Å.
+/// Force f, eV/Å, at a value x of the prescribed coordinate, Å.
 struct ForceAt {
     double x = 0.0, f = 0.0;
     template <class Visitor>
@@ -25,27 +25,28 @@ struct ForceAt {
 ///
 /// The force from the last point to a new one is the polynomial through the new point and up to
 /// three before it (Newton's divided differences), so that the error of a step h is of order h^5
-/// where the force is smooth. Where it is not, the polynomial through the old points alone misses
-/// the new force, and wherever in the step that came about, the integral is wrong by no more than
-/// half the step times the miss. Where the force jumps, the trail begins anew: what it has missed
-/// is then measured from the slope of the branch before, which a jump of a small part of the
-/// contact leaves nearly as it was.
+/// where the force is smooth. Otherwise the polynomial through the old points misses the new force,
+/// and the error of the integral is at most half the step times the miss, wherever in the step the
+/// force has changed. After a jump of the force the trail begins anew; the miss is then measured
+/// from the slope of the branch before, which hardly changes if a small part of the contact jumps.
 class ForceTrail {
 public:
+    /// Integral of the force over a step.
     struct Integral {
         double value = 0.0, error = 0.0; ///< int f dx and its error, eV
     };
 
     /// Starts the trail with a first point.
     void begin(double x, double f) { points_.assign(1, {x, f}); }
-    /// Resets the slope of the branch, because another coordinate is led from here.
+    /// Resets the slope of the branch. Called when another coordinate is prescribed from here on.
     void reset_slope() { branch_slope_ = 0.0; }
+    /// Adds a point and keeps the last three.
     void add(double x, double f) {
         branch_slope_ = (f - points_.back().f) / (x - points_.back().x);
         if (points_.size() == longest) points_.erase(points_.begin());
         points_.push_back({x, f});
     }
-    /// Integrates from the last point to (x, f), which is not added.
+    /// Integrates from the last point to (x, f). The point is not added.
     Integral to(double x, double f) const {
         const std::size_t n = points_.size();
         const ForceAt& last = points_[n - 1];
@@ -77,8 +78,8 @@ public:
     double continued(double x) const {
         return points_.back().f + (x - points_.back().x) * branch_slope_;
     }
-    /// Returns the distance of the force f at x from the last or from the continued force,
-    /// whichever is larger, eV/Å: after an instability and some way along the new branch f may
+    /// Returns the larger of the differences of f from the last force and from the continued force
+    /// at x, eV/Å. Both are needed: after an instability, some way along the new branch, f may
     /// equal the last force again.
     double jump(double x, double f) const {
         return std::max(std::abs(f - points_.back().f), std::abs(f - continued(x)));

@@ -3,7 +3,7 @@
 //
 // The last point of a sequence of equilibria along a prescribed coordinate (the top plane or the
 // mean height of the lowest layer; or, with one of these fixed, the place of the block over the
-// substrate along x or y), and the relaxation from it to the next one.
+// substrate along x or y, or time), and the relaxation from it to the next one.
 #pragma once
 
 #include "decomposition/global_largest.hpp"
@@ -22,23 +22,26 @@ namespace asperity {
 /// The last point of a quasi-static path.
 class LastPoint {
 public:
+    /// Options of a sequence of equilibria.
     struct Options {
-        Constraint::Of along = Constraint::Of::top;
-        double tolerance = 0.0; ///< tolerance of the first point, eV/Å
+        Constraint::Of along = Constraint::Of::top; ///< quantity prescribed along z
+        double tolerance = 0.0;                     ///< tolerance of the first point, eV/Å
         Scales scales;
     };
+    /// Keeps references to block and interface.
     LastPoint(SpectralBlock& block, Interface& interface, const Options& options)
         : block_(block), interface_(interface), options_(options) {}
 
     /// Coordinate of the path: the place along x or y; the prescribed quantity along z, with the
-    /// place fixed; or time, in units of the distance that the held quantity would move meanwhile
-    /// (block_memory.hpp).
+    /// place fixed; or time at a fixed place and prescribed quantity, expressed as the distance
+    /// that the drive would move in that time, Å (block_memory.hpp).
     enum class Along { x, y, z, time };
-    /// Selects the coordinate that changes from now on. Returns its value.
+    /// Selects the coordinate that changes from now on. Returns the value of this coordinate, Å.
     double lead(Along along);
+    /// Returns the coordinate of the last point, Å.
     double at() const { return at_; }
-    /// Holds a load along z, eV/Å, from now on; empty: holds the prescribed quantity at its present
-    /// value. Only if the coordinate is the place or time.
+    /// Prescribes a load along z, eV/Å, from now on; without a load prescribes the quantity at its
+    /// present value again. The coordinate must be the place or time.
     void press(std::optional<double> load) { load_ = load; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
@@ -47,43 +50,45 @@ public:
     void relax_to(double tolerance) { options_.tolerance = tolerance; }
     double tolerance() const { return options_.tolerance; }
 
-    /// Makes the present state of the block the last point.
+    /// Makes the present state of the block the last point. at: its coordinate, Å.
     void accept(double at);
     /// Returns the sum of the displacements of the sites of the lowest layer since the last point,
     /// Å. Collective.
     double all_moves() const;
     /// Puts the block back to the last point.
     void put_back();
+    /// Called with iteration and largest residual force, eV/Å. Returns true to stop.
     using Report = std::function<bool(long long, double)>;
-    /// Relaxes from the last point with the coordinate at this value, dt later (fs; infinite: at
-    /// rest), as the continuation of the step before unless turn() was called since. report and
-    /// window as in RelaxOptions. Collective.
+    /// Relaxes from the last point to the coordinate `at`, Å, over a time step dt, fs (infinite:
+    /// the branches relax completely). The time step continues the one before unless turn() was
+    /// called in between. report, window: as in RelaxOptions. Collective.
     RelaxedState relax_at(double at, double dt, const Report& report,
                           const ForceWindow& window = {});
 
-    /// Brings a viscoelastic block, at the last point, into the shape in which it slides steadily,
-    /// as far as turns lead there (moving_pattern.hpp), its branches as well, without a step in
-    /// time. velocity: along x or y, the coordinate, Å/fs, with its sign. Unless interrupted, the
-    /// block is then to be accepted. Collective.
+    /// Brings a viscoelastic block at the last point, with its branches, into the shape in which it
+    /// slides steadily, without a time step (moving_pattern.hpp); the iteration may end before the
+    /// shape is exact. velocity: velocity along the coordinate (x or y), Å/fs, with sign. The
+    /// caller then calls accept(), unless the relaxation was interrupted. Collective.
     RelaxedState settle(double velocity, const Report& report);
-    /// Notes that the next step in time does not continue the last one, as the displacements have
-    /// changed their course.
+    /// Notes that the displacements have changed direction: the next time step does not continue
+    /// the last one.
     void turn() { last_dt_ = units::forever; }
-    /// Returns the length of the step that the next one continues, fs; infinite: it continues none.
+    /// Returns the length of the time step that the next one continues, fs; infinite if it
+    /// continues none.
     double last_dt() const { return last_dt_; }
 
+    /// Returns the number of iterations of all relaxations so far.
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
-    /// Returns the distance that a site of the lowest layer has moved since the last point, Å;
-    /// zero beside a box with free edges.
+    /// Returns a function of (x, y): the distance that a site of the lowest layer has moved since
+    /// the last point, Å; zero for sites outside the box of a block with free edges.
     std::function<double(int, int)> moves() const;
-    /// Returns the site that has moved most. Collective.
+    /// Returns the site that has moved furthest since the last point. Collective.
     LargestSite largest_move() const {
         return global_largest(block_.communicator(), interface_.tile(), moves());
     }
 
-    /// Passes the numbers to a visitor, for checkpoints; states() lists the arrays, and
-    /// states_to_restore() those to be read before put_back().
+    /// Passes the numbers to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
         v("at", at_);
@@ -96,7 +101,9 @@ public:
         v("balance", balance_);
         v("last_dt", last_dt_);
     }
+    /// Returns the arrays of the last point to be written.
     std::vector<StateArray> states() const;
+    /// Returns the arrays of the last point to be read; the caller then calls put_back().
     std::vector<RestoredArray> states_to_restore();
 
 private:

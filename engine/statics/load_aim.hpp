@@ -15,24 +15,28 @@
 
 namespace asperity {
 
-/// The way to a load: the nearest places beyond it, once some are known, and the steps that it cut.
+/// Search for the place at which the force is a given load: the nearest known places beyond the
+/// load, and the steps that were cut to end at the load.
 class LoadAim {
 public:
+    /// Begins a new search.
     void begin() { *this = {}; }
-    /// Notes a place beyond the load, seen from x, Å.
+    /// Notes a place beyond the load. x: last point of the path, Å.
     void pass(const ForceAt& beyond, double x) {
         if (beyond_.empty() || 2.0 * std::abs(beyond.x - x) <= std::abs(beyond_[0].x - x))
             tries_ = 0;
         beyond_.insert(beyond_.begin(), beyond);
         beyond_.resize(std::min<std::size_t>(beyond_.size(), 2));
     }
-    /// Counts a try.
+    /// Counts a step that is tried, once a place beyond the load is known.
     void count() {
         if (!beyond_.empty()) ++tries_;
     }
-    /// Returns the step of this length, Å, from the end of a trail, or a shorter one to where the
-    /// force is expected to be the load: by the places on both sides, or halfway if these have not
-    /// come closer for long; by the points before only if the force is known to have no jumps.
+    /// Returns the length of the next step from the end of a trail, Å: `length`, or less if the
+    /// force is expected to equal the load within the step. If a place beyond the load is known,
+    /// the estimate interpolates between both sides, or halves the interval if it has not shrunk
+    /// for several steps. Otherwise it extrapolates from the points before, only if the force is
+    /// smooth. direction: sign of the motion; load: eV/Å.
     double cut(double length, double direction, const ForceTrail& trail, double load, bool smooth) {
         const std::vector<ForceAt>& points = trail.points();
         const std::size_t n = points.size();
@@ -57,9 +61,9 @@ public:
         was_cut_ = true;
         return *to_load;
     }
-    /// Returns true once after a step that was cut: such a step passes no load unseen.
+    /// Returns true, once, if the last step was cut: a cut step cannot pass the load unnoticed.
     bool take_was_cut() { return std::exchange(was_cut_, false); }
-    /// Returns the longest step that was cut, Å.
+    /// Returns the largest length of a step before it was cut, Å.
     double uncut() const { return uncut_; }
 
     template <class Visitor>
@@ -71,9 +75,10 @@ public:
     }
 
 private:
-    /// Returns where the force is a load: on the parabola x(f) through three places, or on the line
-    /// through the first two if the parabola is not within these parts of the way between them or
-    /// is far from the line. Forces of one sign grow rather as exponentials: f is their logarithm.
+    /// Estimates the place at which the force is the load, Å: from the parabola x(f) through three
+    /// places, or from the line through the first two if the parabola leaves the part (least, most)
+    /// of the way between them or is far from the line. If all forces press, the logarithm of the
+    /// force is used for f, because pressing forces grow about exponentially.
     static double place_of(double load, const ForceAt& a, const ForceAt& b, const ForceAt* c,
                            double least, double most) {
         const bool grows = load > 0.0 && a.f > 0.0 && b.f > 0.0 && (c == nullptr || c->f > 0.0);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // Newton's direction of a spectral block: (S + H) d = -g by conjugate gradients, preconditioned
-// with (S + k)^-1, in single precision and without sweeps: H, the interface's Hessian, is a map of
-// 3 x 3 matrices (interface_stiffness.hpp).
+// with (S + k)^-1, in single precision and without sweeps of the interface. H, the interface's
+// Hessian, is a map of 3 x 3 matrices (interface_stiffness.hpp).
 #pragma once
 
 #include "engine/interface/interface_stiffness.hpp"
@@ -12,17 +12,19 @@
 
 namespace asperity {
 
+/// Newton's method for a block at rest over an interface.
 class Newton {
 public:
+    /// Allocates the work arrays. Keeps references to block and preconditioner.
     Newton(const Response& block, const Preconditioner& preconditioner, const Scales& scales);
 
-    /// Computes the direction at the block's displacements, whose interface_force() and gradient g
-    /// are up to date, to a residual of `forcing` times the gradient, both measured by the
-    /// preconditioner. Returns false, without a direction, if the curvature along it is negative.
-    /// Collective.
+    /// Computes the direction d at the block's displacements; interface_force() and the gradient g
+    /// must be up to date. Conjugate gradients stop at a residual of `forcing` times the gradient,
+    /// both in the norm of the preconditioner. Returns false, without a direction, if a negative
+    /// curvature is met. Collective.
     bool direction(const Interface& interface, double forcing, const Waves<double>& g,
                    Waves<float>& d);
-    /// Returns the mean stiffness of the interface for a site at the block's displacements, eV/Å^2.
+    /// Measures the mean stiffness of the interface per site at the block's displacements, eV/Å^2.
     /// Collective.
     double mean_stiffness(const Interface& interface);
 

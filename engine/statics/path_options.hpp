@@ -14,6 +14,7 @@
 
 namespace asperity {
 
+/// Options of a quasi-static path.
 struct PathOptions {
     Constraint::Of along = Constraint::Of::top; ///< or mean_height
     double step = 0.25;                         ///< largest step of the prescribed coordinate, Å
@@ -21,19 +22,20 @@ struct PathOptions {
     Scales scales;
     double load = 0.0;     ///< force at which the approach ends, eV/Å
     double velocity = 0.0; ///< velocity of the drive if the block is viscoelastic, Å/fs
-    /// Energy that flat surfaces of this area bind with, eV; empty if they do not attract.
+    /// Binding energy of flat surfaces of the area of the box, eV; empty if they do not attract.
     std::optional<double> binding_energy = {};
-    bool over_wall = false;
+    bool over_wall = false; ///< the substrate is a wall
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
     std::function<bool(long long, double)> report;
 
+    /// Returns true if the solids attract each other.
     bool attracts() const { return binding_energy.has_value(); }
-    /// Returns true if there is one state at each position, whichever way the path has come: the
-    /// energy of an elastic block over a wall that only repels is convex.
+    /// Returns true if only one state exists at each position, so that nothing is dissipated: the
+    /// energy of an elastic block over a purely repulsive wall is convex.
     bool reversible() const { return over_wall && !attracts() && !(velocity > 0.0); }
 };
 
-/// Returns the options of a case over its interface. report: as in PathOptions.
+/// Returns the options of the path of a case. report: PathOptions::report.
 PathOptions path_options(const Case& c, const Interface& interface,
                          std::function<bool(long long, double)> report = {});
 

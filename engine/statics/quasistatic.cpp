@@ -112,7 +112,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             if (!decided && !step.excess && !step.coarse)
                 bracket_ = {t.there, point(state, t.there).force};
         } else if (state.jumped && is_short_in_time(t.way)) {
-            // The relaxation was abandoned on its way: the force goes about as far again.
+            // The relaxation was abandoned early: the force changes about as much again.
             bracket_ = {t.there, 2.0 * state.force - trail_.continued(t.there)};
         }
         length_ *= 0.5;
@@ -179,8 +179,9 @@ QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
     }
     if (!state.converged) refuse_place(state, at());
     const PathPoint before = point();
-    state.branches.dissipated = std::max(
-        before.energy - record_.relaxed - state.interface_energy - state.elastic_energy, 0.0);
+    state.branches.dissipated = std::max(before.energy - record_.dissipated_in_block -
+                                             state.interface_energy - state.elastic_energy,
+                                         0.0);
     const PathPoint there = point(state, at());
     accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
     course_.comes_to_rest = false;
@@ -314,8 +315,8 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         trail_.begin(at, force);
     last_.accept(at);
     ++record_.step;
-    course_.relaxed += state.branches.dissipated;
-    record_.relaxed += state.branches.dissipated;
+    course_.dissipated_in_block += state.branches.dissipated;
+    record_.dissipated_in_block += state.branches.dissipated;
     set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;

@@ -1,45 +1,45 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A quasi-static path: equilibria at one prescribed position of the top plane after another, each
-// relaxed from the last, so that hysteresis is kept.
+// A quasi-static path: a sequence of equilibria at prescribed positions of the top plane, each
+// relaxed from the one before, so that hysteresis is reproduced.
 //
-// Alternatively the mean height of the lowest layer is prescribed, as by a machine that is hard
-// whatever the thickness of the block: the top plane follows, the block is not stretched as a
-// whole, and the force of the constraint is the interface's, F. A block that would be unstable as a
-// whole on its own spring is then stable; only patches of the surface can be unstable. "Top" then
-// means this mean height, as a displacement.
+// Alternatively the mean height of the lowest layer is prescribed, as by a machine that is hard for
+// a block of any thickness: the top plane follows, the block is not stretched as a whole, and the
+// force of the constraint is the interface's, F. A block that would be unstable as a whole on its
+// own spring is then stable; only patches of the surface can be unstable. "Top" then means this
+// mean height, as a displacement.
 //
 // A slide changes the place of the block over the substrate at a fixed top or mean height, or under
 // a load, whose potential is then a part of the energy. The force is that of the substrate along
 // the slide, and "top" means the place. Over a wall the map of heights moves under the block, and
 // the force is that of the pressure on the slopes, sum F dh/dx. A slide until steady of a
-// viscoelastic block begins in the shape in which the block slides steadily, as far as that is
-// found without walking there: slow branches would take many lengths of the map.
+// viscoelastic block begins in the shape of the steadily sliding block, as far as the iteration of
+// moving_pattern.hpp finds this shape: sliding until slow branches are steady would take many
+// lengths of the map.
 //
-// Between two points, the work of the top plane -int F dz_top is the change of the energy
-// U_LJ + U_el, unless the block became unstable in between and changed to another state: the
-// missing energy was then dissipated. From the last point a step is tried and
+// Between two points, the work of the top plane -int F dz_top is the change of the energy U_LJ +
+// U_el, unless the block became unstable in between and changed to another state: the missing
+// energy was then dissipated. A step from the last point is tried and
 //
 //   accepted  if no energy is missing;
 //   accepted, and the missing energy counted as dissipated, if the work is known well enough: the
 //             force is smooth, or its jump times the step is too small to matter;
 //   halved    otherwise, and tried again from the last point. The place and force of the failed try
-//             are kept: they tell how close the last point has to come.
+//             are kept: they bound the distance to the instability.
 //
 // An instability thus ends up between two points so close that its place and its energy are known.
 // Beyond the instability only one point of the new branch is known, and a step may hide the next
 // instability: the force may return to its former value, and the error of the integral may equal
 // the lost energy. Forces are therefore compared with the slope of the branch before, and a step is
 // halved if the force misses this slope by too much. This does not find all instabilities
-// (docs/explanation/relaxation.md). As long as a place further on is kept, steps go half of the way
-// to that place. A relaxation whose force jumps by more than a step of its length allows is
-// abandoned on its way through the instability: with few exceptions its step would be halved
-// anyway. "No energy" is drive.tolerance for each site and Å of the step: this bounds the errors of
-// the energy on the whole path. Points are therefore relaxed to a quarter of the tolerance. The
-// tolerance follows the force that presses, if that is larger than the scale of forces, or the load
-// to which a segment leads without attraction on the way. decide() (step_decision.hpp) chooses
-// among the three.
+// (docs/explanation/relaxation.md). As long as the place of a failed try is kept, steps go half of
+// the way to that place. A relaxation whose force jumps by more than its step allows is abandoned:
+// with few exceptions the step would be halved anyway. Missing energy counts as none up to
+// drive.tolerance per site and Å of the step, which bounds the error of the energy on the whole
+// path; points are therefore relaxed to a quarter of the tolerance. The tolerance grows with a
+// pressing force that exceeds the scale of forces, and with the load to which a segment leads
+// without attraction. decide() (step_decision.hpp) chooses between accepting and halving.
 //
 // An elastic block over a wall that only repels has a convex energy, and one state at each
 // position: nothing is dissipated, and the work of a step is the energy gained, however long it is.
@@ -64,40 +64,45 @@
 
 namespace asperity {
 
+/// A quasi-static path of a block over an interface.
 class QuasistaticPath {
 public:
+    /// Keeps references to block and interface. start(), start_here() or resume() must follow.
     QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);
 
     /// Starts from the undisplaced block beyond the interaction range. Collective.
     void start();
-    /// Start from the block as it is. from_apart: works are counted from the solids at rest apart,
-    /// so that the first point has the energy of this state; otherwise from here. remembers:
-    /// branches keep their extensions; otherwise the block has relaxed.
+    /// Options of a start from the present state of the block. from_apart: works count from the
+    /// solids at rest apart, otherwise from the present state. remembers: the branches keep their
+    /// extensions; otherwise the block has relaxed.
     struct Here {
         bool from_apart = false, remembers = false;
     };
+    /// Starts from the present state of the block. Collective.
     void start_here(Here here);
 
-    /// Begins a segment of the path, with its number for the records; amounts in the engine's units
-    /// (a load in eV/Å).
+    /// Begins a segment. number: index in the path, for records of instabilities.
     void begin(const Segment& segment, std::size_t number = 0);
     /// Begins a segment that ends exactly at a displacement of the held coordinate, Å.
     void begin_to(double at);
+    /// Outcome of advance(): a point within the segment; a point that ends the segment at a load,
+    /// apart, or at its end coordinate; or no point, because the relaxation was interrupted.
     enum class Outcome { point, at_load, apart, there, interrupted };
     /// Makes the next point of the segment. Returns at_load if an approach or a load has reached
-    /// its load exactly; apart if no force is left on a pull-off and the block is at rest; there if
-    /// a height or a slide has reached its end exactly. After an interrupted relaxation block and
-    /// path are back at the last point, and the next call makes the whole point again. Collective.
-    /// Throws io::PhysicsError if no equilibrium is found, or if the solids part on the way to a
-    /// pull.
+    /// its load; apart if no force is left on a pull-off and the block is at rest; there if a
+    /// height or a slide has reached its end. After an interrupted relaxation, block and path are
+    /// restored to the last point, and the next call repeats the point. Collective. Throws
+    /// io::PhysicsError if no equilibrium is found, or if the solids separate before a tensile load
+    /// is reached.
     Outcome advance();
 
-    /// Returns the last point: step counts points, damped is the dissipated energy.
+    /// Returns the record of the last point: `step` is the number of the point, `damped` the energy
+    /// dissipated at instabilities.
     const StepRecord& now() const { return record_; }
-    /// Returns the work done on the block in the segment under way, eV. At a held mean height the
-    /// work is minus that of the interface's force, because the mean height does not jump.
+    /// Returns the work done on the block in the current segment, eV. At a prescribed mean height
+    /// this is minus the work of the interface's force, because the mean height does not jump.
     double work() const { return course_.work; }
-    /// Returns the distance from the beginning of the segment under way, Å.
+    /// Returns the distance from the beginning of the current segment, Å.
     double way() const { return std::abs(at() - course_.from); }
     /// Returns the part of work() that moves the block sideways, eV.
     double lateral_work() const { return course_.lateral; }
@@ -105,28 +110,32 @@ public:
     /// steadily, before the first step of a slide, eV.
     double settling_work() const { return course_.settling; }
     /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
-    /// (work_errors.hpp; docs/explanation/relaxation.md has how often it holds).
+    /// (work_errors.hpp; docs/explanation/relaxation.md states how often the true error is within
+    /// it).
     double uncertainty() const { return course_.errors.total(); }
-    /// Returns the energy that a viscoelastic block has dissipated in the segment under way,
-    /// without the dissipation at instabilities, eV.
-    double relaxed() const { return course_.relaxed; }
-    /// Returns the change of the energy of interface and block, branches included, in the segment
-    /// under way, eV: work() less this and what was dissipated is 0 to within uncertainty().
+    /// Returns the energy that a viscoelastic block has dissipated in the current segment, without
+    /// the dissipation at instabilities, eV.
+    double dissipated_in_block() const { return course_.dissipated_in_block; }
+    /// Returns the change of the energy of interface and block, branches included, in the current
+    /// segment, eV. work() minus stored() minus all dissipated energy is zero within uncertainty().
     double stored() const { return record_.energy() - course_.stored_at_start; }
     const Dissipation& dissipation() const { return dissipation_; }
     /// Returns the uncertainty of the force of the last point, eV/Å.
     double slack() const { return slack(record_.in_contact); }
     long long iterations() const { return last_.iterations(); }
-    /// Puts the block back to the last point, from wherever it was taken.
+    /// Restores the block to the last point.
     void put_back() { last_.put_back(); }
 
-    /// Passes all numbers of the path to v, for checkpoints; states() has the displacements at its
-    /// last point, states_to_restore() those to be read. A path that has read both and is resumed
-    /// makes points bitwise identical to those of a path that never stopped.
+    /// Passes all numbers of the path to a visitor, for checkpoints. A path that has read numbers
+    /// and arrays and is resumed makes points bitwise identical to those of a path that never
+    /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
+    /// Returns the arrays of the last point to be written.
     std::vector<StateArray> states() const { return last_.states(); }
+    /// Returns the arrays of the last point to be read.
     std::vector<RestoredArray> states_to_restore() { return last_.states_to_restore(); }
+    /// Restores the block to the last point after numbers and arrays have been read. Collective.
     void resume();
 
 private:
@@ -134,24 +143,24 @@ private:
     /// Numbers of the segment under way.
     struct Course {
         Segment::Kind kind = Segment::approach;
-        std::size_t number = 0;       ///< number in the path
-        Along along = Along::z;       ///< coordinate that the segment leads
-        double direction = -1.0;      ///< sign of the motion; 0: none
-        std::optional<double> end;    ///< end, Å; none: at a load, or apart
-        std::optional<double> load;   ///< load at its end, eV/Å; none: drive.load, or apart
-        SegmentRule rule;             ///< rule of a segment that a force ends
-        LoadAim aim;                  ///< way to a load
-        bool comes_to_rest = false;   ///< the next point is that of the block at rest, apart
-        bool settles = false;         ///< the next point is that of a block that slides steadily
-        std::int64_t crept = 0;       ///< points in a row as close together as points can be
-        double from = 0.0;            ///< beginning, Å
-        std::optional<double> held;   ///< load of a slide under load, eV/Å
-        double work = 0.0;            ///< work of the top plane, eV
-        double lateral = 0.0;         ///< part of it that moves the block sideways, eV
-        double settling = 0.0;        ///< work that brought the block into its steady shape, eV
-        double relaxed = 0.0;         ///< dissipated by the block, eV
-        double stored_at_start = 0.0; ///< energy of interface and block, eV
-        WorkErrors errors;            ///< uncertainty of work and dissipated energy
+        std::size_t number = 0;     ///< number in the path
+        Along along = Along::z;     ///< coordinate that the segment leads
+        double direction = -1.0;    ///< sign of the motion; 0: none
+        std::optional<double> end;  ///< end, Å; none: at a load, or apart
+        std::optional<double> load; ///< load at its end, eV/Å; none: drive.load, or apart
+        SegmentRule rule;           ///< rule of a segment that a force ends
+        LoadAim aim;                ///< search for a load
+        bool comes_to_rest = false; ///< the next point is that of the block at rest, apart
+        bool settles = false;       ///< the next point is that of a block that slides steadily
+        std::int64_t crept = 0;     ///< consecutive points at the smallest step
+        double from = 0.0;          ///< beginning, Å
+        std::optional<double> held; ///< load of a slide under load, eV/Å
+        double work = 0.0;          ///< work of the top plane, eV
+        double lateral = 0.0;       ///< part of work that moves the block sideways, eV
+        double settling = 0.0;      ///< work that brought the block into its steady shape, eV
+        double dissipated_in_block = 0.0; ///< energy dissipated by a viscoelastic block, eV
+        double stored_at_start = 0.0;     ///< energy of interface and block at the beginning, eV
+        WorkErrors errors;                ///< uncertainty of work and dissipated energy
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -170,7 +179,7 @@ private:
             v("work", work);
             v("lateral", lateral);
             v("settling", settling);
-            v("relaxed", relaxed);
+            v("relaxed", dissipated_in_block);
             v("stored_at_start", stored_at_start);
             v("errors", errors);
         }
@@ -190,15 +199,14 @@ private:
     double time_of(double step) const;
     bool is_short_in_time(double step) const;
     std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
-    /// Returns the last point. Its energy contains the energy that the block has dissipated in
-    /// time.
+    /// Returns the last point. Its energy includes the energy dissipated by a viscoelastic block.
     PathPoint point() const {
         return {at(), force(),
-                record_.interface_energy + record_.elastic_energy + record_.relaxed +
+                record_.interface_energy + record_.elastic_energy + record_.dissipated_in_block +
                     course_.held.value_or(0.0) * record_.top};
     }
-    /// Returns the displacement of what a load acts on, Å: of the top plane, or the mean height of
-    /// the lowest layer.
+    /// Returns the coordinate on which a load acts, Å: the displacement of the top plane, or the
+    /// mean height of the lowest layer.
     double lifted(const RelaxedState& state) const {
         return options_.along == Constraint::Of::top ? state.top : state.mean_height;
     }
@@ -229,8 +237,8 @@ private:
     double longest_step() const;
     double smallest_step() const;
     /// Returns the tolerance under a force that presses, eV/Å: a fraction of the scale of forces
-    /// (case/scales.cpp), or of a site's part of this force, if that is larger. Where nothing
-    /// attracts the sites in contact bear it.
+    /// (case/scales.cpp) or, if larger, of the force per site. Without attraction, only sites in
+    /// contact bear the force.
     double tolerance_under(double force) const {
         const double count = options_.reversible()
                                  ? std::max(1.0, static_cast<double>(record_.in_contact))
@@ -241,13 +249,13 @@ private:
     double tolerance_to(double at) const;
     double energy_error() const;
     double allowed_missing(double way, double tolerance) const;
-    /// Returns allowed_missing() of a step during which a viscoelastic block may move without the
-    /// drive, eV. Collective.
+    /// Returns allowed_missing() for a step in which a viscoelastic block may also relax by itself,
+    /// eV. Collective.
     double allowed_missing_in_time(double way, double tolerance) const;
-    /// Sets the displacements to change their course in time: the next step continues none, and is
+    /// Notes that the displacements change direction: the next time step continues none, and is
     /// short.
     void turn();
-    /// Returns the uncertainty that the work of a step with an instability may have, eV.
+    /// Returns the largest uncertainty allowed for the work of a step with an instability, eV.
     double allowed_uncertainty(double tolerance) const {
         return allowed_missing(usual_step(), tolerance);
     }
@@ -263,14 +271,14 @@ private:
     ForceTrail trail_;
     Course course_;
     double length_ = 0.0; ///< length of the next step, Å
-    /// The far end of an interval that is bisected. Between the last point and it the block becomes
-    /// unstable, or the force is not smooth enough to tell.
+    /// Far end of an interval that is bisected: between the last point and this place the block
+    /// becomes unstable, or the force is not smooth enough to exclude an instability.
     std::optional<ForceAt> bracket_;
     Dissipation dissipation_;
     double strongest_ = 0.0;       ///< strongest attraction so far, eV/Å
     double energy_at_start_ = 0.0; ///< energy from which works are counted, eV
     double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
-    double way_ = 0.0;             ///< length of the path so far, in and out, Å
+    double way_ = 0.0;             ///< length of the path so far, Å
 };
 
 template <class Visitor>

@@ -81,7 +81,7 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
                          : course_.along == Along::time ? 0.0
                                                         : lateral_force()[axis()];
     return {at, force,
-            state.interface_energy + state.elastic_energy + record_.relaxed +
+            state.interface_energy + state.elastic_energy + record_.dissipated_in_block +
                 state.branches.dissipated + course_.held.value_or(0.0) * lifted(state)};
 }
 
@@ -109,7 +109,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     double least = options_.scales.force * sites_ * (way_ + options_.step) / 80.0;
     if (options_.binding_energy) least = std::min(least, 0.05 * *options_.binding_energy);
     const double scale = std::max(scale_, least);
-    const double spent = record_.damped + record_.relaxed;
+    const double spent = record_.damped + record_.dissipated_in_block;
     record_.residual = scale > 0.0 ? (record_.work - gained - spent) / scale : 0.0;
 }
 

@@ -194,7 +194,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     course_.comes_to_rest = course_.settles = false;
     course_.crept = 0;
     course_.from = at();
-    course_.work = course_.lateral = course_.settling = course_.relaxed = 0.0;
+    course_.work = course_.lateral = course_.settling = course_.dissipated_in_block = 0.0;
     course_.stored_at_start = record_.energy();
     dissipation_.begin_segment();
 }

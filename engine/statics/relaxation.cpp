@@ -84,7 +84,7 @@ public:
         if (spreading_) return options_.scales.stiffness * distance_;
         return rms_ <= options_.tolerance ? largest_residual() : rms_;
     }
-    /// Computes the residual of the state as it is reported, eV/Å, and the energies in sums().
+    /// Computes the residual of the final state, eV/Å, and the energies in sums().
     double conclude() {
         mixed_precision_ = false;
         block_.apply_constraint();
@@ -188,7 +188,7 @@ private:
     double move_max_ = Constants::move_max * options_.scales.length; ///< Å
 };
 
-/// Returns true if `force`, the sum of the forces on the sites, is that of the constraint, but for
+/// Returns true if `force`, the sum of the forces on the sites, is that of the constraint within
 /// rounding. Collective.
 bool balanced(Response& block, double force, double balance, double rounding) {
     const Constraint& constraint = block.constraint();

@@ -4,31 +4,31 @@
 // The relaxed state of a contact: the spectral block over its substrate, without inertia.
 //
 // Over atoms there are two stages. While contact spreads, sites jump into contact one after the
-// other, and the energy is far from quadratic. However well a step is chosen, it is good for some
-// tenths of an angstrom only, the range of an attraction; so steps must be cheap. Every site is a
-// heavy ball of its own (heavy_ball.hpp): one sweep of the interface, two transforms a component,
-// no energy, no line search. The stiffness k of the preconditioner follows the interface's mean, so
-// that a block supported by a few summits converges as fast as one in full contact.
+// other, and the energy is far from quadratic. A step is useful over some tenths of an angstrom
+// only, the range of the attraction, so that steps must be cheap. Every site is a heavy ball of its
+// own (heavy_ball.hpp): an iteration takes one sweep of the interface and two transforms per
+// component, no energy and no line search. The stiffness k of the preconditioner follows the
+// interface's mean, so that a block supported by a few summits converges as fast as one in full
+// contact.
 //
-// Once no site has far to go, what is left is a smooth problem with soft modes, and the direction
-// is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same preconditioner,
-// without sweeps and in single precision, and g is in double. It is solved loosely, and more
-// closely once a step has not halved the residual. Where a step solved closely has not halved it
-// either, where the curvature is negative, or where a site would move further than it may, the
-// heavy balls go on.
+// Once all sites are close to their targets, a smooth problem with soft modes is left, and the
+// direction is Newton's (newton.hpp): (S + H) d = -g by conjugate gradients with the same
+// preconditioner, without sweeps and in single precision; g is in double precision. The equation is
+// solved loosely, and more closely after a step that has not halved the residual. If a closely
+// solved step has not halved the residual either, if the curvature is negative, or if a site would
+// move further than move_max, the heavy balls continue.
 //
 // A relaxation that starts near an equilibrium (Start::near, as at a point of a path) begins with
-// Newton's method; steps that would move a site further than it may, but no further than ten times
-// that, are then shortened.
+// Newton's method; steps that would move a site by one to ten times move_max are then shortened.
 //
-// Over a lattice, sweeps are in mixed precision (SweepOptions) until the forces are near their
-// error; the last ones, and the state that is reported, are in double precision.
+// Over a lattice, sweeps are in mixed precision (SweepOptions) until the forces are near the error
+// of mixed precision; the last sweeps, and the reported state, are in double precision.
 //
-// Over a wall each site's own law is solved exactly instead (wall_minimiser.hpp).
+// Over a wall another method solves each site's own law exactly (wall_minimiser.hpp).
 //
-// The minimum that is found is the one downhill: no site moves further than move_max in an
-// iteration, and one that has passed its target stops. A state whose forces cannot be brought below
-// the tolerance is reported as not converged, and so is one whose sum of forces is not the load:
+// The relaxation ends in the minimum downhill of its start: no site moves further than move_max in
+// an iteration, and a site that has passed its target stops. A state is reported as not converged
+// if its forces cannot be brought below the tolerance, or if the sum of its forces is not the load:
 // forces below the tolerance that all point one way add up.
 #pragma once
 
@@ -46,16 +46,17 @@ namespace asperity {
 
 /// Knowledge of the state that a relaxation starts from.
 enum class Start {
-    anywhere,
-    near, ///< close to an equilibrium, which may have just been lost
+    anywhere, ///< no knowledge
+    near,     ///< close to an equilibrium, which may have just become unstable
 };
 
 /// The relaxation is abandoned if the total force leaves this interval, eV/Å.
 struct ForceWindow {
-    double expected = 0.0;
+    double expected = 0.0;                                     ///< expected total force, eV/Å
     double furthest = std::numeric_limits<double>::infinity(); ///< distance from the expected force
 };
 
+/// Options of a relaxation.
 struct RelaxOptions {
     Start start = Start::anywhere;
     double tolerance = 0.0; ///< largest residual force on a site, eV/Å
@@ -70,18 +71,18 @@ struct RelaxOptions {
     std::function<bool(long long, double)> report;
 };
 
-/// A load is met to this fraction of itself, and no load to this fraction of the forces on the
-/// sites added up without their signs. (A load below a millionth of these is met to this fraction
-/// of that.)
+/// Relative accuracy of a load. Zero load is met to this fraction of the sum of the absolute forces
+/// on the sites, and a load below a millionth of this sum to this fraction of the millionth.
 inline constexpr double load_accuracy = 1e-3;
 
 /// Constants that tune the minimisers, in the scales of the interface (scales.hpp): distances in
-/// its length, forces in Scales::interface_force(). The states that they end in do not depend on
-/// these, as far as was measured; iterations do.
+/// its length, forces in Scales::interface_force(). As far as was measured, the final states do not
+/// depend on these constants; the number of iterations does.
 struct RelaxationConstants {
     /// A relaxation ends if the residual has not halved in this many iterations.
     static constexpr long long stagnation_period = 3000;
-    /// The force is compared with its window after this many iterations, and then every so many.
+    /// Iteration of the first comparison of the force with its window, and period of further
+    /// comparisons.
     static constexpr long long first_force_check = 20, force_check_period = 5;
 
     // The heavy-ball method (heavy_ball.hpp): see HeavyBallRule.
@@ -90,11 +91,11 @@ struct RelaxationConstants {
     /// Largest move of a site in an iteration: well below the range of the potential, so that no
     /// site passes a barrier.
     static constexpr double move_max = 0.17;
-    /// Stiffness k of the preconditioner over the interface's mean stiffness, and the least one
-    /// over Scales::stiffness, for few sites in contact.
+    /// Stiffness k of the preconditioner divided by the interface's mean stiffness, and the least k
+    /// divided by Scales::stiffness, for few sites in contact.
     static constexpr double stiffness_share = 0.35, stiffness_share_min = 1e-4;
-    /// The interface's mean stiffness is measured with this period (iterations); k follows if it
-    /// has changed by more than this fraction.
+    /// Period of the measurement of the interface's mean stiffness, in iterations, and the relative
+    /// change of the stiffness from which k is changed.
     static constexpr long long tuning_period = 8;
     static constexpr double stiffness_change = 0.2;
 
@@ -117,40 +118,40 @@ struct RelaxationConstants {
     static constexpr double stiffness_displacement = 6e-4;
 
     // The minimiser over a wall (wall_minimiser.hpp).
-    /// Largest mean force left, in tolerances. The secant converges faster than linearly, so that a
-    /// smaller number costs few steps.
+    /// Largest residual mean force, divided by the tolerance. The secant converges faster than
+    /// linearly, so that a small value costs few steps.
     static constexpr double mean_force_share = 1e-3;
-    /// Error of the places of rest with elastic forces in single precision, in the largest
-    /// displacement of a site from the mean.
+    /// Error of the equilibrium places of sites with elastic forces in single precision, divided by
+    /// the largest displacement of a site from the mean.
     static constexpr double single_precision_error = 4e-6;
 };
 
+/// Result of a relaxation.
 struct RelaxedState : ContactCount, Energies {
     bool converged = false;
-    bool interrupted = false; ///< report() asked for it
-    bool jumped = false;      ///< abandoned: the force has left its window
-    bool balanced = true;     ///< the forces add up to what is prescribed
+    bool interrupted = false; ///< report() stopped the relaxation
+    bool jumped = false;      ///< abandoned: the force has left ForceWindow
+    bool balanced = true;     ///< the total force is the prescribed one
     long long iterations = 0;
-    double residual = 0.0;     ///< eV/Å
+    double residual = 0.0;     ///< largest residual force on a site, eV/Å
     double rounding = 0.0;     ///< estimate of the residual left by rounding, eV/Å
     BranchEnergies branches{}; ///< energy of branches, and their dissipation in the step
     double force = 0.0;        ///< total normal force on the lowest layer, eV/Å
-    /// Elastic force on the top plane along z, eV/Å; where the mean height is prescribed, the force
-    /// that this takes, which is `force`.
+    /// Elastic force on the top plane along z, eV/Å. If the mean height is prescribed, the force
+    /// that holds the mean height, which equals `force`.
     double top_force = 0.0;
     double top = 0.0;         ///< displacement of the top plane, Å
-    double mean_height = 0.0; ///< height of the lowest layer above the reference, Å
+    double mean_height = 0.0; ///< mean height of the lowest layer above the reference, Å
 };
 
-/// Estimates the residual force that rounding leaves at sites of this height (Å) above the zero of
-/// heights, eV/Å: positions are rounded, and the interface and the block turn the error into
-/// forces.
+/// Estimates the residual force that rounding leaves at sites of this height (Å), eV/Å: rounded
+/// positions times the stiffness of interface and block.
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height);
 
 /// Explains, for an error message, why the relaxation found no equilibrium.
 std::string why_not_converged(const RelaxedState& state, double tolerance);
 
-/// Relaxes the block in place under the constraint, after setting it. Collective.
+/// Sets the constraint and relaxes the block in place. Collective.
 RelaxedState relax(SpectralBlock& block, const Interface& interface, const Constraint& constraint,
                    const RelaxOptions& options, Phases& phases);
 

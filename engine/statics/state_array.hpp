@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// A state as a list of arrays, which are copied and written to checkpoints without regard to their
-// owner.
+// The arrays of a state, in a form in which any owner's arrays are copied and written to
+// checkpoints.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -13,7 +13,7 @@
 
 namespace asperity {
 
-/// One component of a field of one level; its first `planes` planes are the state.
+/// One component of a field of a level, of which the first `planes` planes belong to the state.
 template <class Values>
 struct ArrayOf {
     std::string name; ///< name of its data set in a checkpoint
@@ -31,12 +31,14 @@ void add_arrays(int level, const char* what, const VectorField<double>& field, i
 void add_arrays(int level, const char* what, VectorField<double>& field, int planes,
                 std::vector<RestoredArray>& list);
 
-/// Returns the displacements of a block's lowest layer: its whole state.
+/// Returns the displacements of the lowest layer, which are the whole state of a block at rest,
+/// without its branches.
 std::vector<StateArray> state_of(const SpectralBlock& block);
-/// Returns these displacements to be overwritten; the caller then calls apply_constraint().
+/// Returns the displacements of the lowest layer to be overwritten; the caller then calls
+/// apply_constraint().
 std::vector<RestoredArray> state_to_restore(SpectralBlock& block);
 
-/// A copy of all arrays of a list, to go back to.
+/// A copy of the arrays of a state.
 class StateCopy {
 public:
     /// Copies the arrays.

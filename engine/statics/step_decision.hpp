@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 //
 // Decision on a step of a quasi-static path (quasistatic.hpp): a function of the last point, the
-// one tried, the force on the way and the errors of the energies.
+// tried point, the force at the points before, and the errors of the energies.
 #pragma once
 
 #include "engine/statics/force_trail.hpp"
@@ -12,23 +12,27 @@
 
 namespace asperity {
 
+/// A point of a quasi-static path.
 struct PathPoint {
     double at = 0.0;     ///< prescribed coordinate, Å
     double force = 0.0;  ///< force that holds the coordinate there, eV/Å
-    double energy = 0.0; ///< eV
+    double energy = 0.0; ///< energy of block and interface, eV
 };
 
+/// Limits that decide on a step.
 struct StepLimits {
-    double missing = 0.0;   ///< energy that counts as nothing in this step, eV
-    double uncertain = 0.0; ///< uncertainty that the work of an unstable step may have, eV
-    bool last_try = false;  ///< no shorter step is made
-    /// True if the step is short beside the times in which the block relaxes: missing energy is
-    /// then no error of the step in time.
+    double missing = 0.0;   ///< largest missing energy that counts as zero, eV
+    double uncertain = 0.0; ///< largest uncertainty of the work of a step with an instability, eV
+    bool last_try = false;  ///< no shorter step is tried
+    /// The step is short compared with the relaxation times of a viscoelastic block, so that
+    /// missing energy is not an error of the time step.
     bool short_in_time = true;
-    double in_time = 0.0; ///< error of the step in time, eV (block_memory.hpp)
+    double in_time = 0.0; ///< error of the time step, eV (block_memory.hpp)
 };
 
+/// Decision on a step, with its work.
 struct StepDecision {
+    /// Fate of the tried point.
     enum Verdict {
         halve,  ///< the step is tried again from the last point, half as long
         accept, ///< no energy is missing
@@ -36,17 +40,17 @@ struct StepDecision {
     };
     Verdict verdict = halve;
     double work = 0.0;       ///< work of the top plane in this step, eV
-    double dissipated = 0.0; ///< eV
+    double dissipated = 0.0; ///< energy dissipated at an instability, eV
     double gap = 0.0;        ///< work less energy gained and dissipated, eV
     double uncertain = 0.0;  ///< uncertainty of the work if energy is missing, eV
     bool smooth = true;      ///< the force did not jump
     bool excess = false;     ///< the energy gained exceeds the work and its uncertainty
-    bool coarse = false;     ///< the step is halved for its error in time
-    double growth = 1.0;     ///< factor of the length of the next step
+    bool coarse = false;     ///< the step is halved because of the error of the time step
+    double growth = 1.0;     ///< factor from this length to that of the next step
 };
 
-/// Returns a step of a path on which nothing can be dissipated: the work is the energy gained.
-/// error: of the energy of a point, eV.
+/// Returns the decision for a path on which nothing can be dissipated: accepted, with the energy
+/// gained as work. error: error of the energy of a point, eV.
 inline StepDecision reversible_step(const PathPoint& last, const PathPoint& trial, double error) {
     StepDecision d;
     d.verdict = StepDecision::accept;
@@ -56,6 +60,8 @@ inline StepDecision reversible_step(const PathPoint& last, const PathPoint& tria
     return d;
 }
 
+/// Decides on the step from `last` to `trial`: accepted, accepted with the missing energy counted
+/// as dissipated, or halved. trail: forces of the points so far.
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
                            const StepLimits& limits) {
     const double gained = trial.energy - last.energy;
@@ -66,7 +72,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     const double error = std::max(limits.short_in_time ? std::min(integral.error, std::abs(missing))
                                                        : std::abs(missing),
                                   limits.in_time);
-    // The error of a smooth step goes with the fourth power of its length, for each Å.
+    // The error of a smooth step, divided by its length, scales as the fourth power of the length.
     const double margin = limits.missing / std::max(error, 1e-6 * limits.missing);
     d.growth = std::clamp(0.8 * std::sqrt(std::sqrt(margin)), 0.5, 2.0);
     // The error of the integral of a new trail may equal the energy that an instability took.

@@ -3,13 +3,14 @@
 //
 // Errors of the work of a segment of a quasi-static path and of the energy that it has dissipated.
 //
-// A step that passes an instability has a work that is known to half the step h times the jump of
-// the force. And it starts relaxing up to h beyond the instability: if another patch becomes
-// unstable within h, both come off together, and if the second would have held beyond h as well, a
-// neighbour may pull it along on the way. With n instabilities before on a way w, another one lies
-// within h with a probability p = h n/w; of what the step dissipates, E, an unknown part was then
-// to be dissipated later. Where the state is next the same again is not known, so E is taken whole,
-// and the variance is p E^2. (Measured over soft walls: scenes/validation/soft_walls.py.)
+// The work of a step h that passes an instability is uncertain by half of h times the jump of the
+// force. The relaxation also starts up to h beyond the instability: a second patch that becomes
+// unstable within h separates together with the first, and a patch that would have held beyond h
+// may be pulled along by its neighbour. After n instabilities on a distance w, another one lies
+// within h with probability p = h n/w; an unknown part of the energy E that the step dissipates
+// then belongs to later steps. The variance is estimated as p E^2, with all of E, because the place
+// where both courses meet again is unknown. (Measured over soft walls:
+// scenes/validation/soft_walls.py.)
 #pragma once
 
 #include <algorithm>
@@ -17,13 +18,15 @@
 
 namespace asperity {
 
+/// Errors of the works of a segment.
 class WorkErrors {
 public:
+    /// Begins a new segment.
     void begin() { *this = {}; }
-    /// Adds what is missing in the energy balance of a step, eV.
+    /// Adds the error of the energy balance of a step, eV.
     void add_gap(double gap) { gap_ += std::abs(gap); }
-    /// Adds a step that ends at a place, Å, whose work is known to `uncertain`, and in which so
-    /// much was dissipated by a jump of the force, eV.
+    /// Adds a step with an instability. at: end of the step, Å; step: its length, Å; uncertain:
+    /// uncertainty of its work, eV; dissipated: energy dissipated, eV.
     void add_instability(double at, double step, double uncertain, double dissipated) {
         squares_ += 9.0 * uncertain * uncertain;
         if (!(dissipated > 0.0)) return;
@@ -33,8 +36,9 @@ public:
         squares_ += 4.0 * another * dissipated * dissipated;
         ++before_;
     }
-    /// Returns the uncertainty, eV: gaps add up; three times what works are uncertain by (these
-    /// errors are not independent) and twice the deviations add in squares.
+    /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of
+    /// three times the uncertainties of works (which are not independent) and of two standard
+    /// deviations of the dissipated energies.
     double total() const { return gap_ + std::sqrt(squares_); }
 
     template <class Visitor>
@@ -46,10 +50,10 @@ public:
     }
 
 private:
-    double gap_ = 0.0;     ///< eV
-    double squares_ = 0.0; ///< eV^2
+    double gap_ = 0.0;     ///< sum of the errors of the energy balance, eV
+    double squares_ = 0.0; ///< sum of squares, eV^2
     double first_ = 0.0;   ///< place of the first instability, Å
-    double before_ = 0.0;  ///< instabilities so far
+    double before_ = 0.0;  ///< number of instabilities so far
 };
 
 } // namespace asperity

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The interface of a scene in the terms of theory/, and all numbers of a scene that the
-// renormalised theory (python/asperity/theories/renormalised.py) needs.
+// Conversion of a scene to the types of theory/ and to the input of the renormalised theory
+// (python/asperity/theories/renormalised.py).
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -13,16 +13,17 @@
 
 namespace asperity {
 
-/// Returns the flat interface of a scene with atoms.
+/// Returns the flat interface of a scene with atoms, for theory/.
 theory::FlatInterface flat_interface(const Case& c);
 
-/// Returns the input of the renormalised theory and of that of sliding, in Å and eV:
+/// Returns the input of the renormalised theory and of the theory of sliding friction as JSON, in Å
+/// and eV:
 ///     q_L, spectrum    smallest wavevector; [[qa, qb, c, n], ...], C = c (q/qa)^n from qa to qb
 ///     realised         the spectrum is that of the surface itself
-///     pressure         of drive.load
-///     friction         sites feel lateral forces
-///     stiffness        of the lattice for waves, averaged over directions, up to Nyquist:
-///                      [[q, S_zz, S_xx, |S_xz|, 1/(S^-1)_zz], ...], per area
+///     pressure         drive.load
+///     friction         true if the substrate exerts lateral forces on the sites
+///     stiffness        lattice's stiffness per area, averaged over directions, up to Nyquist:
+///                      [[q, S_zz, S_xx, |S_xz|, 1/(S^-1)_zz], ...]
 ///     flat             rings [[R, density], ...], none over a wall; spacing of the substrate,
 ///                      contact (separation of a site in contact, at most), closest and reach
 ///                      (separations that matter); the pair energy V as a table: at (r), energy,

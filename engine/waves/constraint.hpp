@@ -1,26 +1,27 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The prescribed quantity along z of a block at rest; everything else moves until no force is left.
+// The quantity along z that is prescribed for a block at rest; all other degrees of freedom relax.
 #pragma once
 
 namespace asperity {
 
 /// The prescribed quantity and its value.
 struct Constraint {
+    /// Kind of the quantity.
     enum class Of {
         load,       ///< load of the free top plane, eV/Å, pressing down
-        top,        ///< displacement of the drive, Å: of the top plane, or of the far end of the
-                    ///< spring that holds it (Response::top())
+        top,        ///< displacement of the drive, Å: the top plane, or the far end of its
+                    ///< spring (Response::drive())
         mean_height ///< mean displacement of the lowest layer, Å; no force is on the top plane
     };
     Of of = Of::load;
     double value = 0.0;
-    bool stretches = true; ///< a load stretches the block as a whole; otherwise it only lifts it
+    bool stretches = true; ///< false: a load acts on the lowest layer, not on the top plane
 
     static constexpr Constraint load(double force) { return {Of::load, force}; }
-    /// Returns a load on the lowest layer as a whole, eV/Å, as a held mean height takes it: the
-    /// block is not stretched.
+    /// Returns a load on the lowest layer as a whole, eV/Å, which replaces the force that holds a
+    /// mean height: the block is not stretched.
     static constexpr Constraint load_without_stretch(double force) {
         return {Of::load, force, false};
     }

@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: MIT
 //
 // A displacement that moves past a viscoelastic block without changing its shape, w = W(x + v t):
-// what a smooth slide over a wall comes to.
+// the steady state of a smooth slide over a wall.
 //
-// Each of its waves oscillates, with omega = q_x v, and so do the extensions of the branches
+// Each wave of the displacement oscillates with omega = q_x v, as do the extensions of the branches
 // (block_memory.hpp):
 //
 //     h_k = m_k w,     m_k = i omega tau_k/(1 + i omega tau_k),     force on the layer = -m S w,
 //
-// m = 1 + sum r_k m_k: the block answers with the complex modulus of the wave's frequency, and the
-// shape W is an equilibrium of its own. m is no real stiffness, so no energy has a minimum there.
-// The equilibrium is found in turns: with the real stiffness C S and the known force -S (m - C) w
-// of the last shape, the next one is a minimum. Over a wall that only repels the distance from the
-// equilibrium falls in each turn by |1 - m/C| or more. The smallest such factor is the sine of the
-// loss angle, at C = |m|^2/Re m.
+// m = 1 + sum r_k m_k: the block responds with the complex modulus at the wave's frequency, and the
+// shape W balances this response with the interface. As m is complex, the balance is not the
+// minimum of an energy. It is found by iteration: with the real stiffness C S and the known force
+// -S (m - C) w of the last shape, the next shape is a minimum. Over a purely repulsive wall each
+// iteration (a "turn") reduces the distance from the balance by |1 - m/C| or more. The smallest
+// such factor is the sine of the loss angle, at C = |m|^2/Re m.
 #pragma once
 
 #include "engine/options/block_options.hpp"
@@ -28,10 +28,11 @@ namespace asperity {
 /// Moduli of the waves of a moving pattern, relative to the relaxed block.
 class MovingPattern {
 public:
-    /// Computes the moduli. velocity: along axis 0 (x) or 1 (y), Å/fs, with its sign.
+    /// Computes the moduli. axis: 0 for x, 1 for y; velocity: velocity of the pattern along the
+    /// axis, Å/fs, with sign.
     MovingPattern(const BlockOptions& block, int axis, double velocity);
 
-    int axis() const { return axis_; }
+    int axis() const { return axis_; } ///< returns 0 for x, 1 for y
     /// Returns C of the waves 0 .. N-1 along the axis.
     const std::vector<double>& stiffening() const { return stiffening_; }
     /// Returns C of a wave, 0 <= nx, ny < N.
@@ -43,6 +44,7 @@ public:
     Factors rest() const;
     /// Returns m_k of branch k for these waves.
     const Factors& of_branch(std::size_t k) const { return branches_[k]; }
+    /// Returns the number of branches.
     std::size_t branches() const { return branches_.size(); }
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// (S + k)^-1 of every wave, in single precision: what relaxations take for the inverse of the
-// block's and the interface's stiffness together.
+// (S + k)^-1 of every wave, in single precision: approximate inverse of the stiffness of block and
+// interface, for relaxations.
 #pragma once
 
 #include "engine/waves/response.hpp"
@@ -11,16 +11,18 @@
 
 namespace asperity {
 
+/// Table of (S + k)^-1 of the waves of this rank.
 class Preconditioner {
 public:
-    /// Computes (S + k)^-1 of a block as it acts (Response::acting_stiffness()); k > 0, eV/Å^2,
-    /// stands for the interface's stiffness of a site. The entry of the uniform normal wave is zero
-    /// if the mean height is held.
+    /// Computes (S + k)^-1 with the acting stiffness S of a block (Response::acting_stiffness()).
+    /// k: mean stiffness of the interface per site, eV/Å^2, above 0. The entry of the uniform
+    /// normal wave is zero if the mean height is prescribed.
     Preconditioner(const Response& block, double k);
-    /// Computes the matrices anew with another k.
+    /// Recomputes the table with another k, eV/Å^2.
     void tune(const Response& block, double k);
-    double k() const { return k_; }
-    /// Sets `to` to (S + k)^-1 from + fraction to, for block b; the two may be the same.
+    double k() const { return k_; } ///< returns k, eV/Å^2
+    /// Sets `to` to (S + k)^-1 from + fraction to, for this rank's block b of waves; `to` may be
+    /// `from`.
     void apply(int b, const float* from, double fraction, float* to) const;
 
 private:

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 //
 // S(q) of every wave of a surface (BlockOptions::stiffness): one symmetric 3 x 3 matrix for each,
-// or one number without friction. It belongs to the block alone and does not change: what holds the
-// block and what branches add stands beside it (response.hpp).
+// or one number without friction. The table does not change; the stiffness of holder and branches
+// is added in response.hpp.
 #pragma once
 
 #include "decomposition/waves.hpp"
@@ -18,13 +18,15 @@ namespace asperity {
 /// The layout of a table over the quadrant of waves: [block][ny][entry][column], of matrices or of
 /// one number for each wave (kernels/surface_rows.hpp).
 struct TableLayout {
-    int sites, components;
+    int sites, components; ///< N; 3, or 1 without friction
+    /// Returns the numbers of a wave.
     std::size_t entries() const { return components == 1 ? 1 : matrix_entry::count; }
-    /// Returns the numbers in a block.
+    /// Returns the number of values of a block of columns.
     std::size_t block() const {
         return static_cast<std::size_t>(sites / 2 + 1) * entries() * block_columns;
     }
     std::size_t size(int blocks) const { return static_cast<std::size_t>(blocks) * block(); }
+    /// Returns the index of an entry of a wave.
     std::size_t at(std::size_t entry, int nx, int ny) const {
         return static_cast<std::size_t>(nx / block_columns) * block() +
                (static_cast<std::size_t>(ny) * entries() + entry) * block_columns +
@@ -39,24 +41,25 @@ struct TableLayout {
     }
 };
 
+/// Table of S(q).
 class StiffnessTable {
 public:
-    /// Computes S of a block. Without friction the matrix of a wave is replaced by its answer
-    /// to normal forces, 1 / (S^-1)_zz.
+    /// Computes S of a block. Without friction the matrix of a wave is replaced by its stiffness
+    /// against normal forces, 1 / (S^-1)_zz.
     StiffnessTable(const BlockOptions& options, const Slab& slab, bool frictionless);
 
-    /// Returns S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2, eV/Å^2; frictionless: its one
-    /// number, as zz. The uniform normal wave of a block that nothing holds costs nothing: its zz
-    /// is zero.
+    /// Returns S at q = 2 pi (nx, ny) / (N a), 0 <= nx, ny <= N/2, eV/Å^2; without friction, its
+    /// one number as zz. zz of the uniform wave is zero, as for a block that is free to move along
+    /// z.
     SurfaceMatrix at(int nx, int ny) const;
-    /// Returns S_zz of the uniform wave against a top plane that is held, eV/Å^2.
+    /// Returns S_zz of the uniform wave of a block whose top plane is held, eV/Å^2.
     double uniform() const { return uniform_; }
     /// Returns the largest S_zz of a wave, eV/Å^2.
     double stiffest() const;
     /// Sets f to S u + norm g for this rank's block b of waves; f may be u or g.
     template <class T>
     void multiply(int b, const T* u, double norm, const T* g, T* f) const;
-    /// Returns the memory that the table takes; each rank has all of it.
+    /// Returns the memory of the table, bytes; each rank has the whole table.
     std::size_t bytes() const { return table_.size() * (sizeof(double) + sizeof(float)); }
 
 private:

@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Functions of a device: memory, copies, and the launches of a step. Two tables of functions of
-// this shape exist: that of CUDA (cuda.cu, if its compiler was found) and that of the emulated
-// device (emulated.cpp, always). Both compile the same kernels (passes.hpp).
+// Functions of a device: memory, copies, and the launches of a step. There are two tables of
+// functions: one for CUDA (cuda.cu, if its compiler was found) and one for the emulated device
+// (emulated.cpp, always). Both compile the same kernels (passes.hpp).
 //
 // A step from u(n), v(n - 1/2) to u(n + 1), v(n + 1/2) over all levels takes three launches:
 //   follow   constrained planes are interpolated from the coarse planes; the top plane is set
 //   forces   sites of the interface, and the upper faces of all levels
 //   advance  restriction, elastic forces, kick, and drift into the other displacement array, with
 //            the periodic images of every node
-// Between ranks come three more: restrict_to_shared (forces that go to a level that every rank
-// holds), pack and unpack (halos).
+// Several ranks need three more launches: restrict_to_shared (forces on a level that every rank
+// holds whole), pack and unpack (halos).
 //
-// Launches are carried out in order, on one stream. copy() returns when all launches before it and
-// the copy itself are done.
+// Launches are executed in order, on one stream. copy() returns once all earlier launches and the
+// copy are complete.
 //
-// Every function returns nullptr, or a text with the error.
+// Every function returns nullptr, or an error message.
 #pragma once
 
 #include "kernels/elastic_level.hpp"
@@ -42,16 +42,17 @@ struct DeviceLevel {
     VectorPlane<double> transferred, upper_force;
     Stencil lower{}, inner{}, upper{};
     LevelCell cell;
-    LevelSeam seam;                        ///< seam to the coarser level
-    bool in_line = false;                  ///< advance restricts the forces of the level below
+    LevelSeam seam;                        ///< position relative to the coarser level
+    bool in_line = false;                  ///< advance() restricts the forces of the level below
     bool counted = false;                  ///< global sums include this level
-    bool wraps_x = false, wraps_y = false; ///< periodic images lie in this tile
+    bool wraps_x = false, wraps_y = false; ///< the tile contains its periodic images along an axis
 };
 
-/// Nodes of several levels, counted through.
+/// Nodes of several levels, numbered consecutively.
 struct NodeRanges {
     int levels = 0;
-    long long first[most_levels + 1] = {}; ///< first node of each level; behind the last: the end
+    long long first[most_levels + 1] = {}; ///< index of the first node of each level, and the end
+    /// Appends a level with this number of nodes.
     void add_level(long long nodes) {
         first[levels + 1] = first[levels] + nodes;
         ++levels;
@@ -80,7 +81,7 @@ struct DeviceStep {
     const DeviceLevel* levels = nullptr; ///< levels, in device memory
     const LevelKicks* kicks = nullptr;   ///< kicks of each level, in device memory
     NodeRanges moving;                   ///< nodes that move
-    NodeRanges faces;                    ///< nodes of upper planes and one beyond
+    NodeRanges faces;                    ///< nodes of upper planes and one node beyond the tile
     NodeRanges constrained;              ///< nodes of upper planes and their halo
     int now = 0;                         ///< index of the displacement array of the present step
     bool observe = false;
@@ -102,31 +103,38 @@ struct DeviceStep {
 /// A strip of halo exchanged with the two neighbours along an axis.
 struct DeviceHalo {
     bool along_x = true;
-    NodeRanges strip; ///< doubles of one side's message, level by level
-    /// Messages to or from the neighbour before, then the neighbour after, in device memory.
+    NodeRanges strip; ///< numbers of one side's message, level by level
+    /// Messages to or from both neighbours, the lower one first, in device memory.
     double* messages = nullptr;
     int buffer = 0; ///< index of the displacement array
 };
 
 /// Functions of one kind of device.
 struct DeviceFunctions {
-    /// Allocates device memory; all later calls refer to this device.
+    /// Allocates memory on device `index`, to which all later calls refer.
     const char* (*allocate)(int index, std::size_t bytes, std::byte** memory);
+    /// Frees the memory.
     void (*release)(std::byte* memory);
     /// Copies between host and device, in either direction.
     const char* (*copy)(void* to, const void* from, std::size_t bytes);
 
+    /// Interpolates the constrained planes and sets the top plane.
     const char* (*follow)(const DeviceStep& step);
-    /// Computes the forces; the numbers of a tabulated potential are in device memory.
+    /// Computes the forces of the interface and of the upper faces. The numbers of a tabulated
+    /// potential are in device memory.
     const char* (*forces)(const DeviceStep& step, const PairPotential& potential);
+    /// Transfers forces to nodes of a level `coarse` that every rank holds whole.
     const char* (*restrict_to_shared)(const DeviceStep& step, int coarse, Patch nodes);
+    /// Computes elastic forces, kicks and drifts.
     const char* (*advance)(const DeviceStep& step);
+    /// Copies the strip to messages, or messages to the halo.
     const char* (*pack)(const DeviceStep& step, const DeviceHalo& halo);
     const char* (*unpack)(const DeviceStep& step, const DeviceHalo& halo);
 };
 
+/// Returns the functions of the emulated device.
 const DeviceFunctions& emulated_device();
-/// Returns the functions of CUDA, nullptr if the program was built without it.
+/// Returns the functions of CUDA; nullptr if the program was built without CUDA.
 const DeviceFunctions* cuda_device();
 /// Returns the number of devices that CUDA finds.
 int cuda_device_count();

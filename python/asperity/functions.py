@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The commands that need no run of their own as functions, and `cost`: each returns what its command prints."""
+"""Functions for the commands that need no run, and `cost`. Each returns the content that its command prints."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ __all__ = ["Checked", "Planned", "Surface", "TheoryOfScene", "check", "convert",
 
 @dataclass
 class Checked(Named):
-    """A scene as it would be run: its keys, notes on it, the longest stable time step of dynamic paths (fs), and the
-    factor by which a coarse spacing increases the pull-off force of a sphere."""
+    """A checked scene: its keys with defaults, notes, the longest stable time step of dynamic paths (fs), and the factor by which a
+    coarse spacing increases the pull-off force of a sphere."""
 
     name: str
     scene: Scene
@@ -52,8 +52,8 @@ class Checked(Named):
 
 @dataclass
 class Planned(Named):
-    """Cost of a run: steps, memory in bytes and wall time in seconds, each by part with the sum as "altogether", and the effects
-    that are simulated or not, each with the reason ("on", "because")."""
+    """Estimated cost of a run: number of steps, memory (bytes) and wall time (s) by part, with the sum as "altogether"; and the
+    effects, each with "on" and the reason, "because"."""
 
     name: str
     steps: float
@@ -70,8 +70,8 @@ class Planned(Named):
 
 @dataclass
 class Surface(Named):
-    """Surface of a scene: heights [y, x] (Å), their rms (Å), rms slope of neighbours, doubts about the file of a map, and the edge
-    of the box (Å)."""
+    """Surface of a scene: heights [y, x] (Å), their rms (Å), rms slope from neighbouring heights, possible mistakes in the file of
+    a map (doubts), and the edge of the box (Å)."""
 
     heights: np.ndarray
     rms: float
@@ -90,7 +90,7 @@ class Surface(Named):
 
 @dataclass
 class TheoryOfScene(Named):
-    """Theories of a scene: numbers by their names in result.json (energies in meV/Å²), Δγ (meV/Å²), notes, and their text, which the
+    """Theories of a scene: numbers by their names in result.json (energies in meV/Å²), Δγ (meV/Å²), notes, and the text that the
     command prints."""
 
     name: str
@@ -140,7 +140,7 @@ def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
 
 
 def plan(scene: SceneLike, overrides: Overrides | None = None) -> Planned:
-    """Estimates what a run of a scene costs on this machine, by a rehearsal.
+    """Estimates memory and time of a run of a scene on this machine, from runs of small pieces.
 
     Parameters
     ----------
@@ -193,7 +193,7 @@ def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
 
 
 def defaults() -> dict[str, dict[str, Any]]:
-    """Returns every key of a scene ("surface.rms") with its kind, unit, default, explanation (doc) and choices."""
+    """Returns all keys of a scene by name ("surface.rms"), each with kind, unit, default, explanation (doc) and choices."""
     return {key: dict(about) for key, about in program.schema().items()}
 
 
@@ -228,11 +228,11 @@ def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScen
 
 def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
          parameters: Iterable[str] = (), target: str | float | None = None) -> Cost:
-    """Measures what the accuracy of a scene costs in run time: the scene with one setting varied at a time, and combinations.
-    Runs that are there are not run again; cost.csv and figures are written.
+    """Measures error and run time of the scene for numerical settings: one setting varied at a time, and combinations. Existing
+    runs are reused; writes cost.csv and figures.
 
         found = asperity.cost("scene.toml", target="1%")
-        found.chosen.setting, found.chosen.seconds      # ["drive.timestep=40"], s; None: nothing keeps the target
+        found.chosen.setting, found.chosen.seconds      # ["drive.timestep=40"], s; chosen is None if no setting meets the target
 
     Parameters
     ----------
@@ -243,21 +243,21 @@ def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Pat
     out : str or os.PathLike, optional
         Directory; None: results/<scene>-cost.
     jobs : int
-        Runs side by side, one thread each.
+        Number of simultaneous runs, one thread each.
     parameters : iterable of str
-        Only these settings: ["timestep", "layers"].
+        Settings to vary, ["timestep", "layers"]; by default all.
     target : str or float, optional
-        Relative error to keep, "1%" or 0.01, by numerical settings alone.
+        Largest relative error, "1%" or 0.01, from numerical settings alone.
 
     Returns
     -------
     Cost
-        Rows with their settings, times (s) and relative errors; the reference comes first, the scene as it is second.
+        Rows with settings, times (s) and relative errors; the first row is the reference, the second the scene itself.
 
     Raises
     ------
     SceneError
-        The scene or an argument is refused, or files are in the way.
+        The scene or an argument is refused, or files would be replaced.
     Stopped
         The runs stopped early; the same call continues.
     Error
@@ -300,8 +300,8 @@ def export(directory: str | os.PathLike, to: str, out: str | os.PathLike | None 
     Raises
     ------
     InputOutputError
-        The directory has nothing to export.
+        The directory has no maps and no trajectory.
     SceneError
-        There is no such format.
+        The format is unknown.
     """
     return write_exports(Path(directory), to, None if out is None else os.fspath(out))

@@ -112,8 +112,8 @@ def html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], 
 
 
 def number(value: float, decimals: int) -> str:
-    """Spells a number for people: with so many decimals, or with more if these would show less than three significant digits,
-    and with powers of ten if it is tiny or huge. The rule of io/terminal.cpp.
+    """Spells a number for people, with this number of decimals, with more decimals if needed for three significant digits, and with
+    powers of ten for very small or large values, as io/terminal.cpp does.
 
     Parameters
     ----------

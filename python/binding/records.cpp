@@ -49,7 +49,7 @@ void bind_records(py::module_& m) {
             "True if the nearest atom is in contact")
         .def_property_readonly(
             "pressure", [](const InterfaceMaps& of) { return copied(of, of.pressure); },
-            "normal force on a site over its area, GPa; positive pushes apart")
+            "normal force on a site over its area, GPa; repulsion is positive")
         .def("__repr__", [](const InterfaceMaps& of) {
             return py::str("<SiteMaps: gap, contact, pressure of {} x {} sites>")
                 .format(of.ny, of.nx);
@@ -82,17 +82,17 @@ void bind_records(py::module_& m) {
                       "mean height of the lowest layer above the substrate's zero, Å")
         .def_readonly(
             "force", &Point::force,
-            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+            "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
         .def_property_readonly("energy", &Point::energy,
-                               "elastic energy and that of the interface, eV")
+                               "energy of block and interface, eV")
         .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
         .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
         .def_readonly("work", &Point::work,
                       "work of the holder of the block since the path began, eV")
         .def_readonly("dissipated", &Point::damped,
                       "energy dissipated at instabilities, since the path began, eV")
-        .def_readonly("dissipated_in_block", &Point::relaxed,
-                      "energy dissipated by relaxing in the block, beside dissipated, eV")
+        .def_readonly("dissipated_in_block", &Point::dissipated_in_block,
+                      "energy dissipated by a viscoelastic block, apart from dissipated, eV")
         .def_readonly("branch_energy", &Point::branch_energy,
                       "part of elastic_energy in the branches of a viscoelastic block, eV")
         .def_property_readonly(

@@ -77,7 +77,7 @@ void bind_numbers(Class& simulation) {
             "time at the start of the last step, ps")
         .def_property_readonly(
             "force", [](const Sim& sim) { return sim.now().force; },
-            "total normal force of the substrate on the lowest layer, eV/Å; positive pushes apart")
+            "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
         .def_property_readonly(
             "top_force", [](const Sim& sim) { return sim.now().top_force; },
             "elastic force on the top plane along z, eV/Å")

@@ -23,7 +23,7 @@ SlideAverage slide(double length, const std::function<double(double)>& friction)
         work += 0.5 * friction(at - 0.25);
         average.add({.distance = at,
                      .work = work,
-                     .relaxed = 0.75 * work,
+                     .dissipated_in_block = 0.75 * work,
                      .lost = 0.25 * work,
                      .load = 10.0,
                      .in_contact = 100.0,
@@ -46,7 +46,7 @@ TEST(SlideAverage, LeavesTheRunningInOut) {
     EXPECT_TRUE(means->steady);
     EXPECT_DOUBLE_EQ(means->load, 10.0);
     EXPECT_DOUBLE_EQ(means->in_contact, 100.0);
-    EXPECT_NEAR(means->relaxed, 0.75 * means->friction, 1e-9);
+    EXPECT_NEAR(means->dissipated_in_block, 0.75 * means->friction, 1e-9);
     EXPECT_NEAR(means->lost, 0.25 * means->friction, 1e-9);
     EXPECT_FALSE(slide(30.0, friction).is_steady(lengths)) << "less than three windows";
     EXPECT_FALSE(slide(400.0, [](double s) { return 3.0 + 0.002 * s; }).is_steady(lengths));
@@ -59,7 +59,8 @@ TEST(SlideAverage, LeavesTheRunningInOut) {
 TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
     SlideAverage average;
     for (double at = 0.0; at <= 400.0; at += 0.5)
-        average.add({.distance = at, .work = 3.0 * at, .relaxed = 2.5 * at, .lost = 0.3 * at});
+        average.add(
+            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 2.5 * at, .lost = 0.3 * at});
     const auto means = average.means(lengths);
     ASSERT_TRUE(means && means->steady);
     EXPECT_NEAR(means->friction_error, 0.2, 1e-9);
@@ -68,8 +69,10 @@ TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
 TEST(SlideAverage, FrictionOfAViscoelasticBlockIsWhatItDissipates) {
     SlideAverage dissipates, elastic;
     for (double at = 0.0; at <= 200.0; at += 0.5) {
-        dissipates.add({.distance = at, .work = 3.0 * at, .relaxed = 2.5 * at, .lost = 0.3 * at});
-        elastic.add({.distance = at, .work = 3.0 * at, .relaxed = 0.0, .lost = 2.8 * at});
+        dissipates.add(
+            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 2.5 * at, .lost = 0.3 * at});
+        elastic.add(
+            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 0.0, .lost = 2.8 * at});
     }
     EXPECT_NEAR(dissipates.means(lengths)->friction, 2.8, 1e-9);
     EXPECT_NEAR(elastic.means(lengths)->friction, 3.0, 1e-9);

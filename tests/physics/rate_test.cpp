@@ -322,7 +322,8 @@ TEST(Rate, SlowAndFastPathsAreElasticOnes) {
                 EXPECT_NEAR(path.now().elastic_energy, law.now().elastic_energy,
                             2e-3 * law.now().elastic_energy)
                     << wall << fast;
-                EXPECT_LT(path.now().relaxed, 1e-3 * std::abs(path.now().interface_energy));
+                EXPECT_LT(path.now().dissipated_in_block,
+                          1e-3 * std::abs(path.now().interface_energy));
             }
         }
 }
@@ -346,15 +347,15 @@ TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
             points.push_back(r);
         uncertainty += path.uncertainty();
         for (std::size_t i = 1; i < points.size(); ++i)
-            EXPECT_GE(points[i].relaxed, points[i - 1].relaxed);
+            EXPECT_GE(points[i].dissipated_in_block, points[i - 1].dissipated_in_block);
         const StepRecord& end = points.back();
         EXPECT_EQ(path.dissipation().events, 0);
-        EXPECT_GT(end.relaxed, 0.1 * std::abs(end.work));
-        const double gap = end.work - test::energy(end) - end.relaxed;
+        EXPECT_GT(end.dissipated_in_block, 0.1 * std::abs(end.work));
+        const double gap = end.work - test::energy(end) - end.dissipated_in_block;
         EXPECT_LT(std::abs(gap), tolerance * c.sites() * 40.0);
         EXPECT_LT(std::abs(gap), uncertainty);
-        EXPECT_LT(std::abs(gap), 5e-3 * end.relaxed);
-        stated.push_back(uncertainty / end.relaxed);
+        EXPECT_LT(std::abs(gap), 5e-3 * end.dissipated_in_block);
+        stated.push_back(uncertainty / end.dissipated_in_block);
     }
     EXPECT_LT(stated[1], 0.75 * stated[0]);
     EXPECT_LT(stated[2], 0.75 * stated[1]);
@@ -375,7 +376,7 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         double before = 0.0;
         const int cycles = 2 + static_cast<int>(std::ceil(5.0 * two.back().time / period));
         for (int i = 0; i < cycles; ++i) {
-            before = path.now().relaxed;
+            before = path.now().dissipated_in_block;
             lead(path, pressed + u0);
             lead(path, pressed - u0);
         }
@@ -389,7 +390,7 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
             const double a = 8.0 * u0 / (pi * pi * n * n);
             expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period
         }
-        EXPECT_NEAR(path.now().relaxed - before, expected, 2e-3 * expected) << period;
+        EXPECT_NEAR(path.now().dissipated_in_block - before, expected, 2e-3 * expected) << period;
     }
 }
 
@@ -423,7 +424,8 @@ TEST(Rate, LossesInStepsThatAreLongInTimeAreNotFollowed) {
 /// instability in the same number of steps however slowly it is led.
 TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
     struct Sums {
-        double work = 0.0, relaxed = 0.0, lost = 0.0, uncertainty = 0.0, gap = 0.0, scale = 0.0;
+        double work = 0.0, dissipated_in_block = 0.0, lost = 0.0, uncertainty = 0.0, gap = 0.0,
+               scale = 0.0;
         long long points = 0;
     };
     const std::vector<Branch> branches = {{3.0, 1000.0}, {1.0, 10000.0}};
@@ -443,9 +445,10 @@ TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
                     path.begin(segment);
                     sums.points += static_cast<long long>(points_of(path).size()) - 1;
                     const double lost = path.dissipation().in_segment;
-                    const double gap = path.work() - path.stored() - path.relaxed() - lost;
+                    const double gap =
+                        path.work() - path.stored() - path.dissipated_in_block() - lost;
                     sums.work += path.work();
-                    sums.relaxed += path.relaxed();
+                    sums.dissipated_in_block += path.dissipated_in_block();
                     sums.lost += lost;
                     sums.uncertainty += path.uncertainty();
                     sums.gap = std::max(sums.gap, std::abs(gap) - path.uncertainty());
@@ -457,7 +460,8 @@ TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
                 const Sums usual = cycle(velocity, 1e-3), close = cycle(velocity, 1e-5);
                 const double may = usual.uncertainty + close.uncertainty;
                 EXPECT_NEAR(usual.work, close.work, may) << velocity << rough;
-                EXPECT_NEAR(usual.relaxed + usual.lost, close.relaxed + close.lost, may)
+                EXPECT_NEAR(usual.dissipated_in_block + usual.lost,
+                            close.dissipated_in_block + close.lost, may)
                     << velocity << rough;
                 EXPECT_LT(usual.gap, 1e-9 * usual.scale) << velocity << rough;
                 EXPECT_LT(usual.points, rough ? 3000 : 600) << velocity;

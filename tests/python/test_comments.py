@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
 """Comments of the program and docstrings are sentences: a function's begins with a verb in the third person, none with a word
-that only an earlier sentence would explain."""
+that only an earlier sentence would explain. Every type and function that a header declares has a comment."""
 
 import ast
 import re
@@ -28,10 +28,17 @@ resumes returns rounds runs saves searches selects sends sets shifts shows simul
 transfers transforms unrolls updates waits writes
 advances binds carries completes concludes follows goes indents integrates limits notes prepares spells
 averages chooses escapes exports folds rehearses releases separates splits subtracts yields
+aborts decides fits flushes forgets lists raises resamples installs locks overwrites prescribes recomputes registers
 """.split())
 
 # A verb whose object is in another comment.
 POINTING = re.compile(r"\w+ (that|those|it|them|likewise|the same)( (of|to|with|as|be|for)\b|[.,;]|$)")
+# A sentence, not only the first one, without its subject; a parameter without its noun ("area: of the interface"); and turns of
+# phrase that say less than a noun or a verb would.
+HEADLESS_SENTENCE = re.compile(r"(?<=[.:;] )(Of|Whether|What|As|Told|Both|Such|Like|Likewise)\b(?! (far as|are|is)\b)")
+NAMELESS_PARAMETER = re.compile(r"(?:^|[.;] )\w+: of\b")
+SHORTHAND = re.compile(r"\b(the same of|so many|as (it is|they are)(?! \w)|whatever|whichever|but for|all but|on (its|their) way|"
+                       r"the way (in|out|up|down|there|back))\b")
 COMMENT = re.compile(r"^\s*//(/?<?)(?!/)\s?(.*)$")
 
 
@@ -108,6 +115,55 @@ def problems_of(text, name):
             yield f"{name}:{line}: points to another comment: {words[:70]}"
         elif documents and declaration and is_function(declaration) and word not in VERBS:
             yield f"{name}:{line}: begins with no verb: {words[:70]} | {declaration[:60]}"
+        if "SPDX" not in words and (found := SHORTHAND.search(words)):
+            yield f"{name}:{line}: says '{found[0]}': {words[:70]}"
+        if documents and (found := HEADLESS_SENTENCE.search(words) or NAMELESS_PARAMETER.search(words)):
+            yield f"{name}:{line}: has no subject in '{words[found.start():found.start() + 40]}': {words[:70]}"
+    if name.endswith(".hpp"):
+        yield from (f"{name}:{line}: has no comment: {declaration[:90]}" for line, declaration in undocumented(text))
+
+
+NOT_A_DECLARATION = re.compile(r"\s*(return|if|for|while|v\(|static_assert|using|throw|typedef|else|case|friend|delete|asm|std::|[\w.]+\()")
+
+
+def undocumented(text):
+    """Line and text of every type, and of every function without its body, that a header declares in public without a comment.
+    One comment serves the declarations up to the next empty line or comment. Left out are operators, destructors, overriding functions
+    and specialisations of templates."""
+    scopes, commented, group, open_parentheses = [], False, False, 0
+    for number, line in enumerate(text.splitlines(), 1):
+        stripped = line.strip()
+        if stripped.startswith("//"):
+            commented = group = True
+            continue
+        if not stripped:
+            commented = group = False
+            continue
+        if access := re.fullmatch(r"(public|private|protected):", stripped):
+            scopes[-1:] = [access[1]]
+            commented = group = False
+            continue
+        code = re.sub(r"//.*", "", re.sub(r'"[^"]*"', '""', line))
+        public = all(scope in ("public", "namespace") for scope in scopes) and open_parentheses == 0
+        if public and not group and not stripped.startswith("#") and not re.search(r"///?<", line):
+            kind = re.match(r"\s*(?:template.*>\s*)?(struct|class|enum class|enum)\s+\w+[^;=()<]*\{", code)
+            function = re.match(r"\s*[\w:<>,*&\[\] ~]+\b\w+\([^={]*\)[^={]*;\s*$", code)
+            if kind or function and not re.search(r"override|operator|~", code) and not NOT_A_DECLARATION.match(code):
+                yield number, stripped
+        if "{" in code and "}" not in code.partition("{")[2]:
+            scope = re.search(r"\b(namespace|class|struct|enum|union)\b(?!.*\()", code)
+            scopes.append({"namespace": "namespace", "class": "private"}.get(scope[1], "public") if scope else "body")
+            for _ in range(code.count("{") - code.count("}") - 1):
+                scopes.append("body")
+        else:
+            for brace in re.findall(r"[{}]", code):
+                if brace == "{":
+                    scopes.append("body")
+                elif scopes:
+                    scopes.pop()
+        open_parentheses += code.count("(") - code.count(")")
+        if not re.match(r"\s*(template|\[\[)", code):
+            commented = False
 
 
 @pytest.mark.skipif(not (ROOT / ".git").exists(), reason="the files are listed by git")
@@ -130,15 +186,26 @@ def test_comments_of_headers_and_sources_are_sentences():
     "struct A {\n    bool made; ///< by this object\n};",
     "/// Returns the same to be written to.\nint* arrays();",
     "/// For a base unit, a value of it.\nconstexpr int examples[] = {};",
-    "// Below the floor.\nint x = 0;"])
+    "// Below the floor.\nint x = 0;",
+    "/// Begins a segment. area: of the interface, Å^2.\nvoid begin(double area);",
+    "/// Returns the energy. Of several cycles, the last counts.\ndouble energy();",
+    "struct A {\n    double b; ///< energy lost, the same of the pull-off\n};",
+    "/// Returns a table of so many rows.\nint rows(int n);",
+    "/// Sets the state as it is.\nvoid set(int n);",
+    "class Relaxation {\npublic:\n    int n;\n};",
+    "void hold(double load);",
+    "class A;\n/// A holder.\nclass B {\npublic:\n    /// Holds a load, eV/Å.\n    void hold(double load);\n\n    void release(double load);\n};"])
 def test_a_comment_that_is_no_sentence_is_refused(text):
     assert list(problems_of(text, "planted.hpp"))
 
 
 @pytest.mark.parametrize("text", [
     "/// Returns the velocity of the top plane along z, Å/fs.\ndouble velocity(double t) const;",
-    "struct A {\n    double edge = f(2); ///< edge of the box, Å\n    std::function<void(int)> look; ///< watch of the path\n};",
-    "/// Properties of a wall.\ntemplate <class T>\nstruct Wall {"])
+    "/// A box.\nstruct A {\n    double edge = f(2); ///< edge of the box, Å\n    std::function<void(int)> look; ///< watch of the path\n};",
+    "/// Properties of a wall.\ntemplate <class T>\nstruct Wall {",
+    "/// A holder.\nclass B {\npublic:\n    /// Holds a load, eV/Å.\n    void hold(double load);\n    void hold(int load);\n\n"
+    "    double load() const { return load_; }\n    void release(); ///< frees the load\n\nprivate:\n    void begin();\n};",
+    "/// Returns the path, as far as is known.\nint path();"])
 def test_a_sentence_is_accepted(text):
     assert not list(problems_of(text, "planted.hpp"))
 
@@ -150,6 +217,7 @@ def test_a_sentence_is_accepted(text):
 HELD_BY_USERS = {"forms": ("_plot_of_sweep", "_report_of_run", "_report_of_sweep", "_plot_of_estimate", "_plot_of_prony", "_quote",
                            "_report_of_estimate")}
 """Functions that become members of public classes."""
+IN_DOCSTRINGS = re.compile(r"\b((that|which) (are|is) there\b|in the way\b|side by side\b|as of \w+\(\))", re.I)
 SECTION = re.compile(r"^(\w+)\n-{3,}\n(.*?)(?=^\w+\n-{3,}$|\Z)", re.M | re.S)
 
 
@@ -199,6 +267,11 @@ def problems_of_docstring(thing):
                 yield f"does not list {argument} under Parameters"
         if given not in ("", "None", "Iterator[None]") and not sections.keys() & {"Returns", "Yields"}:
             yield "has no Returns"
+    if found := SHORTHAND.search(text) or IN_DOCSTRINGS.search(text):
+        yield f"says '{found[0]}'"
+    for entry in re.findall(r"^ {4,}(\w+)\b(?![ ,]*:)", "\n".join(sections.values()), re.M):
+        if entry.lower() in REFUSED and entry[0].isupper():
+            yield f"describes an argument by '{entry} ...'"
     for error in set(raised_by(thing)):
         if error not in (sections.get("Raises", "") if sections else text):
             yield f"does not say that it raises {error}"
@@ -222,6 +295,10 @@ def test_docstrings_of_the_package_have_numpy_sections():
     'def load(directory: str) -> None:\n    """Loads the result in a directory."""\n    raise KeyError(directory)',
     'def load(directory: str) -> dict:\n    pass',
     'def load(directory) -> dict:\n    """Loads it.\n\n    Returns\n    -------\n    dict\n        Result.\n    """',
+    'def load(directory: str) -> dict:\n    """Loads whatever a directory holds."""',
+    'def load(directory: str) -> dict:\n    """Loads the runs that are there."""',
+    'def load(directory: str, name: str) -> None:\n    """Loads a result.\n\n    Parameters\n    ----------\n'
+    '    directory : str\n        Directory.\n    name : str\n        Its name.\n    """',
     'class Load:\n    """What a machine carries."""'])
 def test_a_docstring_without_verb_or_sections_is_refused(text):
     (_, thing), = public(ast.parse(text).body)

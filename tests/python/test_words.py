@@ -64,3 +64,27 @@ def test_the_words_of_the_pages_are_in_the_glossary():
     for word in ("sites", "layers", "scene", "state", "path", "dynamic path", "quasi-static path", "bitwise identical",
                  "interaction range", "work of the interface", "work of adhesion"):
         assert re.search(rf"^- \*\*{word}\*\*", glossary, re.M), word
+
+
+FRAGMENT = re.compile(r"(the same|its|it|of|such|this|that|those|these|at its|on the way|whether|why|what|how|where|when)\b|"
+                      r".*\b(the same of|so many|whatever|as it is|as the scene has)\b", re.I)
+
+
+def descriptions():
+    """Name and description of every key of a scene and of every value of a result, from the tables of the references."""
+    for page in ("result", "scene"):
+        for line in (ROOT / f"docs/reference/{page}.md").read_text(encoding="utf-8").splitlines():
+            cells = [cell.strip() for cell in line.strip().strip("|").split(" | ")]
+            if line.startswith("| `") and len(cells) > 3:
+                yield cells[0], cells[-1].strip()
+
+
+def test_a_description_is_understood_without_the_one_above():
+    read = list(descriptions())
+    found = [f"{name}: {text}" for name, text in read if FRAGMENT.match(text)]
+    assert len(read) > 250 and not found, "\n".join(found)
+
+
+def test_a_description_that_needs_the_one_above_is_found():
+    for text in ("the same of the pull-off", "its largest", "of the thermal noise", "at its end", "largest force, whatever the load"):
+        assert FRAGMENT.match(text), text

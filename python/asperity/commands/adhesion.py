@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """`asperity adhesion`: from a measured map to its adhesion with an error, in one call.
 
-What the estimate of the map's scene (map_scene.py) runs and says is `estimate`'s.
+The runs and the output are those of `estimate` for the map's scene (map_scene.py).
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ from ..terminal import Voice
 
 @dataclass
 class Adhesion(Named):
-    """Adhesion on a map: estimate (.numbers), result (the run of the map's scene: series, fields), notes on changes of the
-    map, scene (its file), directory."""
+    """Adhesion on a map: estimate (.numbers), result (run of the map's scene: series, fields), notes on changes of the map, scene
+    (file), directory."""
 
     estimate: Estimate
     result: Result
@@ -37,7 +37,7 @@ class Adhesion(Named):
     directory: Path
 
     def quote(self, path: str = "") -> str:
-        """Spells a number as it is published.
+        """Spells a number for publication.
 
         Parameters
         ----------
@@ -65,7 +65,7 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
              channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None, *,
              E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
              file_size: str | None = None, file_unit: str | None = None) -> Adhesion:
-    """Computes the adhesion of a soft or hard elastic half-space on a measured, rigid map, with its error.
+    """Computes the adhesion of an elastic half-space on a measured, rigid map, with its error.
 
         found = asperity.adhesion("scan.gwy", young="100 GPa", poisson=0.25, adhesion="200 mJ/m2")
         found.quote(), found.quote("lost.cycle"), found.notes
@@ -81,17 +81,17 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
     adhesion : str
         Work of adhesion of flat surfaces with its unit.
     out : str or os.PathLike, optional
-        Directory; None: results/<map>-adhesion. Runs that are there are not run again.
+        Directory; None: results/<map>-adhesion. Existing runs are reused.
     range : str, optional
         Range of the exponential attraction, with its unit; None: 3 Å, or the range that the spacing resolves.
     size, unit : str, optional
-        Shorter edge, with its unit, and unit of the heights; they hold over the file, and a note names both.
+        Shorter edge, with its unit, and unit of the heights; both override the file, with a note.
     channel : str, optional
-        Name or number of the map in a file with several.
+        Name or number of the map in a file with several maps.
     sites : int, optional
-        Sites along an edge; None: as many as the map has, 256 at most.
+        Number of sites along an edge; None: that of the map, at most 256.
     jobs : int
-        Runs side by side; they share the processors.
+        Number of simultaneous runs, which share the processors.
     line_noise : str, optional
         Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
     E, nu, work, w, file_size, file_unit : optional
@@ -105,7 +105,7 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
     Raises
     ------
     SceneError
-        The map or an argument is refused, or files are in the way.
+        The map or an argument is refused, or files would be replaced.
     Stopped
         The estimate stopped early; the same call continues.
     Error
@@ -136,7 +136,7 @@ def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable
 
 
 def _require_free(place: Path, file: str) -> None:
-    """Checks that no file is in the way. Raises SceneError."""
+    """Checks that no file would be replaced. Raises SceneError."""
     require_free_runs(place, OF_A_MAP)
     page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
     store.require_free({place: ["map.npy", f"{stem_of(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
@@ -169,7 +169,7 @@ def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: 
     young : str
         Young's modulus of the half-space with its unit.
     poisson : float
-        Its Poisson's ratio.
+        Poisson's ratio of the half-space.
     adhesion : str
         Work of adhesion of flat surfaces with its unit.
     out : str | None
@@ -177,7 +177,7 @@ def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: 
     options : PoolOptions
         Options of the runs.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
     **more : Any
         Further arguments of map_scene.scene_of().
 

@@ -44,7 +44,7 @@ def prony_command(source: str, target: str, branches: int | None, poisson: float
     frequency_unit, modulus_unit, modulus : str
         Units of frequency and moduli, and E or G, if the file does not say them.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
 
     Returns
     -------

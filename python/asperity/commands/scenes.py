@@ -42,7 +42,7 @@ def scenes_command(out: str, voice: Voice) -> int:
     out : str
         Folder that gets scenes/ and examples/.
     voice : Voice
-        What prints.
+        Output of the command.
 
     Returns
     -------

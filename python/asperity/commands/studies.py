@@ -34,7 +34,7 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
     options : PoolOptions
         Options of the runs.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
 
     Returns
     -------
@@ -87,7 +87,7 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     target : str | None
         Relative error to keep, "1%"; None: none.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
 
     Returns
     -------
@@ -136,7 +136,7 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
     plan : bool
         True: only tells what would be run.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
 
     Returns
     -------

@@ -182,7 +182,7 @@ def theory_command(file: str, overrides: list[str], out: str | None, voice: term
     out : str | None
         Result directory; None: the default one.
     voice : Voice
-        What is printed, and how; with --json nothing is written unless `out` is given.
+        Output of the command; with --json it writes files only if `out` is given.
 
     Returns
     -------

@@ -52,17 +52,17 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
     load : str, optional
         Largest force with its unit; None: 1.5πwR, the pull-off force of JKR.
     out : str or os.PathLike, optional
-        Directory; None: results/<map>-tip, or results/tip. Runs that are there are not run again.
+        Directory; None: results/<map>-tip, or results/tip. Existing runs are reused.
     range : str, optional
         Range of the exponential attraction with its unit; None: 3 Å, or the range that the spacing resolves.
     size, unit : str, optional
-        Shorter edge of the map, with its unit, and unit of the heights; they hold over the file, and a note names both.
+        Shorter edge of the map, with its unit, and unit of the heights; both override the file, with a note.
     channel : str, optional
-        Name or number of the map in a file with several.
+        Name or number of the map in a file with several maps.
     sites : int, optional
-        Sites along an edge of the box; None: 64 to 256, as the contact needs.
+        Number of sites along an edge of the box; None: 64 to 256, depending on the contact.
     jobs : int
-        Runs side by side; they share the processors.
+        Number of simultaneous runs, which share the processors.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
 
@@ -74,7 +74,7 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
     Raises
     ------
     SceneError
-        The map or an argument is refused, or files are in the way.
+        The map or an argument is refused, or files would be replaced.
     Stopped
         The runs stopped early; the same call continues.
     Error
@@ -108,7 +108,7 @@ def _planned(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
 
 
 def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Tip | None:
-    """Carries out the runs and writes the page. None: stopped before the end. Raises Error for a run that failed."""
+    """Carries out the runs and writes the page. Returns None if stopped before the end. Raises Error for a failed run."""
     own = str(made.scenes[""])
     rows = {part: Variation(part, part, [], scene=str(file)) for part, file in made.scenes.items()}
     rows["step"] = Variation("step", "step", [made.longer_step], scene=own)
@@ -137,9 +137,9 @@ def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: 
     options : PoolOptions
         Options of the runs.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
     **given : Any
-        radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, as of tip().
+        Arguments of tip(): radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites.
 
     Returns
     -------

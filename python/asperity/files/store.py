@@ -240,7 +240,7 @@ def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: In
 
 
 def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
-    """Checks that no file is in the way of a command.
+    """Checks that a command would replace no file.
 
     Parameters
     ----------
@@ -254,7 +254,7 @@ def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, input
     Raises
     ------
     SceneError
-        Files are in the way; all are named.
+        Files would be replaced; the error names all of them.
     """
     problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
     if problems:
@@ -332,7 +332,7 @@ def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Input
     Raises
     ------
     SceneError
-        Files are in the way; all are named.
+        Files would be replaced; the error names all of them.
     """
     written, before = Outputs(place, names), {}
     require_free({place: written.names}, renew, inputs)

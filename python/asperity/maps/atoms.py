@@ -28,7 +28,7 @@ def lammps(path: Path, content: str) -> dict:
     path : Path
         File, for the messages.
     content : str
-        Its text.
+        Contents of the file.
 
     Returns
     -------

@@ -87,7 +87,7 @@ def length(where: object, unit: object, what: str, fix: str = "name the unit: --
     Raises
     ------
     InputOutputError
-        It is no unit of length.
+        The unit is no unit of length.
     """
     said = text_of(unit)
     if (found := conversion(said, "Å")) is None:
@@ -113,7 +113,7 @@ def factor(where: object, scale: object) -> float:
     Raises
     ------
     InputOutputError
-        It is no number above zero.
+        The factor is no number above zero.
     """
     value = 1.0 if scale is None else float(numpy.asarray(scale).reshape(()))
     if not 0.0 < value < numpy.inf:
@@ -132,7 +132,7 @@ def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
     heights : Any
         Array of two dimensions, or of three, of which the first one counts the frames.
     told : dict[str, Any]
-        What the file says of all of them: unit, size, notes.
+        Common metadata of the channels: unit, size, notes.
 
     Returns
     -------
@@ -167,12 +167,12 @@ def select(path: Path, channels: list[Channel], wanted: str | None, first: int |
     Returns
     -------
     dict
-        The map, as of read_heights().
+        The map, in the form of read_heights().
 
     Raises
     ------
     InputOutputError
-        None or several are meant; all are listed.
+        The name matches no channel or several; the error lists all channels.
     """
     names = [c.name + ("" if c.unit is None or is_length(c.unit) else f" (in {c.unit})") for c in channels]
     listed = ", ".join(f"{k} {name}" for k, name in enumerate(names[:LISTED], 1))

@@ -217,7 +217,7 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
     Returns
     -------
     str
-        What was found, as lines of text.
+        Description of the contents, as lines of text.
 
     Raises
     ------

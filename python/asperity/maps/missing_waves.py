@@ -213,7 +213,7 @@ def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
     Returns
     -------
     Verdict
-        What is said of the waves, the relative error of the numbers, and the reason why they are not stated.
+        Sentence on the waves, relative error of the numbers, and the reason why they are not stated.
     """
     if law is None:
         return Verdict(0.0, "", "none: the map has no roughness down to its pixel", "")

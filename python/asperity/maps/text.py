@@ -73,7 +73,7 @@ class Text:
         Parameters
         ----------
         said : dict
-            What the headers say.
+            Values of the headers.
         counts : tuple[str, str]
             Headers that count columns and rows.
 
@@ -156,7 +156,7 @@ def parts(path: Path, content: str) -> list[Text]:
     path : Path
         File, for the messages.
     content : str
-        Its text.
+        Contents of the file.
 
     Returns
     -------
@@ -354,7 +354,7 @@ def of_text(path: Path, content: str) -> list[Channel]:
     path : Path
         File, for the messages.
     content : str
-        Its text.
+        Contents of the file.
 
     Returns
     -------

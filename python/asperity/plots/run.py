@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The plots of one run. Each function draws into an axes and returns whether there was something to draw."""
+"""The plots of one run. Each function draws into axes and returns False if there is nothing to draw."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def _columns(run: Result, *names: str) -> list[np.ndarray]:
 
 
 def force_unit(run: Result) -> tuple[float, str]:
-    """Returns how forces of a run are drawn: over the area if that is meaningful.
+    """Returns divisor and label for the forces of a run in plots: forces over the area, except for spheres and free edges.
 
     Parameters
     ----------
@@ -70,7 +70,7 @@ def force_unit(run: Result) -> tuple[float, str]:
 
 
 def length_unit(run: Result) -> tuple[float, str]:
-    """Returns how lengths of a run are drawn.
+    """Returns divisor and unit for the lengths of a run in plots.
 
     Parameters
     ----------
@@ -80,13 +80,13 @@ def length_unit(run: Result) -> tuple[float, str]:
     Returns
     -------
     tuple[float, str]
-        Divisor of lengths in Å, and the unit: nm of a sphere or a box with free edges, else Å.
+        Divisor of lengths in Å, and the unit: nm for a sphere or a box with free edges, otherwise Å.
     """
     return (10.0, "nm") if run.in_newtons else (1.0, "Å")
 
 
 def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str = "", lines=("-", DASHES[1])) -> bool:
-    """Draws a curve for each segment of the path, and one for the part led by a script."""
+    """Draws a curve for each segment of the path, and one for steps controlled by a script."""
     labels: set[str] = set()
     others = 0
     for number, words in (*enumerate(run.segment_names), (-1, BY_HAND)):
@@ -102,7 +102,8 @@ def _by_segment(ax: Axes, run: Result, x: np.ndarray, y: np.ndarray, name: str =
 
 
 def separation(run: Result, ax: Axes) -> bool:
-    """Draws the force of the substrate over the mean separation, both ways; for a sphere beside smooth ones.
+    """Draws the force of the substrate over the mean separation, for approach and pull-off; for a sphere with the curves of smooth
+    spheres.
 
     Parameters
     ----------
@@ -141,7 +142,7 @@ def separation(run: Result, ax: Axes) -> bool:
 
 
 def loading(run: Result, ax: Axes) -> bool:
-    """Draws the force over the displacement of the drive, as a testing machine records it.
+    """Draws the force over the displacement of the drive, like the record of a testing machine.
 
     Parameters
     ----------
@@ -235,7 +236,7 @@ def _time(picoseconds: np.ndarray) -> tuple[np.ndarray, str]:
 
 
 def energy(run: Result, ax: Axes) -> bool:
-    """Draws the energies along the path, per nominal area (meV/Å²) or, of a sphere or with free edges, whole (aJ).
+    """Draws the energies along the path, per nominal area (meV/Å²), or in total (aJ) for a sphere or free edges.
 
     Parameters
     ----------
@@ -318,7 +319,7 @@ def spectrum(run: Result, ax: Axes) -> bool:
 
 
 def roughness(run: Result, ax: Axes) -> bool:
-    """Draws γ_eff/Δγ of the theory over the roughness, with this run's numbers at its own.
+    """Draws γ_eff/Δγ of the theories over the roughness, with the numbers of this run at its roughness.
 
     Parameters
     ----------
@@ -357,14 +358,14 @@ def roughness(run: Result, ax: Axes) -> bool:
 
 
 def theory_over_roughness(run: Result, rms: float) -> list[tuple[str, list, list, object]]:
-    """Computes the theories of the run's scene at 16 roughnesses up to 1.8 times its own.
+    """Computes the theories of the run's scene at 16 roughnesses up to 1.8 times that of the run.
 
     Parameters
     ----------
     run : Result
         Result of the run.
     rms : float
-        Its rms roughness, Å.
+        Rms roughness of the run, Å.
 
     Returns
     -------
@@ -521,11 +522,10 @@ OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 class RunPlots:
-    """result.plot: every plot as a method that takes an axes (or makes one) and returns it.
+    """Plots of a result, result.plot: each method draws into axes, or makes new ones, and returns them.
 
-    Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, sliding, height.
-    Of a state: gaps(state="relaxed"), pressures(...), map("gap", state="relaxed"); without one the relaxed state, or
-    the first that there is.
+    Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, sliding, height. Of a state:
+    gaps(state="relaxed"), pressures(...), map("gap", state="relaxed"); by default the relaxed state, or the first one.
     """
 
     def __init__(self, run: Result):

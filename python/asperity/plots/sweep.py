@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The plots of sweeps: simulated points, with their spread over the seeds, beside the curves of the theory.
+"""The plots of sweeps: simulated points, with their spread over the seeds, and curves of the theories.
 
-The key with the most values that are numbers is the x axis; the other keys give a curve each, told apart by
-colours, while dashes and markers tell the quantities apart.
+The numeric key with the most values is the x axis; each combination of the other keys gives a curve. Colours distinguish curves;
+dashes and markers distinguish quantities.
 """
 
 from __future__ import annotations
@@ -51,8 +51,8 @@ MOST_CURVES = len(COLOURS)
 
 @dataclass
 class Trace:
-    """A quantity of the points: a column of the table over `unit`, "-column" with the other sign. In its label, {at} and
-    {under} are those of load_words."""
+    """A quantity of the points: a column of the table divided by `unit`, "-column" with reversed sign. {at} and {under} in the
+    label are replaced by load_words()."""
 
     label: str
     column: str
@@ -79,8 +79,8 @@ class Trace:
         Returns
         -------
         tuple[np.ndarray, np.ndarray]
-            Means, and error bars: the spread over the seeds and the mean uncertainty of one, as independent errors. Both in
-            the unit of the plot.
+            Means, and error bars (spread over the seeds and mean uncertainty of a point, added as independent errors), both in the
+            unit of the plot.
         """
         values = self.values(table)
         energy = table.column(self.column.removesuffix("_ratio"))
@@ -173,7 +173,7 @@ def _curves(table: Table, x: str) -> dict[str, list[int]]:
 
 
 def _words(sweeps: Sequence[Sweep], x: str) -> list[str]:
-    """Returns the words that tell the curves of sweeps with several of them apart."""
+    """Returns the words that distinguish the curves of a sweep."""
     found = [curves for sweep in sweeps if len(curves := _curves(sweep.table, x)) > 1]
     return list(dict.fromkeys(words for curves in found for words in curves))
 
@@ -203,14 +203,14 @@ def _trace(ax: Axes, table: Table, x: str, trace: Trace, colours: dict[str, str]
 
 
 def _agree(one: dict[str, float], other: dict[str, float]) -> bool:
-    """Returns True if two curves, {point: value}, agree: at the same points, or at different values that both have."""
+    """Returns True if two curves, {point: value}, agree at all points that both have."""
     both = np.array([(one[point], other[point]) for point in one.keys() & other.keys()]).reshape(-1, 2)
     enough = one.keys() == other.keys() or (len(both) and np.ptp(np.nan_to_num(both)) > 1e-6)
     return bool(enough) and np.allclose(both[:, 0], both[:, 1], rtol=1e-6, atol=1e-9, equal_nan=True)
 
 
 def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
-    """Returns the sweeps that have this theory, those with the same curve together."""
+    """Returns the sweeps that have this theory, grouped by equal curves."""
     found: list[tuple[list[Sweep], list[dict[str, float]]]] = []
     for sweep in sweeps:
         table = Table(sweep.axes, [*sweep.points, *sweep.theory], False)
@@ -262,7 +262,7 @@ def names(sweeps: Sequence[Sweep]) -> list[str]:
 
 
 def _flat(sweeps: Sequence[Sweep]) -> float:
-    """Returns the Δγ that all points are over, also those of the theory; 0: none, they differ, or mean a sphere."""
+    """Returns the common Δγ of all points, including those of the theory; 0 if there is none, if they differ, or for a sphere."""
     points = [point for sweep in sweeps for point in (*sweep.points, *sweep.theory)]
     found = {round(flat, 9) for point in points for name in ("delta_gamma", "theory.persson.delta_gamma")
              if (flat := Values(point).number(name))}

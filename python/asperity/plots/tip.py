@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The force curve of a tip, as an instrument shows it."""
+"""The force curve of a tip in the form of an instrument."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .style import BLUE, GREY, RED, curve, finish
 
 
 def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
-    """Draws the force over the displacement, in and out.
+    """Draws the force over the displacement, for approach and retraction.
 
     Parameters
     ----------
@@ -22,7 +22,7 @@ def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
     ax : Axes
         Axes to draw into.
     over : str
-        "drive": the displacement of the drive (the piezo), as measured. "tip": that of the tip, with JKR's fit.
+        "drive": displacement of the drive (the piezo), as measured. "tip": displacement of the tip, with JKR's fit.
 
     Returns
     -------
@@ -45,6 +45,6 @@ def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
 
 
 def _extent(found: Tip, place: np.ndarray) -> float:
-    """Returns the largest separation to be drawn, nm: a little more than the contact reaches."""
+    """Returns the largest separation to be drawn, nm, somewhat beyond the range of the contact."""
     touching = np.abs(found.force) > 0.002 * np.abs(found.force).max()
     return 1.15 * float(np.abs(place[touching]).max())

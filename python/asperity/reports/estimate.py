@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""What `asperity estimate` says: its table, the lines to quote, its chart and its page."""
+"""Output of `asperity estimate`: table, lines to quote, chart and page."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def heads_of(columns: list[Number]) -> list[str]:
 
 
 def tables_of(estimate: Estimate) -> list[list[Number]]:
-    """Returns the numbers that stand beside each other, three a table."""
+    """Returns the numbers in groups of three, one table each."""
     numbers = list(estimate.numbers.values())
     return [numbers[i:i + 3] for i in range(0, len(numbers), 3)]
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity export DIR --to xyz|vtk|png`: what run.h5 holds, for other programs, into DIR/export or the directory of --out.
+"""`asperity export DIR --to xyz|vtk|png`: writes the contents of run.h5 for other programs to DIR/export or the directory of --out.
 
     xyz    DIR/export/<state>.xyz: the atoms of the substrate and of the block's lowest layer, for every state with
            maps, with what is known of each atom as columns; DIR/export/trajectory.xyz: the frames of the trajectory
@@ -8,7 +8,7 @@
            the frames of the trajectory with their times, each in trajectory/ as points
     png    DIR/export/<map>-<state>.png, .pdf, .svg: gap, pressure and contact from above
 
-These files are the export's own: a second export writes them anew.
+A second export replaces these files.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ class Atoms:
 
     @property
     def species(self) -> np.ndarray:
-        """Labels that every reader of XYZ knows: X, which stands for no element, and Au for the block."""
+        """Labels that every reader of XYZ accepts: X (no element) for the substrate, and Au for the block."""
         return np.where(self.types == self.types.max(), "Au", "X")
 
     @property
@@ -340,9 +340,9 @@ def export(directory: Path, kind: str, out: str | None = None) -> list[Path]:
     Raises
     ------
     InputOutputError
-        The directory has nothing to export.
+        The directory has no maps and no trajectory.
     SceneError
-        There is no such format.
+        The format is unknown.
     """
     if kind in GONE:
         raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],

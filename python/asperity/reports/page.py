@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A self-contained HTML page of sections, and the files of its figures in report/ beside it."""
+"""A self-contained HTML page of sections, and the files of its figures in report/ in the same directory."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Section:
 
 @dataclass
 class Page:
-    """Built from top to bottom; `write()` makes report.html in a directory: that of the result, or another one."""
+    """Page that is built from top to bottom; write() makes report.html in the directory of the result or another one."""
 
     directory: Path
     kicker: str
@@ -91,17 +91,17 @@ class Page:
         id : str
             Name of the section in links.
         heading : str
-            Its heading.
+            Heading of the section.
         """
         self.sections.append(Section(id, heading))
 
     def add(self, kind: str, content: Any) -> None:
-        """Adds content to the last section; nothing for empty content.
+        """Adds content to the last section, unless it is empty.
 
         Parameters
         ----------
         kind : str
-            How the template sets it: "text", "table", ...
+            Form in the template: "text", "table", ...
         content : Any
             Content of this kind.
         """
@@ -134,7 +134,7 @@ class Page:
         caption : str
             Text below it.
         draw : Callable[[Axes], bool]
-            Draws; returns False if there is nothing to draw.
+            Function that draws into axes; returns False if there is nothing to draw.
 
         Returns
         -------
@@ -162,7 +162,7 @@ class Page:
         return True
 
     def write(self) -> None:
-        """Writes the page, without sections that hold nothing, and the files of its figures."""
+        """Writes the page, without empty sections, and the files of its figures."""
         self.sections = [s for s in self.sections if s.parts]
         loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
         environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True)

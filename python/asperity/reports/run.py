@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity report DIR`: a run or a sweep as one page (report.html), with every figure in report/ beside it.
+"""`asperity report DIR`: a run or a sweep as one page (report.html), with the figures in report/ in the same directory.
 
-These files are the report's own: a second report writes them anew.
+A second report replaces these files.
 """
 
 from __future__ import annotations
@@ -71,7 +71,7 @@ SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOT
 
 
 def _words(run: Result) -> dict[str, str]:
-    """Returns the words that fill in captions; contact: the definition of sites in contact."""
+    """Returns the texts for captions; contact: definition of sites in contact."""
     contact = "Sites nearer to an atom of the substrate than the inflection of the potential"
     if run.key("interface.kind") == "wall":
         contact = "Sites that touch the wall" if run.key("interface.law") in ("exponential", "dugdale", "power") else \
@@ -135,7 +135,7 @@ def _state(page: Page, run: Result, state: State) -> None:
 
 
 def _states(page: Page, run: Result) -> None:
-    """Adds the relaxed state first; of many states, some that are spread evenly."""
+    """Adds the relaxed state and further states; of many states an even selection."""
     states = sorted(run.fields.values(), key=lambda s: s.name != "relaxed")
     n, few = len(states), min(len(states), MOST_STATES)
     for i in range(few):
@@ -146,7 +146,7 @@ def _states(page: Page, run: Result) -> None:
 
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
            units: Mapping[str, float] = MappingProxyType({})) -> None:
-    """Adds numbers by the names of columns, each over its unit."""
+    """Adds a table of numbers by column, each divided by its unit."""
     def cell(line: Values, name: str, head: str) -> str:
         if name not in line:  # the friction of a segment that is no slide
             return "–"
@@ -160,7 +160,7 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
 
 
 def _segment_columns(run: Result) -> tuple[dict[str, str], dict[str, float]]:
-    """Returns the heads of the columns of segments and what divides their numbers."""
+    """Returns the heads of the columns of segments and the divisors of their numbers."""
     if not run.in_newtons:
         return SEGMENT_COLUMNS, {}
     others = {"pressure": ("force", "ends at, nN", 1.0), "mean_height": ("mean_height", "mean height, nm", 10.0),
@@ -171,7 +171,7 @@ def _segment_columns(run: Result) -> tuple[dict[str, str], dict[str, float]]:
 
 
 def _segments(page: Page, run: Result) -> None:
-    """Adds the segments of a path that has others than approach and pull-off."""
+    """Adds the segments of a path with segments other than approach and pull-off."""
     if set(run.segment_names) <= {"approach", "pull-off", "relax"}:
         return
     lines = run.listed("segments", dict)
@@ -217,7 +217,7 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
     result : Values
         Contents of result.json.
     heading : str
-        Heading of the part with the scene.
+        Heading of the section with the scene.
     keys : Mapping
         Keys of the scene.
     note : str

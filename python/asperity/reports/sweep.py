@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The page of a sweep: its plots and table from sweep.json; of the points' own directories, one point for all
-seeds: contact maps, force curves, and pages to go to."""
+"""The page of a sweep: plots and table from sweep.json, and for one seed of each point contact maps, force curves and a link to the
+page of the run."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ class _Points:
 
 
 def _shown(sweep: Sweep) -> list[str]:
-    """Returns for each line of the table the directory of the point that is shown, or ""."""
+    """Returns the directory of the shown point for each line of the table, or ""."""
     names = []
     for line, (_, places) in enumerate(sweep.table.groups):
         done = [p for i in places if (p := sweep.points[i]).get("status") == DONE and p.get("directory")]
@@ -113,7 +113,7 @@ def _wants_page(directory: Path) -> bool:
 
 
 def _require_free(directory: Path, sweeps: list[Sweep], kinds: tuple[str, ...]) -> None:
-    """Checks that no file is in the way of the page or of the pages of the points. Raises SceneError with the files that are."""
+    """Checks that the page and the pages of the points would replace no file. Raises SceneError with the existing files."""
     curves = ["curves", *(f"curves-{file_name(s.name)}" for s in sweeps if len(sweeps) > 1)]
     names = {directory: page_files([*plots.names(sweeps), *curves], kinds)}
     own = [sweep for sweep in sweeps if directory in (sweep.directory, sweep.directory.parent)]
@@ -150,7 +150,7 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
 
 
 def _half_way(table: Table, column: str) -> float | None:
-    """Returns the roughness at which a quantity has fallen to half, between the points; seeds averaged."""
+    """Returns the roughness at which a quantity, averaged over seeds, has fallen to half, interpolated between points."""
     means = table.average(table.column(column)).mean
     points = sorted((x, y) for x, y in zip(table.at("surface.rms"), means) if np.isfinite(y))
     for (x0, y0), (x1, y1) in zip(points, points[1:]):
@@ -269,7 +269,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path 
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: str | None = None) -> Page:
-    """Writes DIR/report.html of the contents: an estimate, a sweep, those of several scenes in its folders, or a run.
+    """Writes DIR/report.html of a directory with an estimate, a sweep, sweeps of several scenes, or a run.
 
     Parameters
     ----------

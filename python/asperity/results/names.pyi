@@ -16,32 +16,32 @@ class Failure(Values):
     exit_code: int
     """exit code of a command that failed"""
     reason: str
-    """why it failed"""
+    """error message of the command"""
 
 class WorkOfInterfaceUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of work_of_interface.approach"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: convergence of work_of_interface.pull_off"""
 
 class WorkOfInterface(Values):
     approach: float
-    """meV/Å^2: work of the interface"""
+    """meV/Å^2: work of the interface during the approach"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: work of the interface during the pull-off, ∫ F dz"""
     uncertainty: WorkOfInterfaceUncertainty
 
 class WorkOfDriveUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of work_of_drive.approach"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: convergence of work_of_drive.pull_off"""
 
 class WorkOfDrive(Values):
     approach: float
     """meV/Å^2: work of the drive on the solids during the approach, from rest beyond the interaction range"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off, to rest beyond the interaction range"""
+    """meV/Å^2: work of the drive on the solids during the pull-off, until they are at rest beyond the interaction range"""
     uncertainty: WorkOfDriveUncertainty
 
 class LostUncertainty(Values):
@@ -52,18 +52,18 @@ class LostUncertainty(Values):
 
 class Lost(Values):
     approach: float
-    """meV/Å^2: energy lost on the approach"""
+    """meV/Å^2: energy lost during the approach"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: energy lost during the pull-off"""
     cycle: float
-    """meV/Å^2: energy lost over a whole cycle, from and to rest beyond the interaction range, with kinetic.pull_off"""
+    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off"""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
     approach: float
     """meV/Å^2: kinetic and vibrational energy left at the end of the approach"""
     pull_off: float
-    """meV/Å^2: the same at the end of the pull-off, above a block at rest beyond the interaction range"""
+    """meV/Å^2: kinetic and vibrational energy left at the end of the pull-off"""
 
 class DissipatedInBlockUncertainty(Values):
     approach: float
@@ -73,32 +73,32 @@ class DissipatedInBlockUncertainty(Values):
 
 class DissipatedInBlock(Values):
     approach: float
-    """meV/Å^2: energy that a viscoelastic block"""
+    """meV/Å^2: energy dissipated by a viscoelastic block"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off"""
     cycle: float
-    """meV/Å^2: the same over a whole cycle"""
+    """meV/Å^2: energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"""
     uncertainty: DissipatedInBlockUncertainty
 
 class Stored(Values):
     approach: float
     """meV/Å^2: change of the energy of interface and block"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: change of the energy of interface and block"""
 
 class Jkr(Values):
     approach: float
     """meV/Å^2: work of adhesion by JKR, F/"""
     pull_off: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: work of adhesion by JKR, F/"""
     approach_averaged: float
-    """meV/Å^2: as jkr.approach, from the largest attraction of a running mean over 2 ps, which leaves out the vibrations ..."""
+    """meV/Å^2: as jkr.approach, from the largest attraction of a running mean over 2 ps, which removes the vibrations ..."""
     pull_off_averaged: float
-    """meV/Å^2: the same of the pull-off"""
+    """meV/Å^2: as jkr.pull_off, from the largest attraction of a running mean over 2 ps"""
     edge_pinning: float
-    """factor by which rows of sites that hold the edge of the contact make pull_off_force and jkr.pull_off too ..."""
+    """factor by which pinning of the contact edge at rows of sites makes pull_off_force and jkr.pull_off too ..."""
     relaxed: float
-    """meV/Å^2: work of adhesion by JKR from the binding energy at zero load, which needs no largest force"""
+    """meV/Å^2: work of adhesion by JKR from the binding energy at zero load instead of a pull-off force"""
 
 class ContactRadius(Values):
     relaxed: float
@@ -108,31 +108,31 @@ class ContactRadius(Values):
 
 class Instrument(Values):
     approach_force: float
-    """nN: approach_force in the units of instruments, of a sphere or a box with free edges, like the following"""
+    """nN: approach_force in units of instruments"""
     pull_off_force: float
-    """nN: pull_off_force"""
+    """nN: pull_off_force in units of instruments"""
     contact_radius: float
-    """nm: contact_radius.relaxed"""
+    """nm: contact_radius.relaxed in units of instruments"""
     spring: float
-    """N/m: drive.stiffness"""
+    """N/m: drive.stiffness in units of instruments"""
     energy_lost: float
-    """aJ: dissipated.energy"""
+    """aJ: dissipated.energy in units of instruments"""
     edge_distance: float
-    """nm: least distance of a contact of the path from a free edge of the box"""
+    """nm: smallest distance of a contact from a free edge of the box on the path"""
 
 class Segment(Values):
     segment: int
-    """its number in drive.path, from 0"""
+    """number of the segment in drive.path, from 0"""
     name: str
-    """as the scene has it"""
+    """the segment's text in drive.path"""
     work_of_drive: float
-    """meV/Å^2: work of the drive on the solids, also sideways"""
+    """meV/Å^2: work of the drive on the solids, including work sideways"""
     work_of_interface: float
-    """meV/Å^2: ∫ F dz of the mean height"""
+    """meV/Å^2: work of the interface, ∫ F dz of the mean height"""
     lost: float
-    """meV/Å^2: energy damped on the way, or dissipated at instabilities"""
+    """meV/Å^2: energy damped in the segment, or dissipated at instabilities"""
     dissipated_in_block: float
-    """meV/Å^2: energy that a viscoelastic block has dissipated by that, beside lost"""
+    """meV/Å^2: energy dissipated by a viscoelastic block in the segment, apart from lost"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
@@ -142,81 +142,81 @@ class Segment(Values):
     uncertainty: float
     """meV/Å^2: convergence of work_of_drive, lost and dissipated_in_block"""
     largest_attraction: float
-    """eV/Å: on the way"""
+    """eV/Å: largest attraction in the segment"""
     friction: float
-    """eV/Å: force against a slide"""
+    """eV/Å: mean force against a slide"""
     largest_friction: float
-    """eV/Å: the largest force against the slide"""
+    """eV/Å: largest force against a slide"""
     steady: str
-    """of a slide over a wall"""
+    """slides over a wall"""
     running_in: float
-    """Å: distance left out at the beginning, with which the variance of the mean friction is least"""
+    """Å: distance omitted at the beginning of the slide, for which the variance of the mean friction is least"""
     steady_friction: float
-    """eV/Å: force against the slide"""
+    """eV/Å: mean force against the slide"""
     steady_friction_error: float
-    """eV/Å: its standard error, by blocking, as of the following ones"""
+    """eV/Å: standard error of steady_friction, by blocking, as for the following values"""
     friction_stress: float
-    """MPa: steady_friction over the area of the box"""
+    """MPa: steady_friction divided by the area of the box"""
     friction_coefficient: float
-    """steady_friction over the normal force"""
+    """steady_friction divided by the normal force"""
     friction_coefficient_error: float
-    """its standard error"""
+    """standard error of friction_coefficient"""
     steady_pressure: float
-    """MPa: of the substrate on the lowest layer"""
+    """MPa: mean normal force of the substrate on the lowest layer, divided by the area of the box"""
     steady_contact_fraction: float
-    """contact fraction"""
+    """mean contact fraction"""
     steady_contact_fraction_error: float
-    """its standard error"""
+    """standard error of steady_contact_fraction"""
     steady_mean_height: float
-    """Å: mean height of the lowest layer"""
+    """Å: average of the mean height of the lowest layer"""
     steady_dissipated_in_block: float
-    """eV/Å: energy that a viscoelastic block dissipates over the distance"""
+    """eV/Å: part of steady_friction"""
     steady_lost: float
-    """eV/Å: energy dissipated at instabilities over the distance"""
+    """eV/Å: part of steady_friction"""
     pressure: float
-    """MPa: at its end"""
+    """MPa: normal force of the substrate on the lowest layer at the end of the segment, divided by the area of the box"""
     force: float
-    """nN: the same as a force, of a sphere or a box with free edges"""
+    """nN: force at the end of the segment"""
     pressure_scatter: float
-    """MPa: thermal noise"""
+    """MPa: rms deviation of the force from the average, by thermal noise"""
     pressure_averaged_over: float
-    """ps: time of the average"""
+    """ps: averaging time of the force"""
     mean_height: float
-    """Å: at its end"""
+    """Å: mean height of the lowest layer at the end of the segment"""
     top_displacement: float
-    """Å: at its end"""
+    """Å: displacement of the top plane at the end of the segment"""
     contact_fraction: float
-    """at its end"""
+    """contact fraction at the end of the segment"""
     slide: list[float]
-    """Å: at its end"""
+    """Å: place over the substrate along x and y at the end of the segment"""
 
 class DissipatedJump(Values):
     segment: int
     """number of the segment of drive.path, from 0"""
     energy: float
-    """eV: energy dissipated"""
+    """eV: energy dissipated at the instability"""
     top_displacement: float
     """Å: displacement of the top plane"""
     slide: list[float]
-    """Å: place over the substrate, of a path that slides"""
+    """Å: place over the substrate"""
     mean_height: list[float]
-    """Å: mean height of the lowest layer, before and after"""
+    """Å: mean height of the lowest layer before and after"""
     force: list[float]
     """eV/Å: force on the top plane, or of the substrate along a slide, before and after"""
     contact_fraction: list[float]
-    """contact fraction, before and after"""
+    """contact fraction before and after"""
     site: list[float]
     """x and y of the site that moved furthest"""
     largest_move: float
-    """Å: how far it moved"""
+    """Å: distance moved by that site"""
     sites_moved: int
-    """sites that moved more than half as far"""
+    """number of sites that moved more than half as far"""
 
 class Dissipated(Values):
     energy: float
     """eV: energy dissipated at instabilities since the start of a quasi-static path"""
     not_followed: float
-    """eV: of this, in steps longer than a fiftieth of the shortest time of block.prony"""
+    """eV: part of dissipated.energy in steps longer than a fiftieth of the shortest time of block.prony, of which ..."""
     events: int
     """number of instabilities"""
     jumps: list[DissipatedJump]
@@ -227,9 +227,9 @@ class TheoryPersson(Values):
     contact_fraction: float
     """area of real contact, projected"""
     gamma_full_contact: float
-    """meV/Å^2: effective work of adhesion if contact is assumed to be complete"""
+    """meV/Å^2: effective work of adhesion for complete contact"""
     delta_gamma: float
-    """meV/Å^2: the Δγ that the theory was given"""
+    """meV/Å^2: Δγ used by the theory"""
     gamma_eff_error: float
     """meV/Å^2: numerical error of gamma_eff"""
     contact_fraction_error: float
@@ -237,9 +237,9 @@ class TheoryPersson(Values):
     elastic_energy: float
     """meV/Å^2: elastic energy stored in the contact"""
     h_rms: float
-    """Å: rms height of the spectrum that was solved for"""
+    """Å: rms height of the spectrum used by the theory"""
     rms_slope: float
-    """rms slope of that spectrum"""
+    """rms slope of the spectrum used by the theory"""
     theta: float
     """adhesion parameter E* h² q0/Δγ"""
     jkr_pull_off_force: float
@@ -247,19 +247,19 @@ class TheoryPersson(Values):
     critical_rms: float
     """Å: rms height beyond which adhesion vanishes"""
     critical_rms_full_contact: float
-    """Å: the same if contact is assumed to be complete"""
+    """Å: rms height beyond which adhesion vanishes for complete contact"""
     status: str
     """adhesive', 'pressed' or 'no contact"""
     converged: bool
-    """whether the errors are below 1e-3"""
+    """true if the errors are below 1e-3"""
     note: str
-    """why the theory has no solution for this scene"""
+    """reason why the theory has no solution for this scene"""
 
 class TheoryRenormalised(Values):
     gamma_eff: float
     """meV/Å^2: effective work of adhesion, renormalised theory"""
     gamma_eff_ratio: float
-    """gamma_eff over Δγ"""
+    """gamma_eff/Δγ"""
     contact_fraction: float
     """sites in contact"""
     separation: float
@@ -273,9 +273,9 @@ class TheoryRenormalised(Values):
     gamma_eff_expected_error: float
     """meV/Å^2: expected error"""
     contact_fraction_expected_error: float
-    """the same of contact_fraction"""
+    """expected error of contact_fraction, as for gamma_eff"""
     note: str
-    """why there is no solution, or its error is large"""
+    """reason why there is no solution, or why its error is large"""
 
 class TheorySphere(Values):
     maugis_parameter: float
@@ -287,17 +287,17 @@ class TheorySphere(Values):
     renormalised: float
     """meV/Å^2: as maugis_images, with the work of adhesion and the largest tension of the renormalised theory"""
     renormalised_parameter: float
-    """its Maugis' λ"""
+    """Maugis' λ with the work of adhesion and the largest tension of the renormalised theory"""
     note: str
-    """why one of these is missing"""
+    """reason why one of these is missing"""
 
 class TheorySlidingCurve(Values):
     velocity: float
     """m/s: velocity"""
     friction_coefficient: float
-    """friction coefficient there"""
+    """friction coefficient at this velocity"""
     contact_fraction: float
-    """area of real contact there"""
+    """area of real contact at this velocity"""
 
 class TheorySliding(Values):
     friction_coefficient: float
@@ -307,14 +307,14 @@ class TheorySliding(Values):
     contact_fraction: float
     """area of real contact at drive.velocity"""
     slope: float
-    """s/m: friction coefficient over velocity of slow sliding"""
+    """s/m: friction coefficient divided by velocity, in the limit of slow sliding"""
     largest_friction_coefficient: float
-    """the maximum over velocity"""
+    """maximum of the friction coefficient over velocity"""
     velocity_of_largest: float
-    """m/s: its velocity"""
+    """m/s: velocity of the largest friction coefficient"""
     curve: list[TheorySlidingCurve]
     note: str
-    """why the theory has no number"""
+    """reason why the theory has no result"""
 
 class Theory(Values):
     persson: TheoryPersson
@@ -328,15 +328,15 @@ class Relaxed(Values):
     mean_height: float
     """Å: mean height of the lowest layer above the substrate's mean plane"""
     residual_force: float
-    """eV/Å: largest force left on a node"""
+    """eV/Å: largest residual force on a node"""
 
 class Energy(Values):
     balance_error: float
     """energy balance"""
     work: float
-    """eV: work of the drive on the solids since they were at rest apart"""
+    """eV: work of the drive on the solids, counted from rest apart"""
     kinetic: float
-    """eV: kinetic energy of the velocities at the last recorded step"""
+    """eV: kinetic energy at the last recorded step"""
     elastic: float
     """eV: elastic energy at the last recorded step"""
     interface: float
@@ -346,11 +346,11 @@ class Energy(Values):
     damped: float
     """eV: energy lost since the start"""
     spring: float
-    """eV: of energy.elastic, that of the spring that holds the top plane"""
+    """eV: part of energy.elastic in the spring that holds the top plane"""
     branches: float
-    """eV: of energy.elastic, what the branches of a viscoelastic block store"""
+    """eV: part of energy.elastic in the branches of a viscoelastic block"""
     dissipated_in_block: float
-    """eV: what they have dissipated since the start, beside energy.damped"""
+    """eV: energy dissipated by the branches of a viscoelastic block since the start, apart from energy.damped"""
 
 class Surface(Values):
     rms: float
@@ -358,47 +358,47 @@ class Surface(Values):
     rms_slope: float
     """rms slope √⟨"""
     min: float
-    """Å: lowest height of the substrate"""
+    """Å: smallest height of the substrate"""
     max: float
-    """Å: its highest"""
+    """Å: largest height of the substrate"""
     atoms: int
-    """number of atoms of a substrate of atoms anywhere"""
+    """number of atoms of a substrate of atoms"""
     origin: str
-    """who measured the map, where its file says so"""
+    """author of the map, if its file names one"""
     file_digest: str
-    """digest of what was read from surface.file"""
+    """digest of the values read from surface.file"""
 
 class Interface(Values):
     cutoff: float
-    """Å: cutoff of the pairs, of a scene with interface.cutoff = '4 r0' too"""
+    """Å: cutoff of the pairs, also if the scene says '4 r0"""
     table_digest: str
-    """digest of the numbers in the tables of potentials that the scene names. A sweep takes a result again only ..."""
+    """digest of the values of the scene's tabulated potentials. A sweep reuses a result only if the digest is ..."""
     adhesion_digest: str
-    """digest of the field of interface.adhesion on the sites. A sweep takes a result again only if the file ..."""
+    """digest of the field of interface.adhesion on the sites. A sweep reuses a result only if the digest is ..."""
     adhesion_least: float
-    """meV/Å^2: least work of adhesion of a site of that field"""
+    """meV/Å^2: smallest work of adhesion of a site in the field of interface.adhesion"""
     adhesion_largest: float
-    """meV/Å^2: its largest"""
+    """meV/Å^2: largest work of adhesion of a site in the field of interface.adhesion"""
     table_error: float
-    """bound of the error of energies of flat surfaces, and so of binding energies, that the spline between the ..."""
+    """bound of the error of energies of flat surfaces, and so of binding energies, from the spline between the ..."""
 
 class Block(Values):
     prony_file: str
-    """file of block.prony, as the scene names it"""
+    """file that block.prony names"""
     prony_error: float
-    """rms error of the fit that this file is, over the moduli"""
+    """relative rms error of the fit in that file"""
 
 class RunPhase(Values):
     seconds: float
     """s: wall time spent in a phase of the run, since the last resume"""
     calls: int
-    """how often the phase was entered"""
+    """number of times that the phase was entered"""
 
 class RunEffect(Values):
     on: bool
-    """whether the scene switches this effect on"""
+    """true if the scene switches the effect on"""
     why: str
-    """the key that decides it"""
+    """key that decides"""
 
 class Run(Values):
     wall_seconds: float
@@ -406,27 +406,27 @@ class Run(Values):
     processor_seconds: float
     """s: processor time of all threads, from the first start"""
     steps: int
-    """time steps"""
+    """number of time steps, or of points of a quasi-static path"""
     iterations: int
-    """iterations"""
+    """number of iterations of a path's points, or of the state and the search for others"""
     stopped: str
-    """max_steps', 'wall_limit' or 'signal"""
+    """reason why the path is incomplete"""
     file_digest: str
-    """digest at the end of the run.h5 that belongs to these numbers"""
+    """digest at the end of the run.h5 of this result"""
     ranks: int
-    """MPI ranks"""
+    """number of MPI ranks"""
     threads: int
-    """threads of a rank"""
+    """number of threads of a rank"""
     phases: dict[str, RunPhase]
     effects: dict[str, RunEffect]
     device: str
-    """the device that made the steps"""
+    """device that computed the steps"""
     kernels: str
     """instruction set of the kernels used"""
     version: str
     """version of Asperity"""
     git: str
-    """commit that it was built from"""
+    """commit that the program was built from"""
     compiler: str
     """compiler"""
     flags: str
@@ -443,7 +443,7 @@ class Numbers:
     binding_energy: float
     """meV/Å^2: -"""
     binding_energy_uncertainty: float
-    """meV/Å^2: convergence of its solver, not its error"""
+    """meV/Å^2: convergence of the solver, not the error"""
     work_of_interface: WorkOfInterface
     pair_binding_energy: float
     """meV/Å^2: -U_LJ of the relaxed state"""
@@ -453,7 +453,7 @@ class Numbers:
     dissipated_in_block: DissipatedInBlock
     stored: Stored
     contact_fraction: float
-    """sites closer to an atom than the inflection of the pair potential, at zero load"""
+    """sites in contact at zero load"""
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
@@ -478,27 +478,27 @@ class SceneSurface(Values):
     kind: Any
     """the substrate"""
     sites: Any
-    """N"""
+    """number of sites along an edge of the box, N"""
     boundary: Any
     """edges of the box"""
     spacing: Any
     """Å: lattice constant a of the block"""
     lattice_ratio: Any
-    """block spacing over substrate spacing"""
+    """block spacing divided by substrate spacing, rounded to whole atoms"""
     rms: Any
     """Å: rms height"""
     hurst: Any
     """Hurst exponent H"""
     rolloff: Any
-    """q0 / q_L"""
+    """roll-off wavevector q0 / q_L, below which C"""
     q_max: Any
-    """q1 / q_L"""
+    """largest wavevector q1 / q_L, above which C"""
     amplitudes: Any
-    """random amplitudes and phases, or random phases alone"""
+    """random amplitudes and phases, or random phases only"""
     seed: Any
     """seed of the surface"""
     radius: Any
-    """Å: of a spherical cap"""
+    """Å: radius of a spherical cap under the roughness"""
     file: Any
     """for kind = 'file"""
     file_size: Any
@@ -506,7 +506,7 @@ class SceneSurface(Values):
     file_unit: Any
     """unit of the map's heights"""
     detrend: Any
-    """what is taken off a map from a file"""
+    """removes from a map of a file nothing, the mean plane, or the mean plane and the jumps between opposite edges"""
     file_missing: Any
     """points of the map without a height"""
     file_crop: Any
@@ -514,11 +514,11 @@ class SceneSurface(Values):
     line_noise: Any
     """noise of a scan from line to line"""
     resample: Any
-    """how a map that has not N x N values is brought onto the lattice"""
+    """resampling of a map without N x N values to the lattice"""
 
 class SceneBlock(Values):
     model: Any
-    """on a dynamic path"""
+    """dynamic paths"""
     young: Any
     """GPa: Young's modulus E"""
     poisson: Any
@@ -526,23 +526,23 @@ class SceneBlock(Values):
     atom_mass: Any
     """u: mass of an atom"""
     thickness: Any
-    """in lattice layers, or a length"""
+    """thickness in lattice layers, or a length"""
     layers_per_level: Any
     """thickness of each level of the multiscale block, in its own cells"""
     strain: Any
     """small strain, or geometrically exact springs"""
     prony: Any
-    """branches of a viscoelastic block, on a quasi-static path, as in [[9.0, '1 ns'], [1.5, '20 ns']], the times ..."""
+    """branches of a viscoelastic block"""
     layers: Any
-    """coatings between the block's own material and its surface, on a quasi-static path, from the surface upwards"""
+    """coatings between the block's own material and its surface"""
     surface_stress: Any
-    """N/m: tension of the block's surface, on a quasi-static path"""
+    """N/m: tension of the block's surface"""
 
 class SceneInterface(Values):
     kind: Any
-    """pairs of atoms, or a wall"""
+    """pairs of atoms, or a wall, which acts by a law of the gap below each site without lateral forces"""
     potential: Any
-    """potential of the pairs, or of the atoms for which a smeared wall stands"""
+    """potential of the pairs, or of the atoms of a smeared wall"""
     epsilon: Any
     """eV: depth of the Lennard-Jones well"""
     r0: Any
@@ -550,81 +550,81 @@ class SceneInterface(Values):
     morse_D: Any
     """eV: depth of the Morse well"""
     morse_a: Any
-    """1/Å: of the Morse potential D"""
+    """1/Å: inverse width of the Morse potential D"""
     morse_r_min: Any
     """Å: distance of the Morse minimum"""
     table: Any
     """file of potential = 'table"""
     cutoff: Any
-    """Å: distance beyond which atoms do not interact"""
+    """Å: distance beyond which atoms do not interact, at most half the box. '4 r0"""
     pairs: Any
     """potentials of the types of a substrate of atoms from a file"""
     tail: Any
     """continuum correction beyond the cutoff"""
     frictionless: Any
-    """quasi-static paths"""
+    """no lateral tractions, and normal displacements only"""
     law: Any
     """law of a wall"""
     adhesion: Any
-    """meV/Å^2: work of adhesion of flat surfaces, Δγ, of a wall that is not smeared"""
+    """meV/Å^2: work of adhesion of flat surfaces, Δγ, for a wall that is not smeared"""
     adhesion_size: Any
     """Å: edge of the map of interface.adhesion"""
     adhesion_unit: Any
-    """its unit"""
+    """unit of the map of interface.adhesion"""
     adhesion_missing: Any
-    """points of this map without a number"""
+    """points without a value in the map of interface.adhesion, as surface.file_missing"""
     adhesion_crop: Any
-    """such a map that is not square"""
+    """a map of interface.adhesion that is not square, as surface.file_crop"""
     range: Any
-    """Å: of these laws"""
+    """Å: range of the laws except smeared and table"""
     exponent: Any
-    """of law = 'power"""
+    """exponent of law = 'power"""
     stiffness: Any
     """GPa/Å: stiffness of the linear repulsion"""
     edge_pinning: Any
-    """whether a pull-off of a sphere runs although its force is more than 1.3 times too large"""
+    """allows or refuses the pull-off of a sphere whose force would be more than 1.3 times too large, because the ..."""
 
 class SceneDrive(Values):
     mode: Any
     """time steps"""
     path: Any
-    """the segments of the run, in order"""
+    """segments of the run, in order"""
     velocity: Any
     """m/s: speed of the top plane"""
     control: Any
-    """what a quasi-static path prescribes"""
+    """quantity that a quasi-static path prescribes"""
     displacement_step: Any
-    """Å: largest displacement from point to point of a quasi-static path, of what drive.control prescribes"""
+    """Å: largest step of the quantity of drive.control between points of a quasi-static path"""
     stiffness: Any
-    """N/m: of the spring that holds the top plane of the whole box, as the cantilever of an instrument does"""
+    """N/m: stiffness of a spring between drive and top plane, for the whole box, like the cantilever of an instrument"""
     mass: Any
-    """u: of the top plane on the spring of drive.stiffness"""
+    """u: mass of the top plane on the spring of drive.stiffness"""
     timestep: Any
-    """fs: of velocity Verlet"""
+    """fs: time step of velocity Verlet"""
     damping: Any
-    """1/ps: rate Γ of the force -m Γ v, v relative to the top plane"""
+    """1/ps: rate Γ of the damping force -m Γ v, with v relative to the top plane"""
     damping_from: Any
     """fraction of the thickness above which damping acts"""
     ramp: Any
-    """ps: time over which the top plane's velocity is reversed smoothly"""
+    """ps: duration of smooth changes of the top plane's velocity"""
     load: Any
     """MPa: pressure, or force on the box"""
     temperature: Any
-    """K: above 0"""
+    """K: temperature"""
     seed: Any
-    """of the thermal noise"""
+    """seed of the thermal noise"""
     max_steps: Any
-    """stop after so many steps"""
+    """largest number of time steps, or points of a quasi-static path, after which the run stops"""
     tolerance: Any
     """largest residual force of a relaxation, as a fraction of the smallest force on a site that decides the state"""
 
 class SceneTheory(Values):
     delta_gamma: Any
-    """meV/Å^2: flat"""
+    """meV/Å^2: Δγ of the theory"""
     beta: Any
-    """correction to the elastic energy"""
+    """β, correction to the elastic energy of partial contact"""
     area_factor: Any
-    """how the true area follows from the slope"""
+    """relation of the true area to the slope"""
     spectrum: Any
     """spectrum of the theory"""
     clip: Any
@@ -634,15 +634,15 @@ class SceneNumerics(Values):
     precision: Any
     """precision of the pairs across the interface"""
     device: Any
-    """what makes the time steps"""
+    """computes the time steps on the processor"""
 
 class SceneOutput(Values):
     trajectory: Any
     """steps between frames of the lowest layer"""
     velocities: Any
-    """whether the frames of the trajectory hold velocities too"""
+    """writes velocities in the frames of the trajectory too"""
     fields: Any
-    """when maps are written"""
+    """times of maps"""
     series: Any
     """steps between rows of the series"""
     checkpoint: Any
@@ -675,19 +675,19 @@ class SeriesArrays:
     top_force: np.ndarray
     """eV/Å: elastic force on the top plane along z"""
     slide_x: np.ndarray
-    """Å: place of the block over the substrate, of a path that slides"""
+    """Å: place of the block over the substrate along x"""
     slide_y: np.ndarray
-    """Å: the same along y"""
+    """Å: place of the block over the substrate along y"""
     lateral_force_x: np.ndarray
-    """eV/Å: force of the substrate on the lowest layer along x, of a path that slides"""
+    """eV/Å: force of the substrate on the lowest layer along x"""
     lateral_force_y: np.ndarray
-    """eV/Å: the same along y"""
+    """eV/Å: force of the substrate on the lowest layer along y"""
     interface_energy: np.ndarray
     """eV: energy of the interface"""
     branch_energy: np.ndarray
-    """eV: of elastic_energy, what the branches of a viscoelastic block store"""
+    """eV: part of elastic_energy in the branches of a viscoelastic block"""
     spring_energy: np.ndarray
-    """eV: of elastic_energy, what the spring that holds the top plane stores"""
+    """eV: part of elastic_energy in the spring that holds the top plane"""
     elastic_energy: np.ndarray
     """eV: elastic energy"""
     kinetic_energy: np.ndarray
@@ -695,23 +695,23 @@ class SeriesArrays:
     time_step_energy: np.ndarray
     """eV: at a temperature"""
     work: np.ndarray
-    """eV: work of the drive on the solids since they were at rest apart, as energy.work"""
+    """eV: work of the drive on the solids, counted from rest apart, as energy.work"""
     work_of_interface: np.ndarray
     """eV: work of the interface's force on the mean height since the start, ∫ F dz"""
     damped: np.ndarray
-    """eV: energy damped since the start, less the heat of the thermostat's noise"""
+    """eV: energy damped since the start, minus the heat of the thermostat's noise"""
     dissipated: np.ndarray
     """eV: energy dissipated at instabilities since the start"""
     dissipated_in_block: np.ndarray
-    """eV: energy that the branches of a viscoelastic block have dissipated since the start"""
+    """eV: energy dissipated by the branches of a viscoelastic block since the start"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray
-    """sites closer to an atom than the inflection of the pair potential"""
+    """sites in contact"""
     repulsive_fraction: np.ndarray
     """sites whose net normal force is repulsive"""
     closest: np.ndarray
-    """Å: smallest distance of a site and an atom"""
+    """Å: smallest distance from a site to an atom"""
 
 class StateMaps:
     gap: np.ndarray
@@ -719,17 +719,17 @@ class StateMaps:
     pressure: np.ndarray
     """GPa: normal force on a site"""
     distance: np.ndarray
-    """Å: distance of a site and the nearest atom"""
+    """Å: distance from a site to the nearest atom"""
     contact: np.ndarray
-    """1 where that is less than the inflection of the potential"""
+    """1 if distance is below the inflection of the pair potential"""
     adhesion: np.ndarray
-    """meV/Å^2: work of adhesion of a site, where interface.adhesion is a field"""
+    """meV/Å^2: work of adhesion of a site, if interface.adhesion is a field"""
     u_x: np.ndarray
-    """Å: displacement of a site"""
+    """Å: displacement of a site along x"""
     u_y: np.ndarray
-    """Å: displacement of a site"""
+    """Å: displacement of a site along y"""
     u_z: np.ndarray
-    """Å: displacement of a site"""
+    """Å: displacement of a site along z"""
 
 class SubstrateMaps:
     height: np.ndarray

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A result directory: result.json as attributes, the arrays of run.h5 as they are asked for.
+"""A result directory: the values of result.json as attributes, and the arrays of run.h5, read on demand.
 
-A run that failed leaves the reason and perhaps half a series; one of the theory alone leaves no run.h5. Missing parts are
-absent or empty here; a damaged run.h5 is reported in `notes`, and the rest is used.
+A failed run leaves the reason and possibly an incomplete series; `asperity theory` leaves no run.h5. Missing parts are absent or
+empty; a damaged run.h5 is reported in `notes`, and the rest is used.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ DEEPEST_JSON = 64
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
-    """Returns the load of a scene's state and that of its theory in words. They differ after an approach, whose state carries
-    no load.
+    """Returns the load of a scene's state and the load of its theory as text. They differ after an approach, whose state is without
+    load.
 
     Parameters
     ----------
@@ -90,19 +90,19 @@ def read_json(path: Path) -> Values:
 
 
 def expect(directory: Path, *files: str) -> None:
-    """Checks that a directory holds one of some files.
+    """Checks that a directory contains one of several files.
 
     Parameters
     ----------
     directory : Path
         Directory.
     *files : str
-        Names, of which one must be there.
+        Names of the files.
 
     Raises
     ------
     InputOutputError
-        None of them is there.
+        The directory contains none of the files.
     """
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
@@ -118,26 +118,26 @@ def expect(directory: Path, *files: str) -> None:
 
 
 class RunFile:
-    """File run.h5 of a directory. Every read is checked, and raises InputOutputError if it fails.
+    """File run.h5 of a directory. All reads raise InputOutputError on failure.
 
-    The first read compares the file with the digest at its end, if it was written with one.
+    The first read checks the digest at the end of the file, if the file has one.
     """
 
     def __init__(self, path: Path, unread: str = ""):
-        """Keeps the path. unread: why the file is not read; "": it is."""
+        """Stores the path. unread: reason why the file must not be read; "": none."""
         self.path, self.unread = path, unread
 
     def lacks(self, where: str, name: object, there: Iterable[str], what: str) -> UnknownName:
-        """Returns the error of a part that the file does not have.
+        """Returns the error for a part that the file lacks.
 
         Parameters
         ----------
         where : str
-            Group that was asked.
+            Group.
         name : object
             Name of the part.
         there : Iterable[str]
-            Names of the parts that are there.
+            Names of the existing parts.
         what : str
             Kind of the part: "array" or "state".
 
@@ -189,7 +189,7 @@ class RunFile:
         dimensions : int
             Number of dimensions that the data set must have.
         frame : int, optional
-            Only this element of the first dimension; None: all.
+            Index of the first dimension to read; None: all.
 
         Returns
         -------
@@ -225,7 +225,7 @@ class RunFile:
         Returns
         -------
         Any
-            Its value; None if there is none.
+            The value; None if there is no such attribute.
         """
         with self._opened() as file:
             found = file[name].attrs.get(key)
@@ -233,7 +233,7 @@ class RunFile:
 
 
 class Group(Attributes, Mapping):
-    """Arrays of a group of run.h5, read when they are asked for.
+    """Arrays of a group of run.h5, read on demand.
 
     Maps are square, [y, x]; the names in `lists` have one dimension and are read by other members.
     """
@@ -241,7 +241,7 @@ class Group(Attributes, Mapping):
     lists: tuple[str, ...] = ()
 
     def __init__(self, file: RunFile, path: str, edge: float = 0.0):
-        """Looks for the arrays of a group. edge: width of the box of maps, Å; 0: not known."""
+        """Lists the arrays of a group. edge: width of the box of maps, Å; 0 if unknown."""
         self._file, self.edge = file, edge
         self._called = self._path = path
         self._all = file.members(path)
@@ -318,7 +318,7 @@ class State(Group, StateMaps):
 
     @functools.cached_property
     def slide(self) -> tuple[float, float]:
-        """Place of the block over the substrate along x and y, Å; 0 if it was not slid."""
+        """Place of the block over the substrate along x and y, Å; 0 without a slide."""
         return self._number("slide_x"), self._number("slide_y")
 
     @functools.cached_property
@@ -334,8 +334,8 @@ class State(Group, StateMaps):
 
 
 class Substrate(Group, SubstrateMaps):
-    """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms
-    anywhere also has atoms [atom, 3] (Å) and types [atom] (from 1, by interface.pairs); else they are None."""
+    """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms also has
+    atoms [atom, 3] (Å) and types [atom] (from 1, as in interface.pairs); otherwise both are None."""
 
     lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
 
@@ -391,9 +391,9 @@ class Result(Values, Numbers):
     substrate : Substrate
         Heights (Å) and spectrum of the substrate.
     frames : Frames
-        Lowest layer at the steps of output.trajectory: frames[0] (Å, [site, xyz]), frames.times (ps).
+        Positions of the lowest layer at the steps of output.trajectory: frames[0] (Å, [site, xyz]), frames.times (ps).
     units : Values
-        Unit of each number, in the same nesting as the numbers.
+        Units of the numbers, by the same names.
     plot : RunPlots
         Plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
     notes : list of str
@@ -425,7 +425,7 @@ class Result(Values, Numbers):
             self._open("no run.h5", self.notes[-1])
 
     def _of_another_run(self) -> bool:
-        """Returns True if run.h5 ends in another digest than that in result.json."""
+        """Returns True if the digest of run.h5 differs from that in result.json."""
         known, path = self.text("run.file_digest"), self.directory / "run.h5"
         with contextlib.suppress(OSError):
             there = store.hdf5_digest(path)
@@ -439,7 +439,7 @@ class Result(Values, Numbers):
 
     @property
     def units(self) -> Units:
-        """Units of the numbers, by the same paths as the numbers."""
+        """Units of the numbers, by the same names."""
         return cast("Units", self.part("units"))
 
     @property
@@ -449,7 +449,7 @@ class Result(Values, Numbers):
 
     @property
     def segment_names(self) -> list[str]:
-        """Segments of the path by their names in the scene; series["segment"] counts them from 0."""
+        """Texts of the segments in drive.path; series["segment"] has their indices, from 0."""
         return [str(s) for s in self.listed("scene.drive.path")]
 
     def unit(self, name: str) -> str:
@@ -487,7 +487,7 @@ class Result(Values, Numbers):
 
     @property
     def load_words(self) -> tuple[str, str]:
-        """Load of the state and of its theory in words."""
+        """Load of the state and of its theory, as text."""
         return load_words(self.find("scene"))
 
     @property
@@ -502,7 +502,7 @@ class Result(Values, Numbers):
 
     @property
     def in_newtons(self) -> bool:
-        """True if forces are read in nN, lengths in nm and energies whole in aJ: of a sphere or with free edges."""
+        """True for spheres and free edges, for which forces are given in nN, lengths in nm and total energies in aJ."""
         return self.curved or self.has_free_edges
 
     @property
@@ -512,7 +512,7 @@ class Result(Values, Numbers):
 
     @property
     def radius(self) -> float | None:
-        """Radius of the spherical cap, Å; None: not curved."""
+        """Radius of the spherical cap, Å; None if the substrate is not curved."""
         return self.number("scene.surface.radius")
 
     @property

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The engine in a loop of your own: Simulation, a dynamic scene that is stepped, and Statics, a quasi-static one."""
+"""The engine in a loop of your own: Simulation steps a dynamic scene, and Statics relaxes a quasi-static one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ NAME = "asperity._engine"
 
 
 def load() -> Any:
-    """Loads the compiled module of this package, or of the build of the program. Raises ImportError."""
+    """Loads the compiled module, from this package or from the build of the program. Raises ImportError."""
     if NAME in sys.modules:
         return sys.modules[NAME]
     folders = [Path(__file__).parents[1]]
@@ -79,7 +79,7 @@ class Components(NamedTuple):
 
 
 def _set_what_is_there(self: object, name: str, value: Any) -> None:
-    """Sets an existing attribute; refuses a misspelt name, which would have no effect."""
+    """Sets an existing attribute. Raises an error for other names, which would have no effect."""
     if not name.startswith("_") and not hasattr(type(self), name):
         there = [n for n in dir(type(self)) if not n.startswith("_") and isinstance(getattr(type(self), n), property)]
         raise UnknownName.among(type(self).__name__, name, there)
@@ -99,7 +99,7 @@ class Top:
 
     @property
     def position(self) -> float:
-        """Displacement since the start, Å. A written value (a number or "-1 nm") takes effect at once in the next step."""
+        """Displacement since the start, Å. A written value (a number or "-1 nm") takes effect in the next step."""
         return self._simulation._top_position
 
     @position.setter
@@ -108,8 +108,8 @@ class Top:
 
     @property
     def velocity(self) -> float:
-        """Velocity in the next step, m/s; positive moves away. A written value (a number or "2 m/s") holds until the next one,
-        and the scene's path waits; None resumes the scene's path."""
+        """Velocity in the next step, m/s; positive moves away. A written value (a number or "2 m/s") replaces the scene's path
+        until another value is written; None resumes the scene's path."""
         return self._simulation._top_velocity
 
     @velocity.setter
@@ -152,8 +152,8 @@ SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
 
 @contextlib.contextmanager
 def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
-    """Makes a bar of tqdm, in a notebook one of its own kind, or lines of text; yields a function that takes the number of
-    steps made."""
+    """Shows progress: a bar of tqdm (in a notebook its notebook form), or lines of text. Yields a function to call with the number
+    of steps made."""
     bar, text = None, Progress()
     with contextlib.suppress(ImportError), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # a notebook without ipywidgets has bars of text
@@ -191,7 +191,7 @@ def _number(comm: Any) -> int | None:
 
 
 def _end_all_with(comm: Any) -> None:
-    """Makes an error that ends this rank end all ranks of comm, which would wait for it otherwise."""
+    """Aborts all ranks of comm if an error ends this rank, because the others would wait for it."""
     before = sys.excepthook
     if before.__module__ == __name__:
         return
@@ -213,10 +213,9 @@ class Simulation(_engine.Simulation):
             print(sim.time, sim.force, sim.contact)
 
     The path is that of `asperity run`, with bitwise identical results. A step computes forces at its start and then moves the
-    sites: time, force and energies belong to that start, as in the rows of a run's series, while u is one step further.
-    Energies and contacts are summed in observed steps: the last of each step(), each output.series-th, and those of
-    observers. A simulation uses all threads of its process or rank (OMP_NUM_THREADS). Notes on a scene are warnings
-    (SceneWarning).
+    sites: time, force and energies belong to the start of the step, as in a run's series, while u belongs to its end. Energies
+    and contacts are computed in observed steps: the last step of each call, every output.series-th step, and the steps of
+    observers. A simulation uses all threads of its process or rank (OMP_NUM_THREADS). Notes on a scene are warnings (SceneWarning).
 
     Parameters
     ----------
@@ -225,8 +224,8 @@ class Simulation(_engine.Simulation):
     overrides : dict, optional
         Values by key, {"surface.rms": 2.0, "drive.load": "100 MPa"}; numbers in the units of docs/reference/scene.md.
     comm : mpi4py.MPI.Comm, optional
-        Ranks that share the simulation, MPI.COMM_WORLD; each has a `tile` of the sites. All ranks make the same calls with
-        the same arguments; each writes to its own sites. An error that ends one rank ends all.
+        Ranks that share the simulation, MPI.COMM_WORLD; each has a `tile` of the sites. All ranks must make the same calls with the
+        same arguments; each writes to its own sites. An error that ends one rank ends all.
 
     Raises
     ------
@@ -288,7 +287,7 @@ class Simulation(_engine.Simulation):
     def step(self, n: int = 1, progress: bool = False) -> int:
         """Makes n steps, or fewer at the end of the scene's path (`done`).
 
-        Other Python threads run meanwhile; Ctrl-C stops between two steps.
+        Other Python threads continue to run; Ctrl-C stops between two steps.
 
         Parameters
         ----------
@@ -305,7 +304,7 @@ class Simulation(_engine.Simulation):
         Raises
         ------
         PhysicsError
-            If a guard stops the simulation, which has then ended.
+            If a guard stops the simulation; no step can follow.
         """
         n = operator.index(n)
         if not progress:
@@ -342,7 +341,7 @@ class Simulation(_engine.Simulation):
         return self.force / self.area * MPA
 
     def every(self, n: int, observer: Callable[[Simulation], Any], name: str | None = None) -> None:
-        """Calls an observer after each step whose number divides by n, the first step included.
+        """Registers an observer, which is called after every n-th step, beginning with the first.
 
         The observer may read and write as a script may between two steps, but must not call step(). An exception of the
         observer ends step().
@@ -395,14 +394,14 @@ class Simulation(_engine.Simulation):
 
     @property
     def series(self) -> dict[str, numpy.ndarray]:
-        """Columns by name: the values of observers, one row for each step at which one returned a value, and the engine's
-        columns (step, time, force, ..., with the names and units of run.h5). nan: no value at this step."""
+        """Columns by name: the values of observers, with one row for each step at which an observer returned a value, and the
+        engine's columns (step, time, force, ..., with names and units of run.h5). NaN: no value at this step."""
         names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
         return NamedArrays((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
 
     def write(self, directory: str | os.PathLike) -> Path:
-        """Writes a result directory for asperity.load(): the scene, `series`, and the present maps of the sites as the state
-        "now". With `comm` the first rank writes, with its own series and the maps of all ranks.
+        """Writes a result directory for asperity.load(): the scene, `series`, and the present maps of the sites as the state "now".
+        With `comm` the first rank writes its own series and the maps of all ranks.
 
         Parameters
         ----------
@@ -473,11 +472,11 @@ class Statics(_engine.Statics):
             point = statics.relax()
             print(point.mean_height, point.force, point.dissipated)
 
-    The path starts beyond the interaction range. The state at a point depends on the way there, as on a path of
-    `asperity run`; energy lost on the way is counted. Mean height or top plane: the one that is written first is held from
-    then on (a load holds the quantity of drive.control). A dynamic scene is treated as if its drive.mode were "quasistatic".
+    The path starts beyond the interaction range. The state at a point depends on the points before, as in `asperity run`;
+    dissipated energy is counted. Either the mean height or the top plane is held, whichever a script writes first (a load holds the
+    quantity of drive.control). A dynamic scene is treated as if its drive.mode were "quasistatic".
 
-    free() finds the state with nothing held; copy() copies a state, and restore() puts it back:
+    free() relaxes with top plane and mean height free; copy() copies a state, and restore() restores the copy:
 
         statics.mean_height = 3.1
         statics.relax()
@@ -544,10 +543,10 @@ class Statics(_engine.Statics):
 
     @property
     def load(self) -> None:
-        """Load to which the next relax() leads the solids, written as MPa or "100 MPa"; positive presses.
+        """Load for the next relax(), written in MPa or as "100 MPa"; positive presses.
 
-        The block moves in until the force rises to the load, or out until the force falls to it. The load cannot be read:
-        the force of a point is point.force.
+        The block moves down until the force rises to the load, or up until the force falls to the load. Write only; point.force is
+        the force of a point.
         """
         raise AttributeError("a load can be written, not read: the force of a point is point.force, eV/Å")
 

@@ -1,13 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Many runs on an executor of concurrent.futures, each a process of its own that a worker waits for.
+"""Many runs on an executor of concurrent.futures. Each run is a separate process, for which a worker waits.
 
-Each run has its own threads, signals and memory; one that fails or is killed does not touch the others,
-and it can be repeated by hand. Workers may be on other machines that share the file system. A run is asked
-to stop with USR1, which mpirun passes on: it leaves a checkpoint and exits with 75. That happens when the
-pool is interrupted (INT, TERM, USR1), at its wall limit, and when its worker dies. Started again, a run
-resumes from its checkpoint; one without a checkpoint starts from the beginning; a result of the same scene
-is taken as it is.
+Each run has its own threads, signals and memory, so that a failed or killed run does not affect the others. Workers may be on other
+machines that share the file system. A run is asked to stop with USR1, which mpirun passes on: it leaves a checkpoint and exits with
+75. That happens when the pool is interrupted (INT, TERM, USR1), at its wall limit, and when its worker dies. Started again, a run
+resumes from its checkpoint, or starts from the beginning without one; a result of the same scene is reused.
 """
 
 from __future__ import annotations
@@ -62,7 +60,7 @@ class Job:
 
 @dataclass
 class Outcome:
-    """Contents of a job's directory: status, result.json, and of a failure its exit code and reason."""
+    """Outcome of a job: status, result.json, and exit code and reason of a failure."""
 
     status: str = WAITING
     result: Values = field(default_factory=lambda: Values({}))
@@ -91,15 +89,15 @@ class PoolOptions:
 
 
 def refuse_jobs(jobs: object) -> None:
-    """Refuses a wrong number of runs side by side. Raises SceneError."""
+    """Raises SceneError for an impossible number of simultaneous runs."""
     if isinstance(jobs, bool) or not isinstance(jobs, Integral) or not 1 <= int(jobs) <= 1024:
         raise SceneError(f"jobs = {jobs!r}", "is no number of points side by side", "it is a whole number from 1 to 1024",
                          "leave it out for one after the other")
 
 
 def look_at(job: Job) -> Outcome:
-    """Returns the outcome of a job. Failed physics counts as an outcome; another failure, or a result that cannot be read, is
-    tried again.
+    """Returns the outcome of a job. A physics error counts as an outcome; a run with another error, or with an unreadable result,
+    is repeated.
 
     Raises SceneError if there is a result of another scene, or of another content of surface.file.
     """
@@ -132,7 +130,7 @@ def look_at(job: Job) -> Outcome:
 
 
 def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool = False) -> list[dict[str, str]]:
-    """Returns the files that are in the way of a run in a directory.
+    """Returns the files that prevent a run in a directory, because it would replace them.
 
     Parameters
     ----------
@@ -141,7 +139,7 @@ def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool
     inputs : Iterable[str]
         Files that the run reads.
     damaged : bool
-        True: the result there cannot be read and is set aside.
+        True: the existing result cannot be read and will be renamed.
 
     Returns
     -------
@@ -154,7 +152,7 @@ def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool
 
 
 def require_free_runs(place: Path, names: re.Pattern[str]) -> None:
-    """Checks that no file is in the way of the runs of a study, before anything is written.
+    """Checks that the runs of a study would replace no file. Called before the first file is written.
 
     Parameters
     ----------
@@ -166,7 +164,7 @@ def require_free_runs(place: Path, names: re.Pattern[str]) -> None:
     Raises
     ------
     SceneError
-        Files are in the way in a directory without a result.
+        A directory without a result contains files that a run would replace.
     """
     folders = [one for one in sorted(place.glob("*/")) if names.fullmatch(one.name) and not (one / RESULT).exists()]
     if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
@@ -191,7 +189,7 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
     Raises
     ------
     SceneError
-        Files are in the way of the jobs that wait.
+        A waiting job would replace files.
     """
     outcomes = [look_at(job) for job in jobs]
     problems = []
@@ -209,7 +207,7 @@ def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
 # What a worker does.
 
 class Ended(NamedTuple):
-    """End of a run: exit code, time (s), and of a failure its reason."""
+    """End of a run: exit code, time (s), and the reason of a failure."""
 
     code: int
     seconds: float = 0.0
@@ -227,7 +225,7 @@ def _told(going: str) -> str:
 
 
 def run_task(words: list[str], folder: str, directory: str, threads: str, overrule: bool, going: str) -> Ended:
-    """Runs a point to its end, or until it is told to stop. All arguments can be pickled.
+    """Runs a job to its end, or until `going` tells it to stop. All arguments can be pickled.
 
     Parameters
     ----------
@@ -238,11 +236,11 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
     directory : str
         Directory of the result.
     threads : str
-        Threads of the run if the worker's OMP_NUM_THREADS says nothing or is overruled; "": none is set.
+        Threads of the run if the worker's OMP_NUM_THREADS is not set or is overruled; "": not set.
     overrule : bool
-        True: the worker's OMP_NUM_THREADS does not count.
+        True: ignores the worker's OMP_NUM_THREADS.
     going : str
-        File: the run goes on while it exists, and is killed if it holds "kill".
+        File whose deletion stops the run; the run is killed if the file contains "kill".
 
     Returns
     -------
@@ -263,7 +261,7 @@ def run_task(words: list[str], folder: str, directory: str, threads: str, overru
 
 
 def _run(words: list[str], folder: str, out: store.Outputs, threads: str, overrule: bool, going: str) -> Ended:
-    """Runs the program as run_task() does, in a directory that is free."""
+    """Runs the program for run_task(), once the directory is free."""
     told = ""
     environment = environment_alone()
     if threads and (overrule or "OMP_NUM_THREADS" not in environment):
@@ -309,7 +307,7 @@ def _run(words: list[str], folder: str, out: store.Outputs, threads: str, overru
 
 @contextlib.contextmanager
 def executor_of(text: str) -> Iterator[Executor | None]:
-    """Yields the executor of --executor: "mpi" or "dask:ADDRESS". None in a rank that has worked for the first one. Raises
+    """Yields the executor of --executor: "mpi" or "dask:ADDRESS"; None in MPI ranks that were workers of the first one. Raises
     SceneError for another text or a missing package, InputOutputError for a scheduler that does not answer."""
     kind, _, address = text.partition(":")
     try:
@@ -339,7 +337,7 @@ def executor_of(text: str) -> Iterator[Executor | None]:
 
 @contextlib.contextmanager
 def _signals() -> Iterator[list[int]]:
-    """Catches INT, TERM and USR1 meanwhile; yields those that come."""
+    """Catches INT, TERM and USR1 within the context; yields the list of received signals."""
     came: list[int] = []
     if threading.current_thread() is not threading.main_thread():
         yield came
@@ -354,7 +352,7 @@ def _signals() -> Iterator[list[int]]:
 
 
 def _log(job: Job) -> str:
-    """Returns what the run of a job has written."""
+    """Returns the output of a job's run."""
     try:
         return (job.directory / LOG).read_text("utf-8", "replace").strip()
     except OSError:
@@ -362,19 +360,19 @@ def _log(job: Job) -> str:
 
 
 def _reason(job: Job, code: int) -> str:
-    """Returns why a run failed: the error that it told, or else its last line."""
+    """Returns the reason why a run failed: its error, or its last line of output."""
     text = _log(job)
     error = program.error_of(text, code)
     return str(error).splitlines()[0] if error else program.told(text.rpartition("\n")[2].strip()).get("text", "")
 
 
 def _fraction(job: Job) -> float:
-    """Returns the part of its path that a run has done, by its last line; 0: not known."""
+    """Returns the completed part of a run's path, from its last line of progress; 0 if unknown."""
     return program.told(_log(job).rpartition("\n")[2]).get("fraction") or 0.0
 
 
 class Pool:
-    """Runs the jobs whose outcome is "waiting" and fills in what came of them. place: all of them are in there."""
+    """Runs the jobs whose outcome is "waiting" and fills in their outcomes. place: directory that contains all jobs."""
 
     def __init__(self, jobs: list[Job], outcomes: list[Outcome], options: PoolOptions, place: Path):
         self.jobs, self.outcomes, self.options = jobs, outcomes, options
@@ -463,7 +461,7 @@ class Pool:
             self._say(job, f"FAILED (exit {outcome.exit_code}): {outcome.reason}")
 
     def _stop_if_told(self, interruptions: int, left: dict[Future, int]) -> set[Future]:
-        """Returns those that nothing will come of."""
+        """Returns the jobs that were cancelled."""
         limit = self.options.wall_limit
         late = limit is not None and time.monotonic() - self.start_time >= limit
         if not self.stopping and (interruptions or late):
@@ -503,13 +501,12 @@ class Pool:
         return text + self._left(fractions, time.monotonic())
 
     def _left(self, fractions: dict[int, float], now: float) -> str:
-        """Estimates the time left: points of a scene are assumed to last alike; scenes without a finished point are not
-        counted."""
+        """Estimates the time left, assuming equal times for all points of a scene; ignores scenes without a finished point."""
         points: dict[str, float] = defaultdict(float, self.done)
         seconds: dict[str, float] = defaultdict(float, self.seconds)
 
         def one_takes(i: int) -> float:
-            """Returns the seconds of a point of this scene; NaN: not known."""
+            """Returns the seconds of a point of this scene; NaN if unknown."""
             file = self.jobs[i].file
             return seconds[file] / points[file] if points[file] > 0.02 else math.nan
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The C++ program: where it is, how it is called, and what is asked of it (schema, checks, theory)."""
+"""Calls of the C++ program: its path, its command line, and its answers (schema, checks, plans, theories)."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from ..terminal import environment_alone, launched
 
 @functools.cache
 def version() -> str:
-    """Returns the version of the program that the package calls."""
+    """Returns the version of the program."""
     return info()["version"]
 
 
@@ -59,7 +59,7 @@ def path() -> str:
 
 
 def told(line: str) -> dict[str, Any]:
-    """Returns what a line of the program tells a program: an object of JSON, {"text": line} of any other line."""
+    """Returns the object of a line of JSON from the program; {"text": line} for any other line."""
     if line.startswith("{"):
         with contextlib.suppress(ValueError):
             found = json.loads(line)
@@ -69,19 +69,19 @@ def told(line: str) -> dict[str, Any]:
 
 
 def error_of(text: str, code: int) -> Error | None:
-    """Returns the error that the program told in a text.
+    """Returns the error that the program has printed as JSON.
 
     Parameters
     ----------
     text : str
-        What the program wrote to its standard error.
+        Standard error of the program.
     code : int
-        Its exit code.
+        Exit code of the program.
 
     Returns
     -------
     Error | None
-        The error; None if it told none.
+        The error; None if the text contains none.
     """
     kind = BY_CODE.get(code, InternalError)
     for line in text.splitlines():
@@ -92,14 +92,15 @@ def error_of(text: str, code: int) -> Error | None:
 
 
 def raise_for(code: int, text: str) -> None:
-    """Throws the exception of an exit code, with the program's own message, or else with what its launcher says.
+    """Raises the exception of an exit code, with the program's message, or with the launcher's message if the program has printed
+    none.
 
     Parameters
     ----------
     code : int
         Exit code; negative: the number of a signal.
     text : str
-        What the program wrote to its standard error.
+        Standard error of the program.
 
     Raises
     ------
@@ -117,7 +118,7 @@ def raise_for(code: int, text: str) -> None:
 
 
 def refuse_ranks() -> None:
-    """Refuses a call in one of several ranks, each of which would do the same. Raises SceneError."""
+    """Raises SceneError in one of several MPI ranks, because each would do the same work."""
     if launched()[1]:
         raise SceneError("asperity", "this command is one process, not one of several ranks of mpirun or srun",
                          "it starts its runs itself, each as a program of its own",
@@ -126,23 +127,23 @@ def refuse_ranks() -> None:
 
 
 def call(arguments: Iterable[str], *, text: str | None = None, given: socket.socket | None = None, refusal: bool = False) -> str:
-    """Runs the program to its end.
+    """Runs the program and waits for its end.
 
     Parameters
     ----------
     arguments : Iterable[str]
-        Words of its command line.
+        Arguments of the command line.
     text : str, optional
-        Its standard input.
+        Standard input of the program.
     given : socket.socket, optional
         Socket as its standard input.
     refusal : bool
-        True: what it prints of a scene that it refuses (exit code 2) is an answer.
+        True: returns the output of the program also if the scene is refused (exit code 2).
 
     Returns
     -------
     str
-        Its standard output.
+        Standard output of the program.
 
     Raises
     ------
@@ -164,13 +165,13 @@ def call(arguments: Iterable[str], *, text: str | None = None, given: socket.soc
 
 
 def sets(overrides: Iterable[str]) -> list[str]:
-    """Returns ["a.b=1", ...] as the words of a command line."""
+    """Returns overrides ["a.b=1", ...] as arguments of a command line."""
     return [word for one in overrides for word in ("--set", one)]
 
 
 @functools.cache
 def info() -> dict[str, Any]:
-    """Returns what the program was built from and runs on: version, git, compiler, flags, mpi, hdf5, fftw, ranks, threads, cuda,
+    """Returns the build and the machine of the program: version, git, compiler, flags, mpi, hdf5, fftw, ranks, threads, cuda,
     processor."""
     return json.loads(call(["info", "--json"]))
 
@@ -182,19 +183,19 @@ def mpi() -> str:
 
 @functools.cache
 def schema() -> dict[str, dict[str, Any]]:
-    """Returns every key of a scene: kind, unit, default, doc, choices."""
+    """Returns all keys of a scene by name, each with kind, unit, default, doc and choices."""
     return json.loads(call(["defaults", "--json"]))
 
 
 @functools.cache
 def quantities() -> dict[str, dict[str, str]]:
-    """Returns every value of result.json: unit, per and meaning. "*" in a name stands for any, "[]" for each of a list."""
+    """Returns all values of result.json by name, each with unit, per and meaning. "*" stands for any name, "[]" for each element of
+    a list."""
     return json.loads(call(["defaults", "--results", "--json"]))
 
 
 def quantity(path: str) -> dict[str, str]:
-    """Returns unit ("" for a pure number), divisor (per) and meaning of a value; empty for a value that the program does not
-    know."""
+    """Returns unit ("" for a pure number), divisor (per) and meaning of a value; empty texts for an unknown value."""
     found = quantities().get(path)
     if found is None:
         found = next((q for name, q in quantities().items() if "*" in name and
@@ -215,8 +216,8 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     Returns
     -------
     dict[str, Any]
-        The scene as it would be used: name, scene, sweep, effects, notes, problems, longest_timestep (fs), edge_pinning (the factor by
-        which a coarse spacing increases the pull-off force of a sphere).
+        The resolved scene: name, scene, sweep, effects, notes, problems, longest_timestep (fs), edge_pinning (the factor by which a
+        coarse spacing increases the pull-off force of a sphere).
 
     Raises
     ------
@@ -227,7 +228,7 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
 
 
 def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Rehearses a run.
+    """Estimates memory and time of a run.
 
     Parameters
     ----------
@@ -239,7 +240,7 @@ def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     Returns
     -------
     dict[str, Any]
-        Memory ("bytes") and time ("seconds", s) that a run takes, by part, and its effects.
+        Memory ("bytes") and time ("seconds", s) by part, and effects.
 
     Raises
     ------
@@ -259,12 +260,12 @@ def surface(scene: str, overrides: Iterable[str] = (), out: str = "") -> dict[st
     overrides : Iterable[str]
         Overrides, each "section.key=value".
     out : str
-        Directory for heights.h5; "": none is written.
+        Directory for heights.h5; "": writes no file.
 
     Returns
     -------
     dict[str, Any]
-        rms (Å), slope_of_neighbours, notes, and doubts: the notes on the file of a map.
+        rms (Å), slope_of_neighbours, notes, and doubts (possible mistakes in the file of a map).
 
     Raises
     ------
@@ -284,21 +285,21 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
     points : list[list[str]]
         Overrides of each variation.
     runnable : bool
-        True: with the problems that would stop a run.
+        True: includes the problems that would prevent a run.
     profile : bool
-        True: with everything over the magnification, and theory.persson.critical_rms.
+        True: includes the theory at all magnifications, and theory.persson.critical_rms.
 
     Returns
     -------
     list[dict]
-        An object for each variation; its `problems` are the mistakes of the variation.
+        An object for each variation; `problems` has the mistakes of the variation.
 
     Raises
     ------
     Error
         The scene file cannot be read.
     InternalError
-        The program gave another number of answers.
+        The program returned a wrong number of objects.
     """
     text = "".join(json.dumps(point) + "\n" for point in points)
     words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
@@ -309,7 +310,7 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
 
 
 def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
-    """Refuses points with problems, each problem once.
+    """Raises SceneError for points with problems, with each problem once.
 
     Parameters
     ----------

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Running a scene from Python."""
+"""Runs of a scene from Python."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from .scene import Overrides, SceneLike, assignments, scene_file
 
 
 def launcher(ranks: int) -> list[str]:
-    """Returns the words before the program for so many ranks: those of $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of
-    the MPI that the program was built with, if several are installed. Raises InputOutputError if there is none."""
+    """Returns the launcher's command line for a number of ranks: $ASPERITY_MPIRUN ("srun --mpi=pmix"), or the mpirun of the
+    program's MPI. Raises InputOutputError if there is none."""
     if ranks == 1:
         return []
     words = os.environ.get("ASPERITY_MPIRUN", "").split()
@@ -67,7 +67,7 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
     Raises
     ------
     SceneError, PhysicsError, InputOutputError, Stopped
-        If the program fails or stops early, with its message.
+        If the program fails or stops early; the exception has the program's message.
     """
     program.refuse_ranks()
     if isinstance(ranks, bool) or not isinstance(ranks, Integral) or ranks < 1:

@@ -42,7 +42,7 @@ def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
 
 
 def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, grains: np.ndarray | float = 0.0) -> float:
-    """Returns the largest absolute relative error of the quantities that the reference has, each at least its grain.
+    """Returns the largest absolute relative error of the quantities of the reference, each at least its resolution.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, gr
     question : str
         "state" or "path".
     grains : np.ndarray | float
-        Least errors of the numbers, from grains_of().
+        Resolutions of the numbers, from grains_of().
 
     Returns
     -------
@@ -67,7 +67,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, gr
 
 
 def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarray:
-    """Finds the points that no other point beats in run time and error at once.
+    """Finds the points for which no other point has both a smaller run time and a smaller error.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarra
 
 
 class Cost(Named):
-    """The rows: the first is the reference, the second the scene itself."""
+    """Rows of the measured settings: the first is the reference, the second the scene itself."""
 
     def __init__(self, case: CostCase, target: float | None = None):
         self.case, self.target = case, target
@@ -97,21 +97,21 @@ class Cost(Named):
 
     @property
     def candidates(self) -> list[tuple[float, Row]]:
-        """Rows that may be chosen for the target of the user, each with its error. The reference is not one, nor is the value
-        of a parameter that has no error of its own by definition."""
+        """Rows that may be chosen for the target of the user, each with its error; without the reference and without values whose
+        error is zero by definition."""
         own = {id(parameter.rows[-1]) for parameter in self.case.parameters if not parameter.exact}
         errors = [(row.error[self.case.bases[0].question], row) for row in self.rows if row.compared and id(row) not in own]
         return [(error, row) for error, row in errors if not math.isnan(error)]
 
     @property
     def chosen(self) -> Row | None:
-        """The cheapest settings that keep the target of the user; None: none of those that were run."""
+        """The cheapest settings that meet the target of the user; None if no measured setting does."""
         return min((row for error, row in self.candidates if self.target and error <= self.target), key=lambda row: row.seconds,
                    default=None)
 
     @property
     def smallest(self) -> float:
-        """The smallest error of the settings that were run; NaN: none."""
+        """The smallest error of the measured settings; NaN if there is none."""
         return min((error for error, _ in self.candidates), default=NAN)
 
     def answered(self, question: str) -> bool:
@@ -140,7 +140,7 @@ class Cost(Named):
         Returns
         -------
         list[tuple[float, float, Row]]
-            For each its time over that of the reference runs, the sum of own relative errors (at least the grain), and the
+            For each its time relative to the reference runs, the sum of its relative errors (each at least the resolution), and the
             row to run.
         """
         least = largest_error(self.rows[0].numbers, self.rows[0].numbers, base.question, self.rows[0].grains)
@@ -162,7 +162,7 @@ class Cost(Named):
         return sorted(found, key=lambda one: one[0])
 
     def _add(self, rows: list[Row], run: Callable[[list[Row]], bool]) -> bool:
-        """Runs those that are not there. False: stopped before the end."""
+        """Runs the missing rows. Returns False if stopped before the end."""
         there = [row.setting for row in self.rows if row.parameter == "combination"]
         new = [row for i, row in enumerate(rows) if row.setting not in there + [one.setting for one in rows[:i]]]
         self.rows += new
@@ -171,20 +171,20 @@ class Cost(Named):
         return complete
 
     def choose(self, targets: tuple[float, ...], run: Callable[[list[Row]], bool]) -> bool:
-        """Runs the cheapest combination of each base that may keep each target, side by side, and then further ones of those
-        that missed.
+        """Runs the cheapest combinations of each base that may meet each target, simultaneously, and then further ones for the
+        targets that were missed.
 
         Parameters
         ----------
         targets : tuple[float, ...]
             Relative errors.
         run : Callable[[list[Row]], bool]
-            Runs rows; returns False if it was stopped.
+            Runs rows; returns False if stopped.
 
         Returns
         -------
         bool
-            False if it was stopped before the end.
+            False if stopped before the end.
         """
         varied = {parameter.part for parameter in self.case.parameters}
         bases = [base for base in self.case.bases if varied.intersection(base.parts)]  # --parameters may leave out all of one
@@ -223,12 +223,12 @@ def target_of(text: str) -> float:
 
 
 class Costing(Study):
-    """The cost of a scene's settings in a directory, planned; `carry_out` measures it."""
+    """Planned measurement of the cost of a scene's settings in a directory; carry_out() makes the runs."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, parameters: Iterable[str] = (),
                  target: float | None = None, say: Callable[[str], None] = print, files: Iterable[str] = ()):
-        """Plans the runs. parameters: only these; target: relative error; files: names that the caller will write there. Raises
-        SceneError."""
+        """Plans the runs. parameters: parameters to vary, by default all; target: relative error; files: names that the caller will
+        write in the directory. Raises SceneError."""
         super().__init__(scene, overrides, out, "cost", options, say, files)
         self.case = cost_case(self.varied, list(parameters), same_experiment=target is not None)
         self.cost = Cost(self.case, target)
@@ -239,7 +239,7 @@ class Costing(Study):
         return self.cost.rows[0].outcome
 
     def carry_out(self) -> bool:
-        """Carries out the runs and compares them, unless the reference fails. False: stopped before the end."""
+        """Carries out the runs and compares them, unless the reference fails. Returns False if stopped before the end."""
         cost = self.cost
         complete = self.runs.run(cost.rows)
         if complete and self.reference.status == FAILED:

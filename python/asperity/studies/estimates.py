@@ -50,8 +50,8 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 
 @dataclass
 class Estimate(Named):
-    """Numbers of a scene with their errors. numbers: by their paths in result.json, the most wanted first; parts of the error
-    in their order: name, group, what (was varied, or why nothing was), failed; notes."""
+    """Numbers of a scene with their errors. numbers: by their names in result.json, the most important first; parts: parts of the
+    error in order, with name, group, what was varied (or the reason why nothing was) and failed; notes."""
 
     if TYPE_CHECKING:
         def plot(self, ax: Axes | None = None) -> Axes: ...
@@ -68,7 +68,7 @@ class Estimate(Named):
 
     @property
     def first(self) -> Number:
-        """The number that the estimate is made for: the binding energy, or the first that the scene has."""
+        """The main number of the estimate: the binding energy, or the first number of the scene."""
         return next(iter(self.numbers.values()))
 
     def number(self, path: str = "") -> Number:
@@ -82,7 +82,7 @@ class Estimate(Named):
         Returns
         -------
         Number
-            The number with its estimate, its standard error and the parts of the error.
+            The number with its estimate, standard error and the parts of the error.
 
         Raises
         ------
@@ -95,7 +95,7 @@ class Estimate(Named):
 
     @property
     def unseen(self) -> list[str]:
-        """Parts that were not measured, so that the error does not contain them."""
+        """Parts that were not measured and are not included in the error."""
         return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
                 if p["failed"] or p["what"].startswith(("not varied", "left out"))]
 
@@ -237,7 +237,8 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
 
 
 def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
-    """Returns a map as the program treats its line noise, at its own points; with the noise, its spectrum would be that of the noise."""
+    """Returns a map on its own points after the program's treatment of line noise; otherwise its spectrum would be that of the
+    noise."""
     if treatment in ("", "keep"):
         return heights
     n = len(heights)
@@ -250,7 +251,8 @@ def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.
 
 
 class SurfaceMade(NamedTuple):
-    """rms height, Å; rms slope, by differences of neighbours; heights, Å, [y, x]; doubts: notes on the file of a map."""
+    """Surface of a scene: rms height, Å; rms slope, from neighbouring heights; heights, Å, [y, x]; doubts: possible mistakes in the
+    file of a map."""
 
     rms: float
     slope: float
@@ -280,7 +282,7 @@ def surface_made(file: str, overrides: Iterable[str] = ()) -> SurfaceMade:
 
 
 def _seconds(scene: str, sets: list[str]) -> float:
-    """Returns the time of a run by `asperity plan`, s; NaN if it does not tell."""
+    """Returns the time of a run by `asperity plan`, s; NaN if unknown."""
     try:
         return program.plan(scene, sets)["seconds"]["altogether"]
     except Error:
@@ -288,7 +290,7 @@ def _seconds(scene: str, sets: list[str]) -> float:
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
-    """Estimates the time of a setting over that of the scene.
+    """Estimates the run time of a setting relative to that of the scene.
 
     Parameters
     ----------
@@ -314,8 +316,8 @@ def work_of(setting: Setting, scene: Variations) -> float:
 # Carrying it out.
 
 def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
-    """Returns the numbers of the scene with the parts of their errors. withheld: reason why no number is stated; "" if they
-    are."""
+    """Returns the numbers of the scene with the parts of their errors. withheld: reason why no number is stated; "" if numbers are
+    stated."""
     base = plan.scene.outcome.result
     found: dict[str, Number] = {}
     for q in CURVED if curved else FLAT:
@@ -346,13 +348,13 @@ def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
 
 
 class Estimating(Study):
-    """The estimate of a scene in a directory, planned; `carry_out` makes it."""
+    """Planned estimate of a scene in a directory; carry_out() makes the runs."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
                  only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
                  say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
-        """Plans the estimate. withheld, condition: why the numbers OF_A_PATH are not stated, or what they hold for; also:
-        names of files that the caller will write there."""
+        """Plans the estimate. withheld: reason why the numbers OF_A_PATH are not stated; condition: limitation of these numbers;
+        also: names of files that the caller will write in the directory."""
         super().__init__(scene, overrides, out, "estimate", options, say, [RESULT, *also])
         keys, varied, self.notes = self.keys, self.varied, list(notes)
         path = keys["drive"]["path"]
@@ -386,7 +388,7 @@ class Estimating(Study):
         self.jobs = self.runs.jobs(self.rows)
 
     def told(self) -> str:
-        """Tells how many runs the estimate takes, and about how long."""
+        """Prints the number of runs of the estimate and their approximate time."""
         once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
         base: dict[tuple[str, ...], float] = {(): _seconds(self.runs.scene, self.runs.common)}
         for row in once.values():
@@ -436,7 +438,8 @@ class Estimating(Study):
 
 
     def _missing(self, result: Values) -> str:
-        """Completes the part of the waves that a map does not show. Returns the reason why no number is stated; "" if they are."""
+        """Completes the part of the waves that a map does not resolve. Returns the reason why no number is stated; "" if numbers
+        are stated."""
         part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
         if part is None:
             return ""
@@ -455,8 +458,8 @@ def _about(seconds: float) -> str:
 
 def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
              seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
-    """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error),
-    and the shift by each part of the error. Runs that are there are not run again.
+    """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error), and
+    the shift by each part of the error. Existing runs are reused.
 
     Parameters
     ----------
@@ -467,11 +470,11 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
     out : str or os.PathLike, optional
         Directory; None: results/<scene>-estimate.
     jobs : int
-        Runs side by side; they share the processors.
+        Number of simultaneous runs, which share the processors.
     seeds : int, optional
-        Surfaces of a self-affine scene that are averaged over; None: 8, or 4 with a path.
+        Number of surfaces over which a self-affine scene is averaged; None: 8, or 4 with a path.
     parts : iterable of str
-        Only these parts of the error: ["tail", "seeds"], or "tail,seeds".
+        Parts of the error to measure, ["tail", "seeds"] or "tail,seeds"; by default all.
 
     Returns
     -------
@@ -481,11 +484,11 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
     Raises
     ------
     SceneError
-        The scene or an argument is refused, or files are in the way.
+        The scene or an argument is refused, or files would be replaced.
     Stopped
         The estimate stopped early; the same call continues.
     Error
-        The run of the scene itself failed.
+        The run of the scene failed.
     """
     program.refuse_ranks()
     refuse_jobs(jobs)

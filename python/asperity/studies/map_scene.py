@@ -70,7 +70,7 @@ def with_unit(name: str, value: object) -> str:
     name : str
         Name of the argument.
     value : object
-        Its value.
+        Value of the quantity, with its unit.
 
     Returns
     -------

@@ -143,7 +143,7 @@ def cut(value: float, error: float, least: float, most: float) -> tuple[float, f
     value : float
         Number.
     error : float
-        Its standard error.
+        Standard error of the number.
     least, most : float
         Possible range.
 
@@ -163,12 +163,12 @@ def rounded(value: float, error: float) -> tuple[str, str]:
     value : float
         Number.
     error : float
-        Its error, in the same unit.
+        Error of the number, in its unit.
 
     Returns
     -------
     tuple[str, str]
-        Both as text.
+        Number and error as text.
     """
     if not error > 0.0:
         return f"{value:.6g}", "0"

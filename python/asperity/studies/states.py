@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""`asperity states`: the stable states of a contact under its load P, as far as a path leads to them.
+"""`asperity states`: the stable states of a contact under its load P that can be reached along a path.
 
-A path at a held mean height goes inwards from beyond the interaction range; where its force F passes P the block is set free. From an
-instability the new branch is followed outwards, too. At the inner end full contact is pressed on, and the way back is
-followed. Then random starts are relaxed. Where the path ends, and what it may miss: docs/explanation/relaxation.md.
+A path at a held mean height moves inwards from beyond the interaction range; whenever its force F passes P, the block is relaxed.
+After an instability the new branch is also followed outwards. At the inner end the solids are pressed to full contact, and the path
+back is followed. Then random starts are relaxed. docs/explanation/relaxation.md describes the end of the path and the states that
+it may miss.
 """
 
 from __future__ import annotations
@@ -41,7 +42,8 @@ RESULT, UNFINISHED = "states.json", "states-unfinished.npz"
 
 
 class Search:
-    """Point by point. With the numbers and texts of `log` and its displacements a search goes on later."""
+    """A search, point by point. save() writes the numbers and texts of `log` and the displacements, from which resume()
+    continues."""
 
     def __init__(self, statics: Statics, starts: int):
         self.statics, self.case, self.starts = statics, statics._case, starts
@@ -65,7 +67,7 @@ class Search:
         self._dissipated = 0.0
 
     def go(self, **to: float) -> float:
-        """Leads the path to a mean height or a load: a point more. The energy lost on the way, eV."""
+        """Leads the path to a mean height or a load. Returns the energy lost, eV."""
         for name, value in to.items():
             setattr(self.statics, name, value)
         p, load = self.statics.relax(), self.case["load"]
@@ -75,14 +77,14 @@ class Search:
         return lost
 
     def free(self, found: str, start: State | None = None) -> float | None:
-        """Relaxes the sites under the load, and puts them back where they were.
+        """Relaxes the sites under the load, and restores the sites afterwards.
 
         Parameters
         ----------
         found : str
-            Way in which the state is found, for the list of states.
+            Description of how the state was found.
         start : State, optional
-            Where the relaxation starts; None: at the present place of the sites.
+            Start of the relaxation; None: the present place of the sites.
 
         Returns
         -------
@@ -116,7 +118,7 @@ class Search:
         return rest.binding_energy
 
     def advance(self) -> bool:
-        """Makes a further point, and the state beside it. Returns False if the search is over."""
+        """Makes a further point and relaxes from it. Returns False if the search is complete."""
         if not self.log["points"]:
             self.free("run")
             self.go(mean_height=self.statics.mean_height)
@@ -190,8 +192,8 @@ class Search:
     def laid(self, draw: numpy.random.Generator) -> State:
         """Returns a flat layer at a random height, between lying on the whole substrate and on its highest atom.
 
-        Where the layer would be closer to the substrate than flat solids at rest it lies on it: no site is on the other
-        side. The sites are moved sideways at random, by up to a random part of half a spacing.
+        Sites that would be closer to the substrate than flat solids at rest are raised to that distance, so that no site is inside
+        the substrate. The sites are displaced laterally at random, by up to a random part of half a spacing.
         """
         here, apart = self.statics.copy(), self.case["separation"] - self.log["datum"]
         u, heights = numpy.zeros_like(here.u), numpy.asarray(self.statics.substrate.height)
@@ -277,7 +279,7 @@ class Search:
 
 
 class FoundStates(Values):
-    """States of a contact: what states() returns."""
+    """States of a contact, as returned by states()."""
 
     _called = "the states"
 
@@ -363,9 +365,9 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, vo
     out : str | None
         Result directory; None: the default one.
     starts : int
-        Random starts.
+        Number of random starts.
     voice : Voice
-        What is printed, and how.
+        Output of the command.
 
     Returns
     -------

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Sweeps: one scene (or several), several values of one or more of its keys, one table.
+"""Sweeps: one or several scenes with several values of one or more keys, and their table.
 
-Every point is a scene of its own; all are read and checked before the first is run. A point is simulated by
-a process of its own (running/pool.py) in a directory of its own inside that of the sweep, so the same call resumes
-a sweep that was stopped, and adds points to those that are there. A Sweep is what sweep.json holds.
+Every point is a separate scene; all are read and checked before the first run. A point is simulated by a separate process
+(running/pool.py) in a separate directory inside that of the sweep, so that the same call resumes a stopped sweep and adds points to
+a finished one. A Sweep has the contents of sweep.json.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ class Sweep(Named):
         Points as in sweep.json: set {key: value}, delta_gamma and theory {...}; simulated points also have directory,
         status, failure and result {column: value}. Energies in meV/Å², lengths in Å.
     theory : list of dict
-        Points of the theory's curves, which are finer.
+        Points of the theory's curves, closer than the simulated points.
     notes : list of str
         Notes on the scene.
     simulated : bool
@@ -84,12 +84,12 @@ class Sweep(Named):
 
     @property
     def table(self) -> Table:
-        """Columns by name as numpy arrays, one value a point, with their units: table.units, table.frame()."""
+        """Columns by name as numpy arrays, one value per point, with units: table.units, table.frame()."""
         return Table(self.axes, self.points, self.simulated)
 
     @property
     def curves(self) -> Table:
-        """Columns of the theory's curves; without curves, those of the points."""
+        """Columns of the theory's curves; without curves, columns of the points."""
         return Table(self.axes, self.theory, False) if self.theory else self.table
 
     @property
@@ -138,12 +138,12 @@ class Sweep(Named):
         return {**found, "run": {**self.run, **{name: program.info()[name] for name in ("version", "git", "compiler", "flags")}}}
 
     def write(self) -> None:
-        """Writes the tables into its directory."""
+        """Writes the tables to the directory of the sweep."""
         with store.outputs(self.directory, TABLE_FILES) as out:
             self.write_to(out)
 
     def write_to(self, out: store.Outputs) -> None:
-        """Writes the tables as they are at this moment. sweep.json is written last.
+        """Writes the present tables; sweep.json last.
 
         Parameters
         ----------
@@ -173,7 +173,7 @@ class Sweep(Named):
         out.write("sweep.json", store.sealed_json(self.json(table)))
 
     def text(self) -> str:
-        """Returns the table as text: at most about 25 lines, evenly chosen; the files have all of them."""
+        """Returns the table as text, at most about 25 lines, evenly selected; the files have all points."""
         heads, rows, meaning = text_of(self.table)
         stride = max(1, (len(rows) + 19) // 25)
         lines = [f"{self.name}: {meaning}"] if meaning else []
@@ -209,7 +209,7 @@ def load_sweep(directory: str | os.PathLike) -> Sweep:
     Raises
     ------
     InputOutputError
-        If the directory holds no sweep, or those of several scenes.
+        If the directory contains no sweep, or sweeps of several scenes.
     """
     path = Path(directory) / "sweep.json"
     if not path.exists() and (several := sorted(path.parent.glob("*/sweep.json"))):
@@ -245,7 +245,7 @@ def load_sweeps(directory: Path) -> list[Sweep]:
 # From scenes to sweeps.
 
 def _default_axis(file: str, fixed: list[str]) -> Axis:
-    """Returns the axis without a --set of several values: 100 roughnesses to a good way past the end of adhesion."""
+    """Returns the default axis, without a --set of several values: 100 roughnesses, beyond the end of adhesion."""
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
@@ -281,7 +281,7 @@ def _axes(file: str, sets: list[str], of_scene: list[dict[str, str]], theory_onl
 
 
 def _point(axes: list[Axis], point: dict[str, Any]) -> dict[str, Any]:
-    """Returns a point of sweep.json from the program's answer."""
+    """Returns a point of sweep.json from the output of theory_points()."""
     scene = Values(point["scene"])
     return {"set": {axis.key: scene.find(axis.key) for axis in axes},
             "delta_gamma": point.get("delta_gamma"), "theory": point["theory"]}
@@ -344,8 +344,8 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
 
 
 def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[dict[str, Any]]:
-    """Returns the points that are done in a directory that holds a sweep of this scene already. Raises SceneError where it is
-    of another scene or over other keys: before anything is computed."""
+    """Returns the finished points of an earlier sweep in the directory. Raises SceneError, before anything is computed, if that
+    sweep has another scene or other keys."""
     if not (place / "sweep.json").exists():
         return []
     try:
@@ -360,7 +360,7 @@ def _points_before(place: Path, scene: dict[str, Any], axes: list[str]) -> list[
                          f"this one is over {', '.join(axes)}, and the points of a table have the same keys", remedy)
 
     def fixed(keys: dict[str, Any]) -> dict[str, Any]:
-        """Returns the keys that are no axes."""
+        """Returns the set keys that are no axes."""
         sections = {name: dict(section) if isinstance(section, dict) else section for name, section in keys.items()}
         for section, _, key in (axis.partition(".") for axis in axes):
             if isinstance(sections.get(section), dict):
@@ -395,7 +395,7 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
 
 
 class Carried:
-    """The sweeps of some scenes, carried out. complete: every point was run."""
+    """Finished sweeps of several scenes. complete: True if every point was run."""
 
     def __init__(self, scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
                  say: Callable[[str], None], also: Iterable[str] = ()):
@@ -455,7 +455,7 @@ class Carried:
 
 
 def _values(given: Any) -> str:
-    """Returns values as they stand behind --set: each of several values, in whatever holds them; or the single one."""
+    """Returns the texts of values for --set: of each member of a sequence, or of a single value."""
     given = given.tolist() if hasattr(given, "tolist") else given  # numpy's
     if isinstance(given, (str, bytes, os.PathLike)) or not isinstance(given, Iterable):
         given = [given]
@@ -473,12 +473,12 @@ def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | 
     scene : str, Path or dict
         TOML file, or dictionary of the scene's sections.
     values : dict, optional
-        Values by key, beside the scene's [sweep]: {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4),
+        Values by key, in addition to the scene's [sweep]: {"surface.rms": np.linspace(0.5, 2, 4), "surface.seed": range(1, 4),
         "surface.hurst": [0.7, 0.8], "drive.load": "0:100:20", "surface.radius": 200}.
     out : str or Path, optional
-        Directory; by default results/<scene>-sweep. Points in it are not run again.
+        Directory; by default results/<scene>-sweep. Existing points are reused.
     jobs : int
-        Number of points that run side by side and share the processors.
+        Number of simultaneous runs, which share the processors.
     theory_only : bool
         Compute the theory without simulations.
     executor : concurrent.futures.Executor, optional

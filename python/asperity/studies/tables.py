@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The table of a sweep: its columns, their means over the seeds, and what of it stands in a terminal and a report."""
+"""The table of a sweep: columns, their means over the seeds, and the extract for terminals and reports."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ AREA, CONTACT, SITES = "nominal area", "area in contact of a sphere", "all sites
 
 @functools.cache
 def over_flat(path: str) -> bool:
-    """Returns True if a number of a result is an energy with a column of its ratio to the flat reference."""
+    """Returns True if a number of a result is an energy for which the table has a column with the ratio to Δγ."""
     known = program.quantity(path)
     return known["unit"] == "meV/Å^2" and known["per"] in (AREA, CONTACT) and path != "delta_gamma" and \
         "uncertainty" not in path
@@ -39,7 +39,7 @@ def over_flat(path: str) -> bool:
 
 @functools.cache
 def of_area(column: str) -> bool:
-    """Returns True if a column is over the nominal area, which is meaningless for a sphere, or the mean of all sites."""
+    """Returns True if a column is a value per nominal area, which has no meaning for a sphere, or a mean over all sites."""
     path = column.removesuffix("_ratio")
     return not path.startswith("theory.") and program.quantity(path)["per"] in (AREA, SITES) or \
         path == "relaxed.mean_height"
@@ -55,7 +55,7 @@ def unit_of(column: str) -> str:
 
 
 def columns_of(result: Values) -> dict[str, float]:
-    """Returns the numbers of a result.json that a table holds, by column."""
+    """Returns the numbers of result.json for the columns of a table."""
     flat = result.number("delta_gamma")
     found: dict[str, float] = {}
     for path, value in result.numbers().items():
@@ -92,7 +92,7 @@ class Average(NamedTuple):
 
 
 class Columns(Named, UserDict):
-    """Columns by name: numpy arrays of numbers (NaN: none) or, of keys that are words, lists of strings."""
+    """Columns by name: numpy arrays of numbers (NaN: missing), or lists of strings for keys with words."""
 
     def __repr__(self) -> str:
         rows = len(next(iter(self.data.values()), ()))
@@ -147,16 +147,16 @@ class Table(Columns):
 
     @property
     def along(self) -> str | None:
-        """The key along x: of those with numbers the one with the most values."""
+        """The key along x: the numeric key with the most values."""
         numbers = [k for k in self.axes if not is_seed(k) and isinstance(self[k], np.ndarray) and len(self[k])]
         return max(numbers, key=lambda k: len(set(self[k])), default=None)
 
     def counted(self, name: str) -> np.ndarray:
-        """Returns a column, NaN for points that are not done; columns of the theory are whole."""
+        """Returns a column, with NaN for unfinished points; columns of the theory are complete."""
         return self[name] if name.startswith("theory.") else np.where(self._done, self[name], np.nan)
 
     def column(self, name: str) -> np.ndarray:
-        """Returns a column, NaN for meaningless or missing values; "-name": with the other sign."""
+        """Returns a column, with NaN for meaningless or missing values; "-name": with reversed sign."""
         if name.startswith("-"):
             return -self.column(name[1:])
         found = self.counted(name) if name in self else np.full(len(self.status), np.nan)
@@ -170,14 +170,14 @@ class Table(Columns):
         return np.array([finite(values.get(key), np.nan) for values, _ in self.groups])
 
     def average(self, values: np.ndarray) -> Average:
-        """Averages over the seeds of each group, over the points that have a number."""
+        """Averages over the points of each group that have a number."""
         there = [(v := values[rows])[np.isfinite(v)] for _, rows in self.groups]
         return Average(np.array([v.mean() if len(v) else np.nan for v in there]),
                        np.array([v.std(ddof=1) if len(v) > 1 else np.nan for v in there]),
                        np.array([len(v) for v in there]))
 
     def averages(self) -> dict[str, Average]:
-        """Averages every column that is no axis; results over the points that are done."""
+        """Averages every column that is no axis; results over the finished points."""
         return {name: self.average(self.counted(name)) for name in self if name not in self.axes}
 
     def means(self) -> Columns:
@@ -220,14 +220,14 @@ OF_ADHESION = ("theory.persson.", "theory.renormalised.")
 
 
 def _status(words: list[str]) -> str:
-    """Returns "3 done", "2 done, 1 failed"; for one point its word."""
+    """Returns the status of several points, "3 done" or "2 done, 1 failed", or the word of a single point."""
     if len(words) == 1:
         return words[0]
     return ", ".join(f"{words.count(word)} {word}" for word in dict.fromkeys(words))
 
 
 def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
-    """Returns a table in words.
+    """Returns a table as text.
 
     Parameters
     ----------
@@ -237,7 +237,7 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     Returns
     -------
     tuple[list[str], list[list[str]], str]
-        Heads of the columns, a row for all seeds of a point, and a sentence on what the numbers are.
+        Heads of the columns, one row for all seeds of a point, and a sentence with the meaning of the numbers.
     """
     axes = [key for key in table.axes if not is_seed(key)]
     slides = np.isfinite(table.column("theory.sliding.friction_coefficient")).any()  # in place of theories of adhesion

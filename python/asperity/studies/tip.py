@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """A spherical tip on a cantilever, pressed onto an elastic sample and pulled off: scenes, force curve, and JKR's fit to it.
 
-Tip and roughness are one rigid surface that faces a flat elastic half-space, without periodic images. The scene is run as it is, and
-with a coarser spacing, a wider box and longer steps; the differences are the parts of the errors. Lengths are in nm, forces in
+Tip and roughness are one rigid surface that faces a flat elastic half-space, without periodic images. The scene is run unchanged,
+and with a coarser spacing, a wider box and longer steps; the differences give the parts of the errors. Lengths are in nm, forces in
 nN, moduli in GPa, works in N/m, unless a name says otherwise.
 """
 
@@ -72,12 +72,12 @@ class Contact(NamedTuple):
 
     @property
     def tabor(self) -> float:
-        """Tabor's number (R w²/E*²)^(1/3) over the range."""
+        """Tabor's number (R w²/E*²)^(1/3)/range."""
         return float(np.cbrt(self.radius * self.work**2 / self.modulus**2)) / self.range
 
     @property
     def model(self) -> str:
-        """The theory of the smooth sphere that holds: JKR, DMT or Maugis."""
+        """Name of the theory that applies to the smooth sphere: JKR, DMT or Maugis."""
         return "JKR" if self.parameter > JKR_FROM else "DMT" if self.parameter < DMT_BELOW else "Maugis"
 
     def pull_off(self) -> float:
@@ -91,8 +91,8 @@ class Contact(NamedTuple):
 
 
 class Fit(NamedTuple):
-    """JKR fitted to the retraction: work of adhesion and E* with their standard errors, the zero of separations, nm, and the rms
-    misfit, nN. failed: why there is no fit."""
+    """Fit of JKR to the retraction: work of adhesion and E* with standard errors, the zero of separations, nm, and the rms
+    deviation, nN. failed: reason why there is no fit."""
 
     work: float = NAN
     work_error: float = NAN
@@ -105,8 +105,8 @@ class Fit(NamedTuple):
 
 @dataclass
 class Plan:
-    """Runs of a tip: the scenes by part ("" is the scene itself), the contact, and notes. asked_range: before it was made longer, nm;
-    longer_step: setting of the variation of the step."""
+    """Runs of a tip: the scenes by part ("" is the scene itself), the contact, and notes. asked_range: requested
+    range before its increase, nm; longer_step: setting of the run with longer steps."""
 
     scenes: dict[str, Path]
     contact: Contact
@@ -163,7 +163,7 @@ class Tip(Named):
 
 
 def _checked(given: dict[str, Any], channel_keys: dict[str, Any]) -> Values:
-    """Returns the keys of a scene with these quantities, in the scene's units. Raises SceneError in the words of the arguments."""
+    """Returns the keys of a scene with these quantities, in the scene's units. Raises SceneError that names the arguments."""
     sections = {"surface": {"kind": "flat", "sites": 32, "radius": with_unit("radius", given["radius"]), **channel_keys},
                 "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
                 "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
@@ -198,7 +198,7 @@ class _Sample(NamedTuple):
     pixel: float
 
     def below(self, width: float, sites: int) -> np.ndarray:
-        """Returns the heights at the sites of a box in the middle of the map, without their mean plane, nm."""
+        """Returns the heights at the sites of a box in the middle of the map, with their mean plane subtracted, nm."""
         spacing, points = width / sites, len(self.heights)
         smooth = uniform_filter(self.heights, max(1, round(spacing / self.pixel)), mode="nearest")
         at = (np.arange(points) + 0.5 - 0.5 * points) * self.pixel
@@ -207,7 +207,7 @@ class _Sample(NamedTuple):
 
 
 def _written(place: Path, name: str, keys: dict[str, dict[str, Any]], sample: _Sample | None, width: float, sites: int) -> Path:
-    """Writes a scene of a box, and its map beside it."""
+    """Writes the scene of a box, and its map in the same directory."""
     surface: dict[str, Any] = {"kind": "flat"}
     files = [f"{name}.toml"] + [f"{name}.npy"] * (sample is not None)
     if sample is not None:
@@ -236,12 +236,12 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     place : Path
         Directory to write to.
     given : dict
-        radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, as of tip().
+        Arguments of tip(): radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites.
 
     Returns
     -------
     Plan
-        What is to be run.
+        The planned runs.
 
     Raises
     ------
@@ -270,7 +270,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     reach = contact.radius_at(load)
 
     def width_for(rms: float, range: float) -> float:
-        """Returns the width of a box that holds the contact and the attraction beside it, nm."""
+        """Returns the width of a box for the contact and the attraction around it, nm."""
         return 2 * (ROOM * math.sqrt(reach**2 + 4 * contact.radius * rms) + 4 * range)
 
     def require_inside(width: float) -> None:
@@ -324,7 +324,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
 
 
 class _Measured(NamedTuple):
-    """Numbers of a run by name, NaN where there is none, and why there is none."""
+    """Numbers of a run by name, NaN if missing, and the reason why one is missing."""
 
     values: dict[str, float]
     missing: dict[str, str]
@@ -357,7 +357,8 @@ def _measured(result: Result, contact: Contact) -> _Measured:
 
 
 def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
-    """Returns the fit of JKR's force against the height of the tip on the way out, by work of adhesion, E* and the zero of heights."""
+    """Fits JKR's force as a function of the height of the retracting tip, with work of adhesion, E* and the zero of heights as
+    parameters."""
     far = int(np.argmin(force))
     tip, force = tip[:far + 1], force[:far + 1]
     if len(tip) < 8 or not force[0] > 0:
@@ -397,7 +398,7 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
     Parameters
     ----------
     plan : Plan
-        What was run.
+        The planned runs.
     results : dict
         Results by part; "" is the scene itself.
     place : Path

@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: MIT
 """Theories of contact.
 
-    renormalised   what roughness leaves of the potential of two flat surfaces
-    sphere         the smooth adhesive sphere, alone and in a periodic box
-    viscoelastic   Persson's theory of rubber friction
-    combined       the theories of scenes and runs, as results name them
+    renormalised effective potential of rough surfaces from that of two flat ones sphere the smooth adhesive sphere, alone and in a
+    periodic box viscoelastic Persson's theory of rubber friction combined the theories of scenes and runs, as results name them
 """

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The theories of scenes and runs: Persson's of adhesion by the program; here the renormalised one, that of a smooth sphere
-and that of rubber friction.
+"""The theories of scenes and runs: Persson's theory of adhesion (computed by the program), the renormalised theory, smooth spheres
+and rubber friction.
 
-Numbers have the names and units of `theory` in result.json: `renormalised`, of a curved scene `sphere`, and of a viscoelastic
-block that slides `sliding`.
+Numbers have the names and units of `theory` in result.json: `renormalised`; `sphere` for a curved scene; `sliding` for a sliding
+viscoelastic block.
 """
 
 from __future__ import annotations
@@ -28,14 +28,14 @@ _known: dict[str, dict[str, Any]] = {}
 
 
 def renormalised(rough: dict[str, Any], quick: bool = False) -> dict[str, Any]:
-    """Computes the renormalised theory of a scene; the same is not computed twice.
+    """Computes the renormalised theory of a scene; results are cached.
 
     Parameters
     ----------
     rough : dict[str, Any]
-        Input of the theory, as the program gives it.
+        Input of the theory, from theory_points().
     quick : bool
-        True: for a curve, known to about 1e-3, without expected errors.
+        True: accurate to about 1e-3, without expected errors, for curves.
 
     Returns
     -------
@@ -77,8 +77,8 @@ def _renormalised(rough: dict[str, Any], quick: bool) -> dict[str, Any]:
 
 
 def _spheres(point: Values) -> tuple[Any, float, Any, float]:
-    """Returns the smooth sphere of a point and the largest tension of its interface; the same with the renormalised law, None
-    if nothing binds. In eV and Å."""
+    """Returns the smooth sphere of a point and the largest tension of its interface, and both with the renormalised law (None
+    without adhesion), in eV and Å."""
     from .sphere import Sphere
 
     keys = point.part("scene")
@@ -113,7 +113,7 @@ def _slides(point: Values) -> bool:
 
 
 def _sliding(point: Values, rough: dict[str, Any], curve: bool) -> dict[str, Any]:
-    """Returns `theory.sliding`. curve: with the theory over velocity."""
+    """Returns `theory.sliding`. curve: True includes the theory over velocity."""
     from . import viscoelastic
 
     if not rough["pressure"] > 0:
@@ -146,18 +146,18 @@ def points(file: str, variations: list[list[str]], runnable: bool = False, profi
     file : str
         Scene file.
     variations : list[list[str]]
-        Overrides of each.
+        Overrides of each variation.
     runnable : bool
-        True: with the problems that would stop a run.
+        True: includes the problems that would prevent a run.
     profile : bool
-        True: with everything over the magnification.
+        True: includes the theory at all magnifications.
     quick : bool
         True: for a curve.
 
     Returns
     -------
     list[dict]
-        An object for each variation, as of program.theory_points().
+        An object for each variation, as from program.theory_points().
     """
     found = program.theory_points(file, variations, runnable, profile)
     for point in found:
@@ -181,7 +181,7 @@ def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = F
     run : Result
         Result of the run.
     variations : list[dict[str, Any]]
-        Changed keys of each, and their values.
+        Changed keys of each variation, with their values.
     quick : bool
         True: for a curve.
 
@@ -209,7 +209,7 @@ def variations_of(run: Result, variations: list[dict[str, Any]], quick: bool = F
 
 
 def of_run(run: Result) -> Values:
-    """Returns the theories of the scene of a run, computed with the first call: `theory`, `flat`."""
+    """Returns the theories of the scene of a run (`theory`, `flat`), computed in the first call."""
     cached = run.__dict__
     if "_theories" not in cached:
         found = variations_of(run, [{}]) if run.part("theory") else []
@@ -218,7 +218,7 @@ def of_run(run: Result) -> Values:
 
 
 def complete(run: Result) -> None:
-    """Puts the numbers that a result.json of a run has not into its `theory`."""
+    """Adds the numbers that result.json lacks to the `theory` of a run."""
     found = of_run(run)
     for name in ("renormalised", "sphere", "sliding"):
         if found.part("theory." + name):
@@ -226,8 +226,8 @@ def complete(run: Result) -> None:
 
 
 def sphere_curves(run: Result, largest_force: float) -> list[tuple[str, np.ndarray, np.ndarray]]:
-    """Computes smooth spheres beside the path of a curved scene, up to the contact radius at which JKR's force is a tenth
-    above the largest of the run.
+    """Computes curves of smooth spheres for a curved scene, up to the contact radius at which JKR's force is 10 % above the largest
+    force of the run.
 
     Parameters
     ----------

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The renormalised theory of adhesive contact: what roughness leaves of the potential φ(u) of two flat surfaces.
+"""The renormalised theory of adhesive contact: the effect of roughness on the potential φ(u) of two flat surfaces.
 
-docs/explanation/theory.md derives it and defines S, D, κ and K. Roughness is taken in shells of wavevectors from the
-finest to the coarsest; of each, of height variance dh², the block's answer minimises the energy to second order:
+docs/explanation/theory.md derives it and defines S, D, κ and K. Roughness is integrated in shells of wavevectors from the finest to
+the coarsest; for each shell of height variance dh² the response of the block minimises the energy to second order:
     dφ/dh² = ½ [ S + 2D - (S + D)² / (S + φ″) ],
     dχ/dh² = ½ [ (S + D) / (S + φ″) ]² χ″,       χ: any area observable, and V of each ring of atoms
 
@@ -37,7 +37,7 @@ TOUCHING, SIDEWAYS, TILT, STIFFENING, RINGS_FROM = range(5)
 
 
 class NoSolution(Exception):
-    """Reason why the theory has no number."""
+    """Error: the theory has no solution, with the reason."""
 
 
 class Spectrum:
@@ -164,7 +164,7 @@ def _rate(S, D, bend):
 
 
 class Flow:
-    """One flow of φ and its observables on one grid."""
+    """Integration of φ and its observables over the shells, on one grid."""
 
     def __init__(self, rough: dict[str, Any], spectrum: Spectrum, flat: Flat, level: int):
         self.spectrum, self.flat, self.friction = spectrum, flat, rough["friction"] and len(flat.rings) > 0
@@ -188,8 +188,8 @@ class Flow:
         self.q, self.variance, self.inside = self._cut(level) if spectrum.rms else (none, np.zeros(1), none)
 
     def _grid(self, spacing: float, last: float) -> np.ndarray:
-        """Returns a grid that is even up to twice the distance from the minimum to the inflection beyond it, then wider in
-        proportion."""
+        """Returns a grid that is equidistant up to twice the distance from the minimum to the inflection, and geometrically wider
+        beyond."""
         even_until, growth = self.flat.separation + 2 * self.flat.well, 6 * self.flat.well
 
         def step(x: float) -> float:
@@ -340,7 +340,7 @@ def state(rough: dict[str, Any], quick: bool = False) -> State:
     rough : dict[str, Any]
         Input of the theory, as the program gives it.
     quick : bool
-        True: on two grids, known to about 1e-3.
+        True: on two grids, accurate to about 1e-3.
 
     Returns
     -------
@@ -391,8 +391,8 @@ def state(rough: dict[str, Any], quick: bool = False) -> State:
 
 
 def expected_error(found: State, rough: dict[str, Any]) -> tuple[float, float]:
-    """Returns the expected errors of a state: 19 of 20 simulated surfaces lie within them at zero load (calibrated;
-    docs/explanation/theory.md has how).
+    """Returns the expected errors of a state: 19 of 20 simulated surfaces lie within them at zero load (calibrated as described in
+    docs/explanation/theory.md).
 
     Parameters
     ----------

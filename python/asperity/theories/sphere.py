@@ -7,10 +7,10 @@ In Maugis' units, a in (πwR²/K)^(1/3), F in πwR, δ in (π²w²R/K²)^(1/3), 
 Maugis lets a constant stress σ0 act across the gap out to an opening w/σ0, at the radius c = m a;
 λ = 2σ0 (R/πwK²)^(1/3). λ -> ∞ is JKR, λ -> 0 DMT. Pressing forces are positive.
 
-In a box the same sphere repeats with the period L. The images' displacement near the contact is that of point forces on
-a square lattice over a uniform background: (F/πE*)(φ0/L + φ2 r²/(4L³)). The second term changes the gap like a
-curvature, 1/R -> 1/R + φ2 F/(2πE*L³); the first shifts the mean height z = d0 - δ - φ0 F/(πE*L), d0 the separation of
-two flat surfaces. Next order: (a/L)² smaller.
+In a box the sphere is repeated with the period L. The images' displacement near the contact is that of point forces on a square
+lattice over a uniform background: (F/πE*)(φ0/L + φ2 r²/(4L³)). The second term changes the gap like a curvature, 1/R -> 1/R + φ2
+F/(2πE*L³); the first shifts the mean height z = d0 - δ - φ0 F/(πE*L), d0 the separation of two flat surfaces. Next order: (a/L)²
+smaller.
 
 Units: any consistent set. All functions take arrays.
 """
@@ -46,7 +46,8 @@ def jkr(a: Any) -> tuple[Any, Any, Any]:
 
 
 class Openings(NamedTuple):
-    """Terms of Maugis' equations that s = √(m² - 1) alone decides: s, m, arctan s, and the parts of the opening at c by λ/2 and 4λ²/3."""
+    """Terms of Maugis' equations that depend on s = √(m² - 1) alone: s, m, arctan s, and the parts of the opening at c proportional
+    to λ/2 and 4λ²/3."""
 
     s: np.ndarray
     m: np.ndarray
@@ -56,7 +57,7 @@ class Openings(NamedTuple):
 
 
 def openings(s: Any) -> Openings:
-    """Returns the parts of Maugis' equations at these √(m² - 1)."""
+    """Returns the terms of Maugis' equations at values of √(m² - 1)."""
     s = np.asarray(s, float)
     m, angle = np.sqrt(1 + s * s), np.arctan(s)
     # w/σ0 is the opening at c; both parts cancel to order s³ and s² where m is close to one.
@@ -78,7 +79,7 @@ def maugis(parameter: Any, at: Any) -> tuple[Any, Any, Any]:
     parameter : Any
         Maugis' λ.
     at : Any
-        √(m² - 1), or its openings().
+        √(m² - 1), or openings() of it.
 
     Returns
     -------
@@ -116,7 +117,7 @@ class Sphere(NamedTuple):
         stress : float
             Theoretical stress, eV/Å³.
         radius : Any
-            Radius, Å; None: that of the sphere.
+            Radius, Å; None: radius of the sphere.
 
         Returns
         -------
@@ -132,7 +133,7 @@ class Sphere(NamedTuple):
         Parameters
         ----------
         at : np.ndarray
-            Contact radii, Å; with a stress √(m² - 1).
+            Contact radii, Å; with `stress`, values of √(m² - 1).
         stress : float, optional
             Stress of Maugis and Dugdale, eV/Å³; None: by JKR.
 
@@ -161,7 +162,7 @@ class Sphere(NamedTuple):
 
     @functools.lru_cache(maxsize=256)
     def pull_off(self, stress: float | None = None) -> float:
-        """Returns the largest attraction as a work of adhesion by JKR, F/(1.5πR). NaN if there is none."""
+        """Returns the largest attraction as a work of adhesion by JKR, F/(1.5πR), eV/Å²; NaN without attraction."""
         unit = float(np.cbrt(math.pi * self.work * self.radius**2 / self.stiffness))
         at = np.linspace(0.2, 3, 4000) * unit if stress is None else RATIOS
         for _ in range(3):  # finer about the least

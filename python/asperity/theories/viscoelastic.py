@@ -7,14 +7,14 @@ At the velocity v and under the pressure p the friction coefficient and the cont
     μ(v) = (1/2) ∫ dq q³ C(q) S(q) P(q) ∫ dφ cosφ Im E*(q v cosφ)/p,     P(q) = erf(1/(2√G(q))),
     G(q) = (1/8) ∫ dq' q'³ C(q') ∫ dφ |E*(q' v cosφ)/p|², up to q,        S = β + (1-β) P².
 
-E*(ω) = E(ω)/(1-ν²), φ goes once round, and S is the factor by which deformation in the contacts is less than in full
+E*(ω) = E(ω)/(1-ν²), φ runs from 0 to 2π, and S is the factor by which deformation in the contacts is smaller than in full
 contact: 1 in that paper (β = 1), β = 1/2 or 0.45 in later ones (theory.beta). With block.prony
     E(ω)/E = 1 + Σ r iωτ/(1 + iωτ)
 both integrals over φ have closed forms, in y = q v τ:
     ∫ dφ cosφ Im E/E = 2π Σ r y/(s + s²),       s = √(1 + y²),
     ∫ dφ |E/E|² = 2π (K² - 2 K Σ r/s + 2 ΣΣ r r' τ/((τ + τ') s)),         K = 1 + Σ r.
 
-What remains is an integral over q, by Gauss in panels of ln q. Numbers are in Å, eV and ps.
+The remaining integral over q is computed by Gauss quadrature in panels of ln q. Numbers are in Å, eV and ps.
 """
 
 from __future__ import annotations
@@ -48,14 +48,14 @@ class Rubber(NamedTuple):
 
 
 class Friction(NamedTuple):
-    """Friction coefficient and contact area over the nominal one, a value for each velocity."""
+    """Friction coefficient and relative contact area, a value for each velocity."""
 
     coefficient: np.ndarray
     area: np.ndarray
 
 
 def modulus(branches: Branches, frequency: Any) -> Any:
-    """Returns the complex modulus of a solid over its relaxed one, E(ω)/E.
+    """Returns the complex modulus of a solid relative to its relaxed modulus, E(ω)/E.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ class _Contact:
         Returns
         -------
         tuple[float, float]
-            Friction coefficient, and contact area over the nominal one.
+            Friction coefficient, and relative contact area.
         """
         if not self.rough:
             return 0.0, 1.0
@@ -171,8 +171,8 @@ def slope(rubber: Rubber) -> float:
 
 
 def velocities(rubber: Rubber) -> np.ndarray:
-    """Returns velocities (Å/ps) of a curve: from where friction is proportional to the velocity to where the solid is glassy
-    in all waves, four a decade."""
+    """Returns velocities (Å/ps) of a curve, four per decade, from the range in which friction is proportional to the velocity to
+    that in which the solid is glassy in all waves."""
     rough = [piece for piece in rubber.pieces if piece[2] > 0]
     times = [tau for _, tau in rubber.branches]
     if not rough or not times:
@@ -190,7 +190,7 @@ def largest(rubber: Rubber, near: float) -> tuple[float, float]:
     rubber : Rubber
         The half-space and its surface.
     near : float
-        The one of velocities() at which friction is largest, Å/ps.
+        Velocity of velocities() with the largest friction, Å/ps.
 
     Returns
     -------
