@@ -100,8 +100,7 @@ void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
     if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.relaxed",
-                   c.edge() * std::sqrt(*fraction / std::numbers::pi));
+        result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
     if (const auto contact = result.number("contact_radius.relaxed"))
         result.set("instrument.contact_radius", 0.1 * *contact);
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;

@@ -62,8 +62,8 @@ struct Holder {
     double operator()(double mean_height) const { return stiffness * (mean_height - at) + force; }
 };
 
-/// Energies of the block at rest, eV: its springs (including the stretch under a load), its branches
-/// and the spring that holds its top plane.
+/// Energies of the block at rest, eV: its springs (including the stretch under a load), its
+/// branches and the spring that holds its top plane.
 struct BlockEnergies : Energies {
     BranchEnergies branches{};
 };

@@ -83,8 +83,7 @@ void bind_records(py::module_& m) {
         .def_readonly(
             "force", &Point::force,
             "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
-        .def_property_readonly("energy", &Point::energy,
-                               "energy of block and interface, eV")
+        .def_property_readonly("energy", &Point::energy, "energy of block and interface, eV")
         .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
         .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
         .def_readonly("work", &Point::work,
