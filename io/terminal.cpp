@@ -11,20 +11,12 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace asperity::io {
 
 namespace {
-
-/// Returns the number of visible characters: the bytes that begin a character.
-int visible_width(std::string_view text) {
-    return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    }));
-}
 
 /// Returns true if somebody reads the stream at once. Open MPI's mpirun gives its ranks a terminal
 /// of their own, wherever the output goes in the end: this one does not count.
@@ -70,6 +62,66 @@ int columns_of(std::FILE* stream) {
 }
 
 } // namespace
+
+int visible_width(std::string_view text) {
+    return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
+        return (static_cast<unsigned char>(c) & 0xC0) != 0x80; // begins a character
+    }));
+}
+
+namespace {
+
+/// Returns true for a number, to which the next word belongs as its unit: "(558 mJ/m²)".
+bool is_number(std::string_view word) {
+    return word.find_first_of("0123456789") < 2 &&
+           word.find_first_not_of("(+-.0123456789e") == std::string_view::npos;
+}
+
+} // namespace
+
+std::vector<std::string> wrapped(std::string_view text, int most) {
+    std::vector<std::string> lines(1);
+    while (!text.empty()) {
+        const std::string_view word = text.substr(0, text.find(' '));
+        text.remove_prefix(std::min(text.size(), word.size() + 1));
+        if (!lines.back().empty() && visible_width(lines.back()) + 1 + visible_width(word) > most) {
+            const std::size_t last = lines.back().rfind(' ');
+            const bool both = last != std::string::npos &&
+                              is_number(std::string_view(lines.back()).substr(last + 1));
+            lines.push_back(both ? lines.back().substr(last + 1) : std::string());
+            if (both) lines[lines.size() - 2].resize(last);
+        }
+        lines.back() += (lines.back().empty() ? "" : " ") + std::string(word);
+    }
+    return lines;
+}
+
+std::string folded(std::string_view text) {
+    std::string all;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        const bool ends = line.size() < text.size();
+        text.remove_prefix(line.size() + (ends ? 1 : 0));
+        const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+        const std::size_t gap = line.find("  ", first);
+        const std::size_t value = gap < 20 ? line.find_first_not_of(' ', gap) : first;
+        const std::size_t begin = value == std::string_view::npos ? first : value;
+        if (visible_width(line) <= text_columns) {
+            all += line;
+        } else {
+            const int indent = visible_width(line.substr(0, begin));
+            bool below = false;
+            for (const std::string& part : wrapped(line.substr(begin), text_columns - indent)) {
+                all += std::exchange(below, true)
+                           ? "\n" + std::string(static_cast<std::size_t>(indent), ' ')
+                           : std::string(line.substr(0, begin));
+                all += part;
+            }
+        }
+        if (ends) all += '\n';
+    }
+    return all;
+}
 
 Table::Table(std::vector<std::string> heads, std::string sides)
     : heads_(std::move(heads)), sides_(std::move(sides)) {

@@ -10,7 +10,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 namespace asperity::io {
 
@@ -44,6 +47,22 @@ std::string cell(double value, int digits = 4);
 /// Returns a number with its error, rounded to one significant digit of the error: "0.033 ± 0.004",
 /// "(1.23 ± 0.05)e-06". Without an error returns cell(value).
 std::string with_error(double value, double error);
+
+/// Columns that a line of text fills at most; tables may be wider.
+inline constexpr int text_columns = 80;
+/// Returns the number of visible characters of a UTF-8 text.
+int visible_width(std::string_view text);
+/// Returns a text in lines of at most this number of columns, broken at blanks; a longer word stays
+/// whole, and so does a number with the word behind it.
+std::vector<std::string> wrapped(std::string_view text, int most);
+/// Returns a text whose lines fill at most text_columns. The rest of a longer line stands below its
+/// first word, or of a line "  name   value" below the value.
+std::string folded(std::string_view text);
+/// Prints a text, folded; arguments as of fmt::print().
+template <typename... T>
+void print_text(std::FILE* to, fmt::format_string<T...> text, T&&... values) {
+    fmt::print(to, "{}", folded(fmt::format(text, std::forward<T>(values)...)));
+}
 
 /// Mode of progress reports. "bar" redraws one line, on a terminal; "lines" prints a line
 /// periodically, for logs and under mpirun (where ranks have no terminal); "auto" selects one of

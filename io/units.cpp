@@ -53,6 +53,8 @@ constexpr Symbol symbols[] = {
     {"Pa", {pressure, 1.0, 0}, true},
     {"bar", {pressure, 1.0, 5}, true},
     {"atm", {pressure, 1.01325, 5}, false},
+    {"psi", {pressure, 6.894757293168, 3}, true},
+    {"ksi", {pressure, 6.894757293168, 6}, false},
     {"Hz", {rate, 1.0, 0}, true},
     {"%", {number, 1.0, -2}, false},
     {"1", {number, 1.0, 0}, false},

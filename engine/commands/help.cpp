@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/commands/help.hpp"
 
-#include <algorithm>
+#include "io/terminal.hpp"
+
 #include <cctype>
 #include <string_view>
 #include <utility>
@@ -14,40 +15,22 @@ namespace asperity {
 namespace {
 
 /// Columns of the help, and the one in which explanations begin.
-constexpr std::size_t width = 80, indent = 26;
+constexpr int width = io::text_columns, indent = 26;
 
 constexpr const char* exit_codes =
     "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n"
     "            4 files, 75 stopped early\n";
 
-/// Returns the number of visible characters of a UTF-8 text.
-std::size_t columns(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) {
-        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;
-    }));
-}
-
-/// Returns a text in lines of this number of columns, broken at blanks.
-std::vector<std::string> wrapped(std::string_view text, std::size_t most) {
-    std::vector<std::string> lines(1);
-    while (!text.empty()) {
-        const std::string_view word = text.substr(0, text.find(' '));
-        text.remove_prefix(std::min(text.size(), word.size() + 1));
-        if (!lines.back().empty() && columns(lines.back()) + 1 + columns(word) > most)
-            lines.emplace_back();
-        lines.back() += (lines.back().empty() ? "" : " ") + std::string(word);
-    }
-    return lines;
-}
+std::string blanks(int count) { return std::string(static_cast<std::size_t>(count), ' '); }
 
 /// Returns a name with its explanation beside it, or below if the name is long.
 std::string entry(const std::string& name, const std::string& explanation) {
     std::string text = "  " + name;
-    const bool beside = columns(text) + 2 <= indent;
-    text += beside ? std::string(indent - columns(text), ' ') : "\n" + std::string(indent, ' ');
+    const bool beside = io::visible_width(text) + 2 <= indent;
+    text += beside ? blanks(indent - io::visible_width(text)) : "\n" + blanks(indent);
     bool first = true;
-    for (const std::string& line : wrapped(explanation, width - indent))
-        text += (std::exchange(first, false) ? "" : std::string(indent, ' ')) + line + "\n";
+    for (const std::string& line : io::wrapped(explanation, width - indent))
+        text += (std::exchange(first, false) ? "" : blanks(indent)) + line + "\n";
     return text;
 }
 
@@ -70,7 +53,7 @@ std::string listed(const std::vector<Option>& options, bool words) {
 
 std::string sentence(std::string text) {
     text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return fmt::format("{}.", fmt::join(wrapped(text, width - 1), "\n"));
+    return fmt::format("{}.", fmt::join(io::wrapped(text, width - 1), "\n"));
 }
 
 } // namespace

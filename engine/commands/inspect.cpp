@@ -146,7 +146,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));
     for (const std::string& note : notes)
-        fmt::print("  note: {}\n", note);
+        io::print_text(stdout, "  note: {}\n", note);
     return io::exit_code::done;
 }
 
@@ -163,7 +163,7 @@ int plan_command(const Case& c, const Arguments& given, const Communicator& worl
         }
         print_plan(stdout, c, threads, make_plan(c, threads));
         for (const std::string& note : notes)
-            if (!given.quiet) fmt::print("note: {}\n", note);
+            if (!given.quiet) io::print_text(stdout, "note: {}\n", note);
     });
     return io::exit_code::done;
 }
@@ -292,9 +292,9 @@ int surface_command(const Case& c, const Arguments& given, const Communicator& w
         print_surface(surface);
         if (given.quiet) return;
         for (const std::string& note : surface.notes)
-            fmt::print("note: {}\n", note);
+            io::print_text(stdout, "note: {}\n", note);
         for (const std::string& line : lines)
-            fmt::print("{}\n", line);
+            io::print_text(stdout, "{}\n", line);
     });
     return io::exit_code::done;
 }

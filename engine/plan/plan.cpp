@@ -104,12 +104,12 @@ double seconds_altogether(const Plan& plan) { return plan.making + plan.moving +
 
 /// Prints the scale of the tolerance.
 void print_scales(std::FILE* to, const Case& c, double height) {
-    fmt::print(to,
-               "forces      {:.3g} eV/Å on a site decides the state: {};\n"
-               "            drive.tolerance = {:.3g} of it is {:.3g} eV/Å\n",
-               c.scales.force, c.force_scale, c.tolerance / c.scales.force, c.tolerance);
+    io::print_text(to,
+                   "forces      {:.3g} eV/Å on a site decides the state: {};\n"
+                   "            drive.tolerance = {:.3g} of it is {:.3g} eV/Å\n",
+                   c.scales.force, c.force_scale, c.tolerance / c.scales.force, c.tolerance);
     if (const std::string note = rounding_note(c, height); !note.empty())
-        fmt::print(to, "            {}\n", note);
+        io::print_text(to, "            {}\n", note);
 }
 
 } // namespace
@@ -184,7 +184,7 @@ Plan make_plan(const Case& c, int threads) {
 
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
-    fmt::print(to, "{}: {}\n\n", c.scene.name, c.box_in_words());
+    io::print_text(to, "{}: {}\n\n", c.scene.name, c.box_in_words());
     io::Table effects({"effect", "", "because"}, "<<<");
     for (const auto& [name, effect] : c.effects.list())
         effects.row({name, effect ? "on" : "off", effect.why});
@@ -222,29 +222,35 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     const io::AvailableMemory there = io::available_memory();
     if (c.ranks > 1) {
         const Tile tile = c.grid(0).tile(0);
-        fmt::print(to, "ranks       {} and {} x {} sites each, at most\n",
-                   memory_text(bytes_of_largest_rank(plan)), tile.nx, tile.ny);
+        io::print_text(to, "ranks       {} and {} x {} sites each, at most\n",
+                       memory_text(bytes_of_largest_rank(plan)), tile.nx, tile.ny);
     }
-    fmt::print(to, "memory      {} available here ({})\n", memory_text(there.bytes), there.because);
-    fmt::print(to, "run.h5      {} for the maps of a state, before compression{}\n",
-               memory_text(plan.state_bytes),
-               plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes))
-                                      : "");
+    io::print_text(to, "memory      {} available here ({})\n", memory_text(there.bytes),
+                   there.because);
+    io::print_text(
+        to, "run.h5      {} for the maps of a state, before compression{}\n",
+        memory_text(plan.state_bytes),
+        plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes)) : "");
     if (bytes > there.bytes)
-        fmt::print(to, "            The run does not fit into this machine: `asperity run` will "
+        io::print_text(to,
+                       "            The run does not fit into this machine: `asperity run` will "
                        "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
                        "machines\n");
     if (const DeviceChoice& device = c.simulation.device)
-        fmt::print(to, "device      {}, {} of its memory on each rank; times are the processor's\n",
-                   describe_device(device),
-                   memory_text(static_cast<double>(
-                       DeviceLayout(c.simulation.block, c.grid(0), c.simulation.interface).bytes)));
-    fmt::print(to,
-               "wall time   of idle processors, without messages between machines; measured on "
-               "{0} x {0} sites, kernels for {1}\nNothing was run or written.\n",
-               plan.sites, name(processor_level()));
+        io::print_text(
+            to,
+
+            "device      {}, {} of its memory on each rank; times are the processor's\n",
+            describe_device(device),
+            memory_text(static_cast<double>(
+                DeviceLayout(c.simulation.block, c.grid(0), c.simulation.interface).bytes)));
+    io::print_text(to,
+                   "wall time   of idle processors, without messages between machines; measured on "
+                   "{0} x {0} sites, kernels for {1}\nNothing was run or written.\n",
+                   plan.sites, name(processor_level()));
     if (seconds_altogether(plan) > one_day)
-        fmt::print(to, "note: the run takes more than a day: fewer sites or layers, a higher "
+        io::print_text(to,
+                       "note: the run takes more than a day: fewer sites or layers, a higher "
                        "velocity, or drive.mode = \"quasistatic\"; `asperity cost` says what each "
                        "loses\n");
 }

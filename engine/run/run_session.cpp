@@ -53,7 +53,7 @@ void RunSession::print_notes() {
     progress_.finish();
     for (const std::string& note : storage_.take_notes()) // however little progress is shown
         if (!options_.quiet && !options_.json)
-            print_unless_closed([&] { fmt::print(stderr, "{}\n", note); });
+            print_unless_closed([&] { io::print_text(stderr, "{}\n", note); });
 }
 
 int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
@@ -87,7 +87,8 @@ int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
         storage_.require_in_place();
         print_unless_closed([&] {
             if (options_.json) return fmt::print("{}", result.text(-1));
-            print_summary(stdout, case_, result, path.results(), storage_.path());
+            print_summary(stdout, case_, result, path.results(),
+                          options_.quiet ? "" : storage_.path());
             if (stopped_ != Stopped::no)
                 fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));
         });

@@ -142,30 +142,30 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                  double flat) {
     const Form form(c);
     if (c.effects.temperature) {
-        fmt::print(to, "  The works of the drive contain heat of the thermostat.\n");
+        io::print_text(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
     if (const Number relaxed = of("dissipated_in_block.cycle")) {
         const double lost = of("lost.cycle").value_or(0.0);
-        fmt::print(
-            to,
-            "  From the approach to the end of the pull-off the works of the drive add up to {}:\n"
-            "  {} are dissipated in the viscoelastic block,\n"
-            "  and {} are lost at instabilities.\n",
-            form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed),
-            form.with_unit(lost));
+        io::print_text(to,
+                       "  From the approach to the end of the pull-off the works "
+                       "of the drive add up to {}: {} are dissipated in the viscoelastic block, "
+                       "and {} are lost at instabilities.\n",
+                       form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed),
+                       form.with_unit(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
-            fmt::print(to,
-                       "  Of what was lost {} eV went in steps that are long beside the shortest "
-                       "time of block.prony: the block\n  may have dissipated a part of it.\n",
-                       io::number(*unclear, 2));
+            io::print_text(
+                to,
+                "  Of what was lost {} eV went in steps that are long beside the shortest "
+                "time of block.prony: the block may have dissipated a part of it.\n",
+                io::number(*unclear, 2));
         return;
     }
     if (c.guided()) {
         if (const Number lost = of("lost.cycle"))
-            fmt::print(to, "  From the approach to the end of the pull-off {} are lost.\n",
-                       form.with_unit(*lost));
+            io::print_text(to, "  From the approach to the end of the pull-off {} are lost.\n",
+                           form.with_unit(*lost));
         return;
     }
     const double lost =
@@ -175,30 +175,33 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                                                std::abs(*of("work_of_drive.approach")));
     const bool hardly = std::abs(lost) <= 0.01 * scale;
     if (hardly)
-        fmt::print(
+        io::print_text(
             to,
-            "  The works of the drive on the solids, in and out, add up to {}:\n  hardly anything "
+
+            "  The works of the drive on the solids, in and out, add up to {}: hardly anything "
             "is lost.\n",
             form.with_unit(std::abs(lost)));
     else
-        fmt::print(
+        io::print_text(
             to,
-            "  The works of the drive on the solids, in and out, add up to {}:\n  energy that is "
+
+            "  The works of the drive on the solids, in and out, add up to {}: energy that is "
             "{}.\n",
             form.with_unit(lost),
             c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
     if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
-        fmt::print(
+        io::print_text(
             to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
             c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
-            c.effects.dynamic ? "" : "\n  = work of the drive on the pull-off - energy lost there");
+            c.effects.dynamic ? "" : " = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.effects.dynamic)
-        fmt::print(to, "  The work of the interface is that of its force on the mean height of the "
-                       "surface: a jump of the\n  whole block does not change it, jumps of single "
+        io::print_text(to,
+                       "  The work of the interface is that of its force on the mean height of the "
+                       "surface: a jump of the whole block does not change it, jumps of single "
                        "patches do.\n");
     if (!hardly && c.simulation.drive.control == Control::top && !c.effects.free_edges)
-        fmt::print(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
-                       "(block.thickness) less so.\n");
+        io::print_text(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
+                           "(block.thickness) less so.\n");
 }
 
 /// Returns the number and the first words of a segment: "1 slide x 128 nm".
@@ -268,27 +271,30 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
         if (!s.steady) continue;
         const SteadySlide& mean = *s.steady;
         const double megapascal = 1.0 / (c.area() * units::megapascal);
-        fmt::print(to, "  {}: friction {} MPa", short_name(c, s),
-                   io::with_error(mean.friction * megapascal, mean.friction_error * megapascal));
+        std::string text = fmt::format(
+            "  {}: friction {} MPa", short_name(c, s),
+            io::with_error(mean.friction * megapascal, mean.friction_error * megapascal));
         if (mean.load > 0.0)
-            fmt::print(to, ", coefficient {}",
-                       io::with_error(mean.friction / mean.load, mean.friction_error / mean.load));
-        fmt::print(to, ", contact {},\n    after {:.4g} Å{}.\n",
-                   io::with_error(mean.in_contact / c.sites(), mean.in_contact_error / c.sites()),
-                   mean.running_in,
-                   mean.steady ? "; steady"
-                               : "; not steady yet: the friction still drifts at its end, and a "
-                                 "longer slide tells more");
+            text +=
+                fmt::format(", coefficient {}", io::with_error(mean.friction / mean.load,
+                                                               mean.friction_error / mean.load));
+        io::print_text(
+            to, "{}, contact {}, after {:.4g} Å{}.\n", text,
+            io::with_error(mean.in_contact / c.sites(), mean.in_contact_error / c.sites()),
+            mean.running_in,
+            mean.steady ? "; steady"
+                        : "; not steady yet: the friction still drifts at its end, and a longer "
+                          "slide tells more");
     }
     for (const SegmentResults& s : results.segments) {
         const Segment& asked = c.path()[s.number];
         if (asked.kind != Segment::load || asked.amount == 0.0 ||
             std::abs(s.force - asked.amount) <= 1.1 * load_accuracy * std::abs(asked.amount))
             continue;
-        fmt::print(to,
-                   "  \"{}\" ended at {}: the force jumps across the load there, and no "
-                   "state that this path\n  passes is under it.\n",
-                   c.path()[s.number].text, force_text(c, s.force));
+        io::print_text(to,
+                       "  \"{}\" ended at {}: the force jumps across the load there, and no "
+                       "state that this path passes is under it.\n",
+                       c.path()[s.number].text, force_text(c, s.force));
     }
 }
 
@@ -318,41 +324,43 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
     if (c.in_newtons())
-        fmt::print(to, "{}: {} x {} sites, {} nm wide{}\n", c.scene.name, block.sites, block.sites,
-                   io::cell(0.1 * c.edge()), c.effects.free_edges ? ", with free edges" : "");
+        io::print_text(to, "{}: {} x {} sites, {} nm wide{}\n", c.scene.name, block.sites,
+                       block.sites, io::cell(0.1 * c.edge()),
+                       c.effects.free_edges ? ", with free edges" : "");
     else
-        fmt::print(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
-                   io::number(c.edge(), 1));
-    fmt::print(to, "  substrate   {}{}\n", surface_text(c, surface),
-               c.radius() ? fmt::format(", on a sphere of R = {:.6g} nm", 0.1 * *c.radius()) : "");
+        io::print_text(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
+                       io::number(c.edge(), 1));
+    io::print_text(to, "  substrate   {}{}\n", surface_text(c, surface),
+                   c.radius() ? fmt::format(", on a sphere of R = {:.6g} nm", 0.1 * *c.radius())
+                              : "");
     if (c.effects.free_edges)
-        fmt::print(to, "  block       a half-space: {}\n", levels_text(c));
+        io::print_text(to, "  block       a half-space: {}\n", levels_text(c));
     else
-        fmt::print(to, "  block       {} layers ({} Å): {}\n", block.thickness,
-                   io::number(block.thickness * block.spacing, 1), levels_text(c));
-    fmt::print(to,
-               "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
-               "{} precision\n",
-               interface.wall ? wall_text(c) : "", with_units(c.flat.work_of_adhesion),
-               io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
-               interface.mixed ? "mixed" : "double");
-    fmt::print(to, "  machine     {}, {} thread{} each, {:.{}f} MB a rank\n", grid.describe(),
-               threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6,
-               bytes < 10'000'000 ? 1 : 0);
+        io::print_text(to, "  block       {} layers ({} Å): {}\n", block.thickness,
+                       io::number(block.thickness * block.spacing, 1), levels_text(c));
+    io::print_text(to,
+                   "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
+                   "{} precision\n",
+                   interface.wall ? wall_text(c) : "", with_units(c.flat.work_of_adhesion),
+                   io::number(c.flat.separation, 2), io::number(reach_of(interface), 2),
+                   interface.mixed ? "mixed" : "double");
+    io::print_text(to, "  machine     {}, {} thread{} each, {:.{}f} MB a rank\n", grid.describe(),
+                   threads, threads == 1 ? "" : "s", static_cast<double>(bytes) / 1e6,
+                   bytes < 10'000'000 ? 1 : 0);
     if (c.simulation.device)
-        fmt::print(to, "  device      {}, {:.0f} MB of its memory a rank\n",
-                   describe_device(c.simulation.device),
-                   static_cast<double>(
-                       DeviceLayout(c.simulation.block, grid, c.simulation.interface).bytes) /
-                       1e6);
-    fmt::print(to, "  results     {}\n", directory);
+        io::print_text(to, "  device      {}, {:.0f} MB of its memory a rank\n",
+                       describe_device(c.simulation.device),
+                       static_cast<double>(
+                           DeviceLayout(c.simulation.block, grid, c.simulation.interface).bytes) /
+                           1e6);
+    io::print_text(to, "  results     {}\n", directory);
     for (const std::string& note : c.notes)
-        fmt::print(to, "  note: {}\n", note);
+        io::print_text(to, "  note: {}\n", note);
     for (const std::string& note : surface.notes)
-        fmt::print(to, "  note: {}\n", note);
+        io::print_text(to, "  note: {}\n", note);
     const double height = surface.statistics.highest + reach_of(interface);
     if (const std::string note = rounding_note(c, height); !c.effects.dynamic && !note.empty())
-        fmt::print(to, "  note: {}\n", note);
+        io::print_text(to, "  note: {}\n", note);
     std::fflush(to);
 }
 
@@ -430,55 +438,63 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         table.print(to);
     }
     if (c.guided()) print_segments(to, c, results);
-    fmt::print(to, "\nHow to read it\n");
+    if (directory.empty()) return;
+    io::print_text(to, "\nHow to read it\n");
     if (state)
-        fmt::print(to,
-                   "  The state {} has a binding energy of {}{}:\n"
-                   "  {} of the pairs across the interface, less {} of elastic energy in "
-                   "the block.\n"
-                   "  {} % of the block's surface atoms are in contact.\n",
-                   at, form.with_unit(*state),
-                   flat > 0.0 && !form.is_whole()
-                       ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
-                                     anywhere ? "one flat layer of the block's lattice"
-                                              : "two flat surfaces")
-                       : std::string(),
-                   form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
-                   io::number(100.0 * *of("contact_fraction"), 1));
+        io::print_text(
+            to,
+            "  The state {} has a binding energy of {}{}: {} of the pairs across the interface, "
+            "less {} of elastic energy in "
+            "the block. {} % of the block's surface atoms are in contact.\n",
+            at, form.with_unit(*state),
+            flat > 0.0 && !form.is_whole()
+                ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
+                              anywhere ? "one flat layer of the block's lattice"
+                                       : "two flat surfaces")
+                : std::string(),
+            form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
+            io::number(100.0 * *of("contact_fraction"), 1));
     if (state && flat > 0.0 && !form.is_whole() && *state < no_adhesion * flat)
-        fmt::print(to,
-                   "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n",
-                   at, 100.0 * no_adhesion);
+        io::print_text(
+            to, "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n", at,
+            100.0 * no_adhesion);
     if (c.simulation.block.finite_strain)
-        fmt::print(to,
-                   "  At finite strain no state at zero load is given: states are sums of waves, "
-                   "which do not add up.\n");
+        io::print_text(
+            to, "  At finite strain no state at zero load is given: states are sums of waves, "
+                "which do not add up.\n");
     if (const Number pinning = of("jkr.edge_pinning"))
-        fmt::print(to,
-                   "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
-                   "sphere what follows\n  from it, are about {:.3g} times too large.\n",
-                   *pinning);
+        io::print_text(
+            to,
+
+            "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
+            "sphere what follows from it, are about {:.3g} times too large.\n",
+            *pinning);
     if (const Number edge = of("instrument.edge_distance");
         edge && *edge < 0.1 * near_edge * c.edge())
-        fmt::print(
+        io::print_text(
             to,
+
             "  The contact comes within {} nm of a free edge of the box, where the substrate "
-            "ends: it is that of this\n  piece. A contact that is to end by itself takes "
+            "ends: it is that of this piece. A contact that is to end by itself takes "
             "a wider box (surface.sites).\n",
             io::cell(*edge));
     if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
     if (const Number residual = of("energy.balance_error"))
-        fmt::print(to,
-                   "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
-                   "energy {}{},\n  to {:.1e} of the largest so far.\n",
-                   of("dissipated.energy") ? "dissipated" : "damped",
-                   of("energy.time_step") ? " + energy of the time step" : "", std::abs(*residual));
+        io::print_text(
+            to,
+
+            "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
+            "energy {}{}, to {:.1e} of the largest so far.\n",
+            of("dissipated.energy") ? "dissipated" : "damped",
+            of("energy.time_step") ? " + energy of the time step" : "", std::abs(*residual));
     if (state || drive_in)
-        fmt::print(
+        io::print_text(
             to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
-                "velocity and the choice of the\n  surface are not included: asperity estimate.\n");
-    fmt::print(
-        to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
+                "velocity and the choice of the surface are not included: asperity estimate.\n");
+    io::print_text(
+        to,
+
+        "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);
     std::fflush(to);
 }

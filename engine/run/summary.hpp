@@ -24,7 +24,7 @@ std::string progress_phase(const Case& c, const std::string& segment, double for
                            long long in_contact, double mean_height);
 
 /// Prints the main numbers of result.json side by side, with notes on their meaning. directory: the
-/// result directory.
+/// result directory; "": prints the numbers alone.
 void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                    const PathResults& results, const std::string& directory);
 

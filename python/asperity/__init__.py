@@ -21,7 +21,7 @@ them. Errors of the program are the exceptions SceneError, PhysicsError, InputOu
 
 from typing import TYPE_CHECKING
 
-from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName
+from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName, WrongCall
 
 if TYPE_CHECKING:
     from .forms import (
@@ -59,7 +59,7 @@ _LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
-__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName",
+__all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName", "WrongCall",
            *(name for name, module in _LAZY.items() if module in (".forms", ".functions"))]
 
 

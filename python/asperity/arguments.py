@@ -4,13 +4,21 @@
 
     young = chosen("young", 'young="100 GPa"', young=young, E=E)      # an argument of a function
     command.add_argument(*options("young"), required=True)            # an option: --young, --E
+    @checks_call                                                      # run(rnaks=2): "did you mean ranks?"
 """
 
 from __future__ import annotations
 
-from typing import Any
+import difflib
+import functools
+import inspect
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar, cast
 
-from .errors import SceneError
+from .errors import SceneError, WrongCall
+
+F = TypeVar("F", bound=Callable[..., Any])
+K = TypeVar("K", bound=type)
 
 ALIASES = {"young": ("E",), "poisson": ("nu",), "adhesion": ("work", "w"), "size": ("file_size",), "unit": ("file_unit",)}
 """Other names of an argument. Each argument has the last word of a key of the scene, as itself or as an alias."""
@@ -50,3 +58,75 @@ def chosen(name: str, example: str = "", **given: Any) -> Any:
         raise SceneError(name, "is not given", "the function needs it" + f" (also named {', '.join(ALIASES.get(name, ()))})" * (name in ALIASES),
                          f"for example {example}")
     return next(iter(there.values()), None)
+
+
+def _wrong_call(signature: inspect.Signature, where: str, given: tuple[Any, ...], named: Mapping[str, Any], first: int) -> WrongCall:
+    """Returns the error of a call that a signature refuses. first: arguments that the caller did not write: self."""
+    kinds = inspect.Parameter
+    known = dict(list(signature.parameters.items())[first:])
+    names = "its arguments are " + ", ".join(known) if known else "it takes none"
+    if unknown := [name for name in named if name not in known]:
+        near = difflib.get_close_matches(unknown[0], known, 1)
+        keys = [f"keys of the scene go into {name}: {example}" for name, example in
+                (("overrides", '{"surface.rms": 2.0}'), ("values", '{"surface.rms": [1, 2]}')) if name in known]
+        return WrongCall(where, f"has no argument {unknown[0]!r}", names, "; ".join([f"did you mean {one}?" for one in near] + keys))
+    places = [name for name, one in known.items() if one.kind in (kinds.POSITIONAL_ONLY, kinds.POSITIONAL_OR_KEYWORD)]
+    if len(given) - first > len(places):
+        return WrongCall(where, f"is given {len(given) - first} values without a name, and takes {len(places)}", names,
+                         "give the others by their names" if len(known) > len(places) else "")
+    there = [*places[:len(given) - first], *named]
+    twice = [name for name in named if name in places[:len(given) - first]]
+    lacking = [name for name, one in known.items() if one.default is kinds.empty and name not in there]
+    return WrongCall(where, f"is given {twice[0]} twice" if twice else "is not given " + ", ".join(lacking),
+                     names, "")
+
+
+def checks_call(function: F) -> F:
+    """Makes a function of the package raise WrongCall, with the names of its arguments, if it is called with others.
+
+    Parameters
+    ----------
+    function : callable
+        Function, or method of a class.
+
+    Returns
+    -------
+    callable
+        The function; its name, arguments and documentation are the same.
+    """
+    signature = inspect.signature(function)
+    first = int(next(iter(signature.parameters), "") in ("self", "cls"))
+
+    @functools.wraps(function)
+    def checked(*given: Any, **named: Any) -> Any:
+        try:
+            signature.bind(*given, **named)
+        except TypeError:
+            where = function.__qualname__.removesuffix(".__init__")
+            raise _wrong_call(signature, where.rpartition("<locals>.")[2] + "()", given, named, first) from None
+        return function(*given, **named)
+
+    return cast("F", checked)
+
+
+def checks_calls(kind: K) -> K:
+    """Makes a class check the calls of its constructor and of its methods, as checks_call() does.
+
+    Parameters
+    ----------
+    kind : type
+        The class.
+
+    Returns
+    -------
+    type
+        The same class.
+    """
+    for name, thing in list(vars(kind).items()):
+        if name.startswith("_") and name != "__init__":
+            continue
+        if isinstance(thing, classmethod):
+            setattr(kind, name, classmethod(checks_call(thing.__func__)))
+        elif inspect.isfunction(thing):
+            setattr(kind, name, checks_call(thing))
+    return kind

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from .arguments import checks_call
 from .running.engine import quantity
 from .theories import viscoelastic
 from .units import ANGSTROM_PER_PS
@@ -38,6 +39,7 @@ def _numbers(where: str, given: Any, unit: str) -> np.ndarray:
     return np.array([quantity(where, value, unit) for value in values.ravel().tolist()]).reshape(values.shape)
 
 
+@checks_call
 def modulus(prony: Prony, frequency: Any) -> Any:
     """Returns the complex modulus of a solid over its relaxed one, E(ω)/E.
 
@@ -56,6 +58,7 @@ def modulus(prony: Prony, frequency: Any) -> Any:
     return viscoelastic.modulus(_branches(prony), _numbers("frequency", frequency, "1/ps"))
 
 
+@checks_call
 def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, tip_radius: float | str) -> Any:
     """Returns the energy release rate of an opening crack over that of the slowest one, G(v)/G0.
 

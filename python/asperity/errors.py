@@ -129,6 +129,11 @@ class UnknownName(SceneError, AttributeError, KeyError):
         return cls(where, f"has no {what} {name!r}".replace("  ", " "), ("it has " + ", ".join(there)) if there else why, fix)
 
 
+class WrongCall(SceneError, TypeError):
+    """Error of a call with an argument that the function does not have, or without one that it needs. It is a TypeError too, as
+    Python expects of calls."""
+
+
 class Named:
     """Base class of results whose wrong attributes raise UnknownName with the existing names."""
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from .arguments import checks_call
 from .commands.adhesion import Adhesion, adhesion
 from .commands.tip import Tip, tip
 from .files import store
@@ -240,4 +241,7 @@ for kind, name, form in (
                          (Sweep, "_repr_html_", _html_of_sweep), (Result, "plot", property(_plot_of_run)),
                          (Prony, "plot", _plot_of_prony),
                          (Result, "report", _report_of_run), (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep)):
+    if not isinstance(form, property) and not name.startswith("_"):
+        form.__qualname__ = f"{kind.__name__}.{name}"
+        form = checks_call(form)
     setattr(kind, name, form)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from .arguments import checks_call
 from .commands.theory import computed
 from .errors import BY_CODE, InternalError, Named, SceneError, Stopped
 from .maps.convert import convert
@@ -111,6 +112,7 @@ def _values(found: dict[str, Any]) -> Values:
     return json.loads(json.dumps(found), object_hook=Values)
 
 
+@checks_call
 def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
     """Checks a scene without running it.
 
@@ -139,6 +141,7 @@ def check(scene: SceneLike, overrides: Overrides | None = None) -> Checked:
                    found.number("edge_pinning", 1.0))
 
 
+@checks_call
 def plan(scene: SceneLike, overrides: Overrides | None = None) -> Planned:
     """Estimates memory and time of a run of a scene on this machine, from runs of small pieces.
 
@@ -165,6 +168,7 @@ def plan(scene: SceneLike, overrides: Overrides | None = None) -> Planned:
                    dict(found.part("effects")), found.listed("notes", str))
 
 
+@checks_call
 def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
     """Makes the surface of a scene without simulating it.
 
@@ -192,11 +196,13 @@ def surface(scene: SceneLike, overrides: Overrides | None = None) -> Surface:
     return Surface(made.heights, made.rms, made.slope, made.doubts, edge)
 
 
+@checks_call
 def defaults() -> dict[str, dict[str, Any]]:
     """Returns all keys of a scene by name ("surface.rms"), each with kind, unit, default, explanation (doc) and choices."""
     return {key: dict(about) for key, about in program.schema().items()}
 
 
+@checks_call
 def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScene:
     """Computes the theories of a scene without simulating it.
 
@@ -226,6 +232,7 @@ def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScen
                          found.notes, found.text)
 
 
+@checks_call
 def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
          parameters: Iterable[str] = (), target: str | float | None = None) -> Cost:
     """Measures error and run time of the scene for numerical settings: one setting varied at a time, and combinations. Existing
@@ -280,6 +287,7 @@ def cost(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Pat
     return costing.cost
 
 
+@checks_call
 def export(directory: str | os.PathLike, to: str, out: str | os.PathLike | None = None) -> list[Path]:
     """Writes the maps and the trajectory of a run for other programs.
 

@@ -22,7 +22,7 @@ Given read(const std::string& file, const std::vector<std::string>& overrides, i
     });
     const py::object kind = py::module_::import("asperity.errors").attr("SceneWarning");
     for (const std::string& note : given.resolved.notes)
-        if (PyErr_WarnEx(kind.ptr(), note.c_str(), 2) != 0) throw py::error_already_set();
+        if (PyErr_WarnEx(kind.ptr(), note.c_str(), 3) != 0) throw py::error_already_set();
     return given;
 }
 

@@ -163,6 +163,24 @@ def test_tables_fit_a_hundred_columns(work, light, words):
     assert not wide, "\n".join(wide)
 
 
+@pytest.mark.parametrize("keys", [[], ["surface.radius=100"], ["interface.kind=wall", "interface.adhesion=50 mJ/m2"],
+                                  ["drive.path=[\"approach\",\"load 100 MPa\",\"slide x 5 Å\",\"pull-off\"]"],
+                                  ["drive.mode=dynamic", "drive.velocity=100", "interface.morse_a=2"]], ids=str)
+def test_the_text_of_a_run_fits_eighty_columns(work, light, keys):
+    """Opening, notes and summary; a number stays on the line of its unit. Tables are wider, and quiet runs print nothing else."""
+    (work / "p.toml").write_text(PATH)
+    code, said, other = called("run", "p.toml", "-o", "loud", "--set", *keys) if keys else called("run", "p.toml", "-o", "loud")
+    assert code == 0, other
+    tables = rows(said)
+    text = [line for line in said.splitlines() if line not in tables]
+    assert max(map(len, text)) <= 80 and max(map(len, tables)) <= 100, max(text, key=len)
+    assert "of the pairs across the interface" in " ".join(said.split())
+    assert not [line for line in text if re.match(r" +(%|mJ/m²|meV)", line)], said
+    code, quiet, other = called("run", "p.toml", "-o", "silent", "--quiet", *(["--set", *keys] if keys else []))
+    assert code == 0 and other == "" and rows(quiet) and not [line for line in quiet.splitlines() if line.strip() and line not in rows(quiet)
+                                                               and "──" not in line], quiet
+
+
 def test_completions_have_every_command_and_option():
     schema = json.loads(say(PROGRAM, "defaults", "--json"))
     listed = commands_of(say(PROGRAM, "--help"))

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Asperity at the prompt of Python: what can be asked, written, shown and plotted there, and what it says."""
 
+import inspect
 import io
 import re
 import sys
@@ -248,3 +249,50 @@ def test_a_wrong_name_is_told_what_there_is(path_run, results):
         pytest.raises(AttributeError, getattr, path_run, "binding_enregy").value)
     with pytest.raises(asperity.InputOutputError, match="holds a sweep"):
         asperity.load(results / "wrong-names")
+
+
+def checked_things(path_run):
+    """Functions, constructors and methods of the package for users, those of compiled classes left out."""
+    sweep = asperity.Sweep("t", {}, ["surface.rms"], [], simulated=True)
+    for name in [*asperity.__all__, "Simulation", "Statics", "states"]:
+        thing = getattr(asperity, name)
+        if not (isinstance(thing, type) and issubclass(thing, BaseException)):
+            yield name, thing
+    for name in asperity.crack.__all__:
+        yield name, getattr(asperity.crack, name)
+    statics = asperity.Statics(STATIC)
+    for thing in (path_run, path_run.series, path_run.plot, sweep, sweep.table, statics, asperity.Simulation(TINY)):
+        for kind in [kind for kind in type(thing).__mro__ if kind.__module__.startswith("asperity.") and "values" not in kind.__module__
+                     and kind.__name__ not in ("Named", "Attributes")]:
+            for name, member in vars(kind).items():
+                if not name.startswith("_") and inspect.isfunction(member):
+                    yield f"{kind.__name__}.{name}", getattr(thing, name)
+    for name in ("separation", "gaps"):
+        yield name, getattr(path_run.plot, name)
+
+
+def test_calls_with_wrong_arguments_end_in_the_errors_of_the_package(path_run):
+    names = set()
+    for name, thing in checked_things(path_run):
+        with pytest.raises(asperity.WrongCall, match=r"has no argument 'nonsense'\n    why: (its arguments are|it takes none)"):
+            thing(nonsense=1)
+        with pytest.raises(asperity.WrongCall, match="is given 30 values without a name"):
+            thing(*range(30))
+        names.add(name)
+    assert {"run", "tip", "Result", "Simulation", "Statics.hold", "Simulation.step", "Sweep.frame", "Sweep.plot", "Result.report",
+            "modulus", "gaps", "Series.frame", "RunPlots.map"} <= names
+    for call, said in ((lambda: asperity.run("s.toml", rnaks=2), "run(): has no argument 'rnaks'\n    why: its arguments are scene, overrides, "
+                        "out, ranks, progress\n    fix: did you mean ranks?; keys of the scene go into overrides: {\"surface.rms\": 2.0}"),
+                       (lambda: asperity.tip(raduis="20 nm"), "did you mean radius?"), (lambda: asperity.adhesion("m.npy", yuong=1), "young?"),
+                       (lambda: asperity.load(), "load(): is not given directory\n    why: its arguments are directory"),
+                       (lambda: asperity.run("s.toml", scene="t.toml"), "run(): is given scene twice"),
+                       (lambda: path_run.plot.map("gap", axx=None), "did you mean ax?")):
+        with pytest.raises(TypeError) as error:
+            call()
+        assert isinstance(error.value, asperity.SceneError) and said in str(error.value)
+
+
+def test_warnings_name_the_line_of_the_script():
+    with pytest.warns(asperity.SceneWarning, match="drive.velocity") as told:
+        asperity.Simulation(TINY)
+    assert [Path(one.filename).name for one in told] == [Path(__file__).name]

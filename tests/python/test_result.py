@@ -48,11 +48,19 @@ def test_series_are_frames_where_pandas_is(path_run, monkeypatch):
             super().__init__(columns)
             self.attrs = {}
 
+        def assign(self, **columns):
+            self.update(columns)
+            return self
+
     monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=Frame))
     frame = path_run.series.frame()
     assert set(frame) == set(path_run.series) and (frame["force"] == path_run.series["force"]).all()
     units = frame.attrs["units"]
     assert set(units) == set(frame) and units["force"] == "eV/Å" and units["time"] == "ps" and units["step"] == "1"
+    sweep = asperity.Sweep("t", {}, ["surface.rms"], [{"set": {"surface.rms": 2.0}, "theory": {}, "status": "done",
+                                                       "result": {"binding_energy": 50.0}}], simulated=True)
+    frame = sweep.frame()
+    assert frame["binding_energy"] == [50.0] and frame["status"] == ["done"] and frame.attrs["units"]["binding_energy"] == "meV/Å^2"
 
 
 def names_of_stub():

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.reports import tip as report_tip
 from asperity.studies.tip import Contact, _fitted
 from asperity.theories.sphere import jkr
 from conftest import command, in_this_process
@@ -45,6 +46,7 @@ def test_a_smooth_tip(smooth):
                np.trapz(found.force[part], -found.drive[part]) for part in (inwards, out))
     assert loop == pytest.approx(found.number("lost").value, rel=0.03)
     assert (place / "smooth/report.html").exists() and "5." in str(found)
+    assert str(pulled).startswith("F_pull-off = 5.") and "F_{pull-off}" not in report_tip.text_of(found)
 
 
 def test_the_command_says_the_same(smooth):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """One table of units: wherever a quantity is read, the same words are units."""
 
+import inspect
 import itertools
 import re
 
@@ -123,8 +124,7 @@ def test_options_and_arguments_have_the_words_of_the_scene():
                 assert names & words, f"asperity {name}: {names} are no words of a scene"
                 first = action.option_strings[0].strip("-").replace("-", "_")
                 assert names == {first, *ALIASES.get(first, ())}, names
-    arguments = set(asperity.adhesion.__wrapped__.__code__.co_varnames if hasattr(asperity.adhesion, "__wrapped__") else
-                    asperity.adhesion.__code__.co_varnames[:asperity.adhesion.__code__.co_argcount + asperity.adhesion.__code__.co_kwonlyargcount])
+    arguments = set(inspect.signature(asperity.adhesion).parameters)
     known = {"map", "out", "jobs", "channel", *words, *(alias for aliases in ALIASES.values() for alias in aliases), *ALIASES}
     assert arguments <= known, arguments - known
     assert {"young", "poisson", "adhesion", "E", "nu", "work", "w"} <= arguments

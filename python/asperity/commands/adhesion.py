@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from ..arguments import chosen
+from ..arguments import checks_call, checks_calls, chosen
 from ..errors import BY_CODE, InternalError, Named, Stopped
 from ..files import store
 from ..reports import estimate as report_estimate
@@ -25,6 +25,7 @@ from ..studies.map_scene import MapScene, scene_of, stem_of
 from ..terminal import Voice
 
 
+@checks_calls
 @dataclass
 class Adhesion(Named):
     """Adhesion on a map: estimate (.numbers), result (run of the map's scene: series, fields), notes on changes of the map, scene
@@ -60,6 +61,7 @@ class Adhesion(Named):
         return f"<Adhesion {self.directory}: {self.quote()}>"
 
 
+@checks_call
 def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | None = None, adhesion: str | None = None,
              out: str | os.PathLike | None = None, range: str | None = None, size: str | None = None, unit: str | None = None,
              channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None, *,

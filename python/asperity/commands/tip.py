@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from ..arguments import chosen
+from ..arguments import checks_call, chosen
 from ..errors import BY_CODE, InternalError, Stopped
 from ..files import store
 from ..reports import tip as report_tip
@@ -25,6 +25,7 @@ RUNS = re.compile(r"tip|coarse|wide|tip,displacement_step=.*")
 """Directories of the runs."""
 
 
+@checks_call
 def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: str | None = None, poisson: float | None = None,
         adhesion: str | None = None, stiffness: str | None = None, load: str | None = None, out: str | os.PathLike | None = None,
         range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,

@@ -27,6 +27,7 @@ from typing import Any
 import h5py
 import numpy
 
+from ..arguments import checks_call
 from ..errors import Error, to_install
 from ..files import store
 from ..running import program
@@ -202,6 +203,7 @@ def _size(source: str, found: dict[str, Any]) -> tuple[float, ...]:
     return size
 
 
+@checks_call
 def convert(source: str | Path, target: str | Path, channel: str | None = None) -> str:
     """Writes the map or the atoms of a file as HDF5.
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from ..arguments import checks_call, checks_calls
 from ..errors import UnknownName
 from ..results.result import Result, State
 from ..theories import combined
@@ -521,6 +522,7 @@ OF_RUN = {f.__name__: f for f in (separation, loading, contact, friction, energy
 OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
+@checks_calls
 class RunPlots:
     """Plots of a result, result.plot: each method draws into axes, or makes new ones, and returns them.
 
@@ -554,10 +556,15 @@ class RunPlots:
     else:
         def __getattr__(self, name: str) -> Callable[..., Axes]:
             if name in OF_RUN:
-                return lambda ax=None: self._draw(name, ax, OF_RUN[name], self._run)
-            if name in OF_STATE:
-                return lambda ax=None, state=None: self._draw(name, ax, OF_STATE[name], self._state(state))
-            raise UnknownName.among(str(self._run.directory), name, [*OF_RUN, *OF_STATE, "map"], what="plot")
+                def draw(ax=None):
+                    return self._draw(name, ax, OF_RUN[name], self._run)
+            elif name in OF_STATE:
+                def draw(ax=None, state=None):
+                    return self._draw(name, ax, OF_STATE[name], self._state(state))
+            else:
+                raise UnknownName.among(str(self._run.directory), name, [*OF_RUN, *OF_STATE, "map"], what="plot")
+            draw.__name__ = draw.__qualname__ = name
+            return checks_call(draw)
 
     def _state(self, name: str | None) -> State:
         if name is None:  # of what a script wrote, that of the last moment

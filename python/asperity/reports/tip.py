@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +26,7 @@ DEFINED = ("Forces press if they are positive. λ is Maugis' parameter with the 
 
 
 def _plain(symbol: str) -> str:
-    return symbol.replace("_{", " ").replace("}", "")
+    return symbol.replace("_", " ")
 
 
 def _cells(n: Number) -> list[str]:
@@ -119,7 +120,7 @@ def write(found: Tip) -> Path:
     with store.outputs(found.directory, [RESULT, "curve.csv"]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))
         out.write("curve.csv", store.csv_text(rows))
-    lead = str(found.numbers[0])
+    lead = re.sub(r"_([\w-]+)", r"_{\1}", str(found.numbers[0]))
     page = Page(found.directory, "asperity tip", f"A tip of {found.contact.radius:g} nm on {found.contact.stiffness:g} N/m", lead)
     page.section("curve", "Force curve")
     page.figure(FIGURES[0], "As the instrument shows it", "The drive moves the far end of the cantilever.", lambda ax: force_curve(found, ax))

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, cast
 import h5py
 import numpy as np
 
+from ..arguments import checks_call, checks_calls
 from ..errors import InputOutputError, UnknownName
 from ..files import store
 from .frames import Frames, data_frame, data_set
@@ -232,6 +233,7 @@ class RunFile:
             return found.decode() if isinstance(found, bytes) else found
 
 
+@checks_calls
 class Group(Attributes, Mapping):
     """Arrays of a group of run.h5, read on demand.
 
@@ -285,6 +287,7 @@ class Group(Attributes, Mapping):
         return f"<{type(self).__name__} {self._called}: {', '.join(self)}>"
 
 
+@checks_calls
 class Series(Group, SeriesArrays):
     """The path of a run: columns of equal length."""
 
@@ -374,6 +377,7 @@ class States(dict[str, "State"]):
         raise self._file.lacks("/fields", name, self, "state")
 
 
+@checks_calls
 class Result(Values, Numbers):
     """Result of one run: the keys of result.json are attributes.
 
@@ -550,6 +554,7 @@ class Result(Values, Numbers):
         return f"<Result {self.directory}: {found}>"
 
 
+@checks_call
 def load(directory: str | os.PathLike) -> Result:
     """Loads the result of a run.
 

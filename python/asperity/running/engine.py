@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import h5py
 import numpy
 
+from ..arguments import checks_calls
 from ..errors import Error, InputOutputError, SceneError, UnknownName
 from ..files import store
 from ..terminal import Progress, number, sleep_soon
@@ -204,6 +205,7 @@ def _end_all_with(comm: Any) -> None:
     sys.excepthook = ends_all
 
 
+@checks_calls
 class Simulation(_engine.Simulation):
     """Dynamic path of a scene, one step at a time.
 
@@ -463,6 +465,7 @@ class Simulation(_engine.Simulation):
             "scene": tomllib.loads(self._scene)}))
 
 
+@checks_calls
 class Statics(_engine.Statics):
     """Quasi-static path of a scene: a script prescribes positions or loads, and the solids relax to force balance.
 

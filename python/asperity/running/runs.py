@@ -12,6 +12,7 @@ import sys
 from numbers import Integral
 from pathlib import Path
 
+from ..arguments import checks_call
 from ..errors import InputOutputError, SceneError
 from ..files import store
 from ..results.result import Result
@@ -40,6 +41,7 @@ def launcher(ranks: int) -> list[str]:
     return [*words, "-n", str(ranks)]
 
 
+@checks_call
 def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None,
         ranks: int = 1, progress: bool | None = None) -> Result:
     """Simulates a scene.

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
+from ..arguments import checks_call, checks_calls
 from ..errors import BY_CODE, Error, InputOutputError, InternalError, Named, SceneError, Stopped, UnknownName
 from ..files import store
 from ..maps import height_map, missing_waves
@@ -48,6 +49,7 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 """Numbers that the edge of a contact and the range of the attraction decide."""
 
 
+@checks_calls
 @dataclass
 class Estimate(Named):
     """Numbers of a scene with their errors. numbers: by their names in result.json, the most important first; parts: parts of the
@@ -118,6 +120,7 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
+@checks_call
 def load_estimate(directory: str | os.PathLike) -> Estimate:
     """Loads the estimate in a directory.
 
@@ -456,6 +459,7 @@ def _about(seconds: float) -> str:
     return "a time that is not known" if math.isnan(seconds) else duration(seconds)
 
 
+@checks_call
 def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, jobs: int = 1,
              seeds: int | None = None, parts: Iterable[str] = ()) -> Estimate:
     """Estimates the numbers of a scene with their errors: .numbers["binding_energy"].estimate and .error (a standard error), and

@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import least_squares, nnls
 
-from ..arguments import chosen
+from ..arguments import checks_call, chosen
 from ..errors import SceneError
 from ..files import store
 from ..maps.channels import refuse
@@ -243,6 +243,7 @@ def fit(curve: MasterCurve, branches: int | None = None, poisson: float | None =
                  curve.frequency, 1e-9 * stiff * curve.storage, 1e-9 * stiff * curve.loss, notes)
 
 
+@checks_call
 def prony(source: str | Path, target: str | Path | None = None, branches: int | None = None, poisson: float | None = None,
           nu: float | None = None, frequency_unit: str = "", modulus_unit: str = "", modulus: str = "") -> Prony:
     """Computes the branches of a viscoelastic block from a master curve of a rubber.

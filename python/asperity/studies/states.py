@@ -22,6 +22,7 @@ from typing import Any
 
 import numpy
 
+from ..arguments import checks_call
 from ..errors import PhysicsError, SceneError
 from ..files import store
 from ..results.result import Values
@@ -288,6 +289,7 @@ class FoundStates(Values):
         return html_table("Stable states", NUMBERS, rows, f"the path ended because: {self['ended']}")
 
 
+@checks_call
 def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
     """Searches for the stable states of a scene under its load. The dictionary that is returned has

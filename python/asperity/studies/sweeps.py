@@ -24,6 +24,7 @@ import h5py
 import numpy as np
 
 from .. import terminal
+from ..arguments import checks_call, checks_calls
 from ..errors import Error, InputOutputError, Named, SceneError
 from ..files import store
 from ..results.result import Result, Values, read_json
@@ -41,6 +42,7 @@ TABLES = "sweep.csv, sweep.json, sweep.h5"
 TABLE_FILES = ("sweep.csv", "sweep-mean.csv", "sweep.h5", "sweep.json")
 
 
+@checks_calls
 @dataclass
 class Sweep(Named):
     """Points of a sweep over one scene.
@@ -86,6 +88,14 @@ class Sweep(Named):
     def table(self) -> Table:
         """Columns by name as numpy arrays, one value per point, with units: table.units, table.frame()."""
         return Table(self.axes, self.points, self.simulated)
+
+    def frame(self):
+        """Returns the table as a pandas DataFrame with one row per point; attrs["units"] has the unit of each column."""
+        return self.table.frame()
+
+    def to_xarray(self):
+        """Returns the table as an xarray Dataset along "point"; attrs["units"] of each variable has its unit."""
+        return self.table.to_xarray()
 
     @property
     def curves(self) -> Table:
@@ -193,6 +203,7 @@ class Sweep(Named):
             f", {done} done>" if self.simulated else ">")
 
 
+@checks_call
 def load_sweep(directory: str | os.PathLike) -> Sweep:
     """Loads a sweep.
 
@@ -463,6 +474,7 @@ def _values(given: Any) -> str:
     return ",".join(str(v) if isinstance(v, os.PathLike) else shown(v) for v in plain)
 
 
+@checks_call
 def sweep(scene: SceneLike, values: Mapping[str, Any] | None = None, out: str | os.PathLike | None = None,
           jobs: int = 1, theory_only: bool = False, executor: Executor | None = None,
           progress: bool | None = None) -> Sweep:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arguments import checks_calls
 from ..errors import Named, UnknownName
 from ..results.frames import data_frame, data_set
 from ..results.result import Values, finite
@@ -91,6 +92,7 @@ class Average(NamedTuple):
     points: np.ndarray
 
 
+@checks_calls
 class Columns(Named, UserDict):
     """Columns by name: numpy arrays of numbers (NaN: missing), or lists of strings for keys with words."""
 
@@ -116,6 +118,7 @@ class Columns(Named, UserDict):
         return data_set({name: (("point",), values) for name, values in self.data.items()}, self.units)
 
 
+@checks_calls
 class Table(Columns):
     """The points of a sweep, a row each: the axes, the numbers of the results, the numbers of the theory.
 

@@ -20,6 +20,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import uniform_filter
 from scipy.optimize import least_squares
 
+from ..arguments import checks_calls
 from ..errors import Named, SceneError
 from ..files import store
 from ..maps import height_map
@@ -116,6 +117,7 @@ class Plan:
     longer_step: str
 
 
+@checks_calls
 @dataclass
 class Tip(Named):
     """Contact of a tip: numbers with their errors, the force curve, the fit of JKR, the smooth sphere's theory.
@@ -386,10 +388,10 @@ def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
     return Fit(work, work * float(spread[0]), modulus, modulus * float(spread[1]), float(found.x[2]), misfit)
 
 
-NUMBERS = {"pull_off_force": ("F_{pull-off}", "largest attraction on the way out", "nN"),
-           "jump_in_distance": ("d_{jump-in}", "separation of the undeformed surfaces at which the tip jumps in", "nm"),
-           "contact_radius": ("a_{0}", "contact radius at zero load, of the area as a circle", "nm"),
-           "lost": ("W_{lost}", "energy lost in a cycle", "aJ")}
+NUMBERS = {"pull_off_force": ("F_pull-off", "largest attraction on the way out", "nN"),
+           "jump_in_distance": ("d_jump-in", "separation of the undeformed surfaces at which the tip jumps in", "nm"),
+           "contact_radius": ("a_0", "contact radius at zero load, of the area as a circle", "nm"),
+           "lost": ("W_lost", "energy lost in a cycle", "aJ")}
 
 
 def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
