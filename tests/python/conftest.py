@@ -78,7 +78,7 @@ def as_expected(words, code, said, expect, says):
     """Checks the end of a command. Returns the text."""
     assert code == expect, f"exit {code}: {words}\n{said}"
     for text in [says] if isinstance(says, str) else says:
-        assert text in said, f"{words} did not say {text!r}:\n{said}"
+        assert (text in said or " ".join(text.split()) in " ".join(said.split())), f"{words} did not say {text!r}:\n{said}"
     return said
 
 
