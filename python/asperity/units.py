@@ -27,7 +27,8 @@ SYMBOLS: dict[str, tuple[tuple[int, ...], float, int, bool]] = {
     "s": (_TIME, 1.0, 0, True), "min": (_TIME, 6.0, 1, False), "h": (_TIME, 3.6, 3, False), "d": (_TIME, 8.64, 4, False),
     "K": (_WARMTH, 1.0, 0, True), "J": (_ENERGY, 1.0, 0, True), "eV": (_ENERGY, 1.602176634, -19, True), "N": (_FORCE, 1.0, 0, True),
     "Pa": (_PRESSURE, 1.0, 0, True), "bar": (_PRESSURE, 1.0, 5, True), "atm": (_PRESSURE, 1.01325, 5, False),
-    "psi": (_PRESSURE, 6.894757293168, 3, True), "ksi": (_PRESSURE, 6.894757293168, 6, False), "Hz": (_RATE, 1.0, 0, True), "%": (_NUMBER, 1.0, -2, False), "1": (_NUMBER, 1.0, 0, False)}
+    "psi": (_PRESSURE, 6.894757293168, 3, True), "ksi": (_PRESSURE, 6.894757293168, 6, False), "Hz": (_RATE, 1.0, 0, True),
+    "%": (_NUMBER, 1.0, -2, False), "1": (_NUMBER, 1.0, 0, False)}
 """Of each symbol the powers of length, mass, time and temperature, a number and a power of ten (SI), and whether it takes
 prefixes. io/units.cpp has the same table, by which the program reads quantities."""
 PREFIXES = {"a": -18, "f": -15, "p": -12, "n": -9, "u": -6, "\u00b5": -6, "\u03bc": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9, "T": 12}
