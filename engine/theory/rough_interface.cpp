@@ -85,10 +85,9 @@ Json table_of_wall(const Case& c, const Law& law) {
     bool kink = std::is_same_v<Law, ExponentialWall>;
     if constexpr (std::is_same_v<Law, ShapedWall>) kink = law.has_kink();
     if (kink)
-        return {{"note", "the renormalised theory follows the curvature of a smooth law, and the "
-                         "exponential wall, like each that repels by a stiffness, has a kink where "
-                         "it is touched; take interface.law = "
-                         "\"smeared\" or atoms"}};
+        return {{"note", "it follows the curvature of a smooth law, and the exponential wall, like "
+                         "each that repels by a stiffness, has a kink where it is touched; take "
+                         "interface.law = \"smeared\" or atoms"}};
     const double area = c.simulation.block.spacing * c.simulation.block.spacing;
     const double separation = c.flat.separation;
     // Inwards to a repulsion of about twice the largest tension.

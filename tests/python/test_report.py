@@ -102,7 +102,7 @@ def test_values_can_be_read_by_pointing(path_run):
     assert 0 < left < right <= 1 and 0 < top < bottom <= 1
 
 
-def stored(tmp_path, path, load):
+def stored(tmp_path, path, load, full=20.0):
     """A result as a file alone, with a Δγ of its own for Persson's theory."""
     tmp_path.joinpath("result.json").write_text(json.dumps({
         "scene": {"surface": {"sites": 32, "spacing": 2.6}, "drive": {"path": path, "load": load}},
@@ -111,7 +111,7 @@ def stored(tmp_path, path, load):
         "work_of_drive": {"approach": -30.0, "pull_off": 50.0, "uncertainty": {"approach": 3.0, "pull_off": 0.25}},
         "lost": {"cycle": 20.0},
         "theory": {"persson": {"gamma_eff": 50.0, "delta_gamma": 100.0, "contact_fraction": 0.25,
-                               "gamma_full_contact": 20.0},
+                               "gamma_full_contact": full},
                    "renormalised": {"gamma_eff": 60.0}}}))
     return asperity.load(tmp_path)
 
@@ -131,6 +131,12 @@ def test_a_load_is_told_of_what_carries_it(tmp_path, path, load, at, under):
     assert theory.endswith(" mJ/m²)" + f" {at}" * bool(under) + ".")
     assert sentences.state_in_words(run, "relaxed") == at
     assert sentences.state_in_words(run, f"segment-{len(path) - 1}") == f"at the end of segment {len(path)}, “{path[-1]}”"
+
+
+def test_full_contact_that_does_not_pay_is_no_binding_energy(tmp_path):
+    assert "or 20.00 meV/Å² (320 mJ/m²) if the whole area were in contact" in sentences.results(stored(tmp_path, ["relax"], 0.0))[2]
+    rough = sentences.results(stored(tmp_path, ["relax"], 0.0, full=-7000.0))
+    assert "full contact would store more elastic energy than adhesion gives" in rough[2] and "7000" not in rough[2]
 
 
 def test_ratios_and_uncertainties_are_those_of_each_energy(tmp_path, light):

@@ -347,8 +347,10 @@ def results(run: Result) -> list[str]:
         sentence = (f"Persson’s theory{pressed} gives γ_{{eff}} = "
                     + energy(theory, f"{percent(theory / given)} of {share}"))
         full, renormalised = run.number("theory.persson.gamma_full_contact"), run.number("theory.renormalised.gamma_eff")
-        if full is not None:
+        if full is not None and full > 0:
             sentence += f", or {energy(full)} if the whole area were in contact"
+        elif full is not None:
+            sentence += "; full contact would store more elastic energy than adhesion gives"
         if renormalised is not None:
             sentence += f"; the renormalised theory gives {energy(renormalised, f'{percent(renormalised / flat)} of Δγ')}"
         found = run.number("jkr.pull_off") if run.curved else state
