@@ -24,8 +24,9 @@
 // for each block of sixteen sites along x, in rings of lateral distance around the block. The
 // lowest site of the block gives a gap, the gap gives the lateral distance beyond which no pair
 // interacts, and only nearer offsets (atoms) are visited; the others would add exact zeros.
-// Likewise the smallest heights of the substrate show which offsets need no comparison with the
-// cutoff. The sweep over cells compares each site with the bounds of the cells near its block.
+// The smallest heights of the substrate, tabulated in the same rings, show which offsets need no
+// comparison with the cutoff. The sweep over cells compares each site with the bounds of the cells
+// near its block.
 //
 // Reproducibility: a site's force is summed in an order that depends on the site alone (index of
 // the offset, index of the atom relative to the site, index of the cell) and not on its tile, block

@@ -9,9 +9,9 @@
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
 //
 // With a device, its memory holds the fields; block() and block_to_write() are the only access.
-// Both copy the fields to the host if those of the device are newer; after block_to_write() the
-// fields are copied to the device before the next step. A reference to the block is out of date
-// after a step.
+// block() and block_to_write() copy the fields to the host if those of the device are newer; after
+// block_to_write() the fields are copied to the device before the next step. A reference to the
+// block is out of date after a step.
 #pragma once
 
 #include "engine/block/block.hpp"

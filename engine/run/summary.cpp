@@ -177,14 +177,12 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
     if (hardly)
         io::print_text(
             to,
-
             "  The works of the drive on the solids, in and out, add up to {}: hardly anything "
             "is lost.\n",
             form.with_unit(std::abs(lost)));
     else
         io::print_text(
             to,
-
             "  The works of the drive on the solids, in and out, add up to {}: energy that is "
             "{}.\n",
             form.with_unit(lost),
@@ -465,7 +463,6 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (const Number pinning = of("jkr.edge_pinning"))
         io::print_text(
             to,
-
             "  Rows of sites hold the edge of the contact: the pull-off force, and as a JKR "
             "sphere what follows from it, are about {:.3g} times too large.\n",
             *pinning);
@@ -473,7 +470,6 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         edge && *edge < 0.1 * near_edge * c.edge())
         io::print_text(
             to,
-
             "  The contact comes within {} nm of a free edge of the box, where the substrate "
             "ends: it is that of this piece. A contact that is to end by itself takes "
             "a wider box (surface.sites).\n",
@@ -482,7 +478,6 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (const Number residual = of("energy.balance_error"))
         io::print_text(
             to,
-
             "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
             "energy {}{}, to {:.1e} of the largest so far.\n",
             of("dissipated.energy") ? "dissipated" : "damped",
@@ -492,9 +487,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
                 "velocity and the choice of the surface are not included: asperity estimate.\n");
     io::print_text(
-        to,
-
-        "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
+        to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);
     std::fflush(to);
 }
