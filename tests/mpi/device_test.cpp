@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// Steps on the emulated device give the bits of the processor's: displacements, velocities and
-// every record, on any number of ranks; and what is wrong with a device's memory is reported.
+// Steps on the emulated device, and on a CUDA device where there is one, give the bits of the
+// processor's: displacements, velocities and every record, on any number of ranks; and what is
+// wrong with a device's memory is reported.
 // Reference: the processor's steps on one rank (same_bits_test).
 #include "engine/device/device_block.hpp"
 #include "engine/dynamics/simulation.hpp"
@@ -19,6 +20,7 @@
 #include <csignal>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <sys/mman.h>
 #include <unistd.h>
@@ -51,7 +53,15 @@ void PrintTo(const Variant& c, std::ostream* out) {
          << std::array{"", ", Morse", ", table"}[c.potential];
 }
 
-SimulationOptions options_of(const Variant& c, bool on_device) {
+constexpr DeviceChoice processor, emulated{DeviceChoice::Kind::emulated};
+/// Returns the emulated device and, where there is one, a CUDA device, which all ranks share.
+std::vector<DeviceChoice> devices() {
+    std::vector<DeviceChoice> all{emulated};
+    if (cuda_device() && cuda_device_count() > 0) all.push_back({DeviceChoice::Kind::cuda, 0});
+    return all;
+}
+
+SimulationOptions options_of(const Variant& c, const DeviceChoice& device) {
     SimulationOptions options;
     options.block = test::paper_block(32, c.thickness, c.layers);
     options.interface = test::paper_interface();
@@ -64,12 +74,12 @@ SimulationOptions options_of(const Variant& c, bool on_device) {
         options.damping_from = 0.3;
         options.temperature = c.temperature;
     }
-    if (on_device) options.device.kind = DeviceChoice::Kind::emulated;
+    options.device = device;
     return options;
 }
 
-test::Driven make(const Variant& c, const Communicator& ranks, bool on_device) {
-    const SimulationOptions options = options_of(c, on_device);
+test::Driven make(const Variant& c, const Communicator& ranks, const DeviceChoice& device) {
+    const SimulationOptions options = options_of(c, device);
     return test::Driven(options, test::reference_surface("c3_N32_T32_rms1.5"), ranks,
                         test::grid_for(options.block, ranks));
 }
@@ -77,8 +87,9 @@ test::Driven make(const Variant& c, const Communicator& ranks, bool on_device) {
 constexpr double height = 6.0;
 constexpr int steps = 200;
 
-Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count = steps) {
-    test::Driven s = make(c, ranks, on_device);
+Trace run(const Variant& c, const Communicator& ranks, const DeviceChoice& device,
+          int count = steps) {
+    test::Driven s = make(c, ranks, device);
     s.start(height);
     Trace trace;
     trace.follow(s, count);
@@ -88,7 +99,7 @@ Trace run(const Variant& c, const Communicator& ranks, bool on_device, int count
 
 /// The reference, on every rank.
 Trace on_processor(const Variant& c) {
-    return test::from_root([&] { return run(c, Communicator(), false); });
+    return test::from_root([&] { return run(c, Communicator(), processor); });
 }
 
 /// Settings of the emulated device for as long as it lives.
@@ -114,40 +125,44 @@ TEST_P(Device, StepsHaveTheBitsOfTheProcessor) {
     if (world().size() > 1 && !c.on_ranks) return;
     const Trace expected = on_processor(c);
     EXPECT_GT(expected.in_contact, 100) << "the scene must touch, or nothing is tested";
-    const Trace mine = run(c, world(), true);
-    EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
-    EXPECT_EQ(mine.records, expected.records);
-    EXPECT_EQ(mine.in_contact, expected.in_contact);
+    for (const DeviceChoice& device : devices()) {
+        SCOPED_TRACE(describe_device(device));
+        const Trace mine = run(c, world(), device);
+        EXPECT_EQ(mine.state, expected.state) << "displacements and velocities";
+        EXPECT_EQ(mine.records, expected.records);
+        EXPECT_EQ(mine.in_contact, expected.in_contact);
+    }
 }
 INSTANTIATE_TEST_SUITE_P(Stacks, Device, testing::ValuesIn(cases));
 
 TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
     const Variant& c = cases[0];
     const Trace expected = on_processor(c);
-    for (const bool device_first : {true, false}) {
-        const test::SharedScratch scratch("device_test");
-        Trace trace;
-        {
-            test::Driven s = make(c, world(), device_first);
-            s.start(height);
-            trace.follow(s, steps / 2);
-            test::write_checkpoint(scratch.file, s, {}, "");
-            Trace beyond; // the state goes on after it has been read
-            beyond.follow(s, 10);
+    for (const DeviceChoice& device : devices())
+        for (const bool device_first : {true, false}) {
+            SCOPED_TRACE(describe_device(device));
+            const test::SharedScratch scratch("device_test");
+            Trace trace;
+            {
+                test::Driven s = make(c, world(), device_first ? device : processor);
+                s.start(height);
+                trace.follow(s, steps / 2);
+                test::write_checkpoint(scratch.file, s, {}, "");
+                Trace beyond; // the state goes on after it has been read
+                beyond.follow(s, 10);
+            }
+            test::Driven s = make(c, world(), device_first ? processor : device);
+            test::read_checkpoint(scratch.file, s, "");
+            trace.follow(s, steps - steps / 2);
+            trace.conclude(s);
+            EXPECT_EQ(trace, expected) << (device_first ? "device first" : "processor first");
         }
-        test::Driven s = make(c, world(), !device_first);
-        test::read_checkpoint(scratch.file, s, "");
-        trace.follow(s, steps - steps / 2);
-        trace.conclude(s);
-        EXPECT_EQ(trace, expected) << (device_first ? "device first" : "processor first");
-    }
 }
 
 TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
-    std::array<Trace, 2> traces;
-    for (const bool on_device : {false, true}) {
-        test::Driven s = make(cases[0], world(), on_device);
-        Trace& trace = traces[on_device];
+    const auto written = [](const DeviceChoice& device) {
+        test::Driven s = make(cases[0], world(), device);
+        Trace trace;
         s.start(height);
         trace.follow(s, 15);
         Block& block = s.block_to_write();
@@ -155,16 +170,19 @@ TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
         block.fields(block.levels()[0]).v.view().x(1, 2, 0) = 1e-3;
         trace.follow(s, 15);
         trace.conclude(s);
-    }
-    EXPECT_EQ(traces[0], traces[1]);
+        return trace;
+    };
+    const Trace expected = written(processor);
+    for (const DeviceChoice& device : devices())
+        EXPECT_EQ(written(device), expected) << describe_device(device);
 }
 
 TEST_F(OneDevice, NoResultDependsOnTheOrderOfItsThreads) {
     if (world().size() > 1) return;
-    const Trace expected = run(cases[0], world(), true, 60);
+    const Trace expected = run(cases[0], world(), emulated, 60);
     for (unsigned order : {1u, 2u, 77u}) {
         const Emulated in_order({.order = order});
-        EXPECT_EQ(run(cases[0], world(), true, 60), expected) << "order " << order;
+        EXPECT_EQ(run(cases[0], world(), emulated, 60), expected) << "order " << order;
     }
 }
 
@@ -173,11 +191,11 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
     const auto message = [](auto&& work) { return test::message_of<io::FileError>(work); };
     {
         const Emulated small({.memory = 1 << 16});
-        const std::string text = message([] { make(cases[0], world(), true); });
+        const std::string text = message([] { make(cases[0], world(), emulated); });
         EXPECT_NE(text.find("the allocation of its memory failed"), std::string::npos) << text;
         EXPECT_NE(text.find("out of memory"), std::string::npos) << text;
     }
-    test::Driven s = make(cases[0], world(), true);
+    test::Driven s = make(cases[0], world(), emulated);
     s.start(height);
     Trace trace;
     trace.follow(s, 5);
@@ -190,7 +208,7 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
 TEST_F(OneDevice, NeverTouchesTheFieldsOfTheHost) {
     if (world().size() > 1) return;
     const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
-        test::Driven s = make(c, Communicator(), true);
+        test::Driven s = make(c, Communicator(), emulated);
         s.start(height);
         Trace trace;
         trace.follow(s, 1);
