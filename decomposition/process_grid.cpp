@@ -21,7 +21,10 @@ std::vector<int> even_cuts(int n, int p) {
 
 /// Returns the number of nodes of the largest tile over that of the mean tile.
 double fullest(int n, int px, int py) {
-    const auto largest = [n](int p) { return static_cast<double>((n + p - 1) / p); };
+    const auto largest = [n](int p) -> double {
+        const int rounded_up = (n + p - 1) / p;
+        return rounded_up;
+    };
     return largest(px) * largest(py) * px * py / (static_cast<double>(n) * n);
 }
 

@@ -24,8 +24,9 @@ struct ContactCount {
 
 /// Place of the block at a step or point, and the forces on it.
 struct PlaceAndForces {
-    double top = 0.0;   ///< displacement of the top plane, Å
-    double drive = 0.0; ///< displacement of the far end of the spring that holds the top plane, Å
+    double top = 0.0; ///< displacement of the top plane, Å
+    double drive =
+        0.0; ///< displacement of what the drive moves, Å: the top plane or its spring's end
     double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
     double force = 0.0;       ///< total normal force of the substrate on the lowest layer, eV/Å
     double top_force = 0.0;   ///< elastic force on the top plane along z, eV/Å
@@ -56,6 +57,8 @@ struct Energies {
     double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
     double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
 
+    /// Returns the elastic energy of the block without that of what holds it, eV.
+    double energy_of_block() const { return elastic_energy - machine_energy; }
     /// Returns the energy of block and interface, eV.
     double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
 

@@ -219,7 +219,7 @@ std::string_view entry(std::string_view header, std::string_view key) {
     if (at == std::string_view::npos) return {};
     at = header.find(':', at + key.size());
     if (at == std::string_view::npos) return {};
-    at = header.find_first_not_of(" ", at + 1);
+    at = header.find_first_not_of(' ', at + 1);
     if (at == std::string_view::npos) return {};
     const char end = header[at] == '(' ? ')' : ',';
     return header.substr(at, header.find(end, at) - at);

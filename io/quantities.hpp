@@ -147,7 +147,6 @@ inline constexpr Quantity result_quantities[] = {
      "approach_force in units of instruments (spheres and boxes with free edges)"},
     {"instrument.pull_off_force", "nN", per::block, "pull_off_force in units of instruments"},
     {"instrument.contact_radius", "nm", "", "contact_radius.relaxed in units of instruments"},
-    {"instrument.spring", "N/m", "", "drive.stiffness in units of instruments"},
     {"instrument.energy_lost", "aJ", per::block, "dissipated.energy in units of instruments"},
     {"instrument.edge_distance", "nm", "",
      "smallest distance of a contact from a free edge of the box on the path (surface.boundary)"},

@@ -53,7 +53,7 @@ Result::Result(Result&&) noexcept = default;
 
 void Result::put(Key key, const std::string& member, std::size_t element, Value&& value) {
     const Quantity& q = *key.quantity;
-    std::visit([&](auto&& v) { place(*values_, q.name, member, element, false) = std::move(v); },
+    std::visit([&](auto v) { place(*values_, q.name, member, element, false) = std::move(v); },
                std::move(value));
     place((*values_)["units"], q.name, member, element, true) = std::string(q.unit);
 }

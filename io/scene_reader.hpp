@@ -196,54 +196,67 @@ public:
     /// Adds an integer.
     template <class T>
     Key& integer(std::string name, T& field, Range range, std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .range = range});
+        return add(
+            {.name = std::move(name), .field = &field, .doc = std::move(doc), .range = range});
     }
     /// Adds a quantity: a number in the unit, or a string with any unit of that dimension; unit "":
     /// a bare number.
     Key& number(std::string name, double& field, std::string unit, Range range, std::string doc) {
-        return add({name, &field, doc, unit, range});
+        return add({std::move(name), &field, std::move(doc), std::move(unit), range});
     }
     /// Adds a quantity that may also be a text that does not begin like a number: adhesion =
     /// "map.npy".
     Key& number_or_text(std::string name, double& field, std::string& text, std::string unit,
                         Range range, std::string example, std::string doc) {
-        return add({.name = name,
+        return add({.name = std::move(name),
                     .field = &field,
-                    .doc = doc,
-                    .unit = unit,
+                    .doc = std::move(doc),
+                    .unit = std::move(unit),
                     .range = range,
                     .text = &text,
-                    .example = example});
+                    .example = std::move(example)});
     }
     /// Adds a quantity, or an integer without unit, that may also be a word: radius = "none".
     template <class T>
     Key& number_or(std::string name, std::optional<T>& field, std::string word, std::string unit,
                    Range range, std::string doc) {
-        return add({name, &field, doc, unit, range, word});
+        return add(
+            {std::move(name), &field, std::move(doc), std::move(unit), range, std::move(word)});
     }
     /// Adds a quantity or an integer whose field is 0 for the word "none": max_steps = "none".
     template <class T>
     Key& number_or_none(std::string name, T& field, std::string unit, Range range,
                         std::string doc) {
-        return add({name, &field, doc, unit, range, "none"});
+        return add({std::move(name), &field, std::move(doc), std::move(unit), range, "none"});
     }
     /// Adds an integer that may also be a length, from which the caller derives the number: sites =
     /// "133 nm".
     Key& count_or_length(std::string name, int& field, std::optional<double>& length, Range range,
                          std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .range = range, .length = &length});
+        return add({.name = std::move(name),
+                    .field = &field,
+                    .doc = std::move(doc),
+                    .range = range,
+                    .length = &length});
     }
     /// Adds a quantity that may also be one of another dimension, from which the caller derives the
     /// number: load = "20 nN".
     Key& quantity_or(std::string name, double& field, std::string unit, Key::Other other,
                      std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .unit = unit, .other = other});
+        return add({.name = std::move(name),
+                    .field = &field,
+                    .doc = std::move(doc),
+                    .unit = std::move(unit),
+                    .other = std::move(other)});
     }
     /// Adds a list of strings. A member is valid if it equals a choice, or if it is a choice that
     /// ends in ':' followed by a positive integer ("every:1000"). Without choices every member is
     /// valid.
     Key& list(std::string name, Words& field, Words choices, std::string doc) {
-        return add({.name = name, .field = &field, .doc = doc, .choices = choices});
+        return add({.name = std::move(name),
+                    .field = &field,
+                    .doc = std::move(doc),
+                    .choices = std::move(choices)});
     }
     /// Adds a list of rows of quantities: layers = [["2 nm", "10 GPa", 0.3]]. With Key::text the
     /// value may also be the name of a file, from which the caller fills in the rows.
@@ -257,17 +270,20 @@ public:
         };
         const auto get = [&field] {
             std::vector<std::vector<double>> rows;
+            rows.reserve(field.size());
             for (const std::array<double, N>& row : field)
                 rows.emplace_back(row.begin(), row.end());
             return rows;
         };
-        return add({name, Rows{{columns.begin(), columns.end()}, set, get}, doc});
+        return add(
+            {std::move(name), Rows{{columns.begin(), columns.end()}, set, get}, std::move(doc)});
     }
     /// Adds an enumeration. names: word and value of each choice.
     template <class E>
     Key& choice(std::string name, E& field, std::vector<std::pair<std::string, E>> names,
                 std::string doc) {
         Words words;
+        words.reserve(names.size());
         for (const auto& [word, value] : names)
             words.push_back(word);
         const Choice choice{[&field, names](std::size_t i) { field = names[i].second; },
@@ -277,7 +293,10 @@ public:
                                     ++i;
                                 return i;
                             }};
-        return add({.name = name, .field = choice, .doc = doc, .choices = words});
+        return add({.name = std::move(name),
+                    .field = choice,
+                    .doc = std::move(doc),
+                    .choices = std::move(words)});
     }
 
     /// Key or value of earlier releases that this release refuses.

@@ -44,16 +44,16 @@ struct PairwiseSum {
         ASPERITY_UNROLL(4)
         for (int level = 0; level < levels; ++level) {
             const bool first = !(n >> level & 1);
-            if (!waits && first) half[level] = sum;
+            if (!waits && first) half_[level] = sum;
             waits = waits || first;
-            if (!waits) sum.merge(half[level]);
+            if (!waits) sum.merge(half_[level]);
         }
         all = sum; // in the end
     }
     Sum all;
 
 private:
-    Sum half[levels > 0 ? levels : 1]; ///< [level]: a sum that waits
+    Sum half_[levels > 0 ? levels : 1]; ///< [level]: a sum that waits
 };
 
 /// A substrate, and the constants of a sweep over it.

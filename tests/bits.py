@@ -8,7 +8,7 @@
 
 Runs small scenes with both, and compares every number of result.json and every data set of run.h5. What differs is
 named, with its largest relative difference; the exit code is then 1. ASPERITY_KERNELS=v2|v3|v4 and OMP_NUM_THREADS
-choose kernels and threads of both, --launch "mpirun -n 2" starts the second one on ranks. About a minute.
+choose kernels and threads of both, --launch "mpirun -n 2" starts the second one on ranks. About two minutes.
 """
 
 import json
@@ -24,6 +24,7 @@ import numpy as np
 SMALL = ["surface.sites=32", "block.thickness=32"]
 TIME = [*SMALL, "drive.timestep=40", "drive.velocity=60"]
 REST = [*SMALL, "drive.mode=quasistatic"]
+WALL = [*REST, "interface.kind=wall"]
 SCENES = {
     "multiscale": TIME,
     "lattice": [*TIME, "block.thickness=12", "block.model=lattice"],
@@ -34,6 +35,17 @@ SCENES = {
     "quasi-static": REST,
     "mean height controlled": [*REST, "drive.control=mean-height"],
     "wall": [*REST, "interface.kind=wall", "drive.control=mean-height"],
+    "spring in time": [*TIME, "drive.stiffness=20", "drive.damping=0.1"],
+    "spring": [*WALL, "drive.stiffness=20"],
+    "free edges, spring": [*WALL, "surface.radius=200", "surface.boundary=free", "drive.stiffness=20",
+                           "surface.rms=0.3", "interface.adhesion=10"],
+    "layers, surface stress, w(x, y)": [*WALL, 'block.layers=[["1 nm", "10 GPa", 0.3]]', "block.surface_stress=0.5",
+                                        "interface.adhesion=stripes 20 60 4nm"],
+    "viscoelastic": [*REST, 'block.prony=[[1.0, "1 ns"]]', "drive.control=mean-height"],
+    "slide": [*WALL, 'drive.path=["load 100 MPa", "slide x 2 nm under load"]', "drive.control=mean-height"],
+    "atoms, slide": [*TIME, 'drive.path=["approach", "slide x 0.5 nm"]'],
+    "Morse": [*TIME, "interface.potential=morse"],
+    "frictionless": [*REST, "interface.frictionless=true"],
 }
 # Of the build, of the machine and of the clock, at any depth of result.json.
 NOT_COMPARED = {"version", "git", "compiler", "flags", "mpi", "hdf5", "fftw", "machine", "host", "date", "digest",

@@ -100,12 +100,14 @@ struct Case {
     std::optional<double> radius() const {
         return surface.radius > 0.0 ? std::optional(surface.radius) : std::nullopt;
     }
-    /// Returns true if forces are reported in nN and lengths in nm, which is so for spheres and for
-    /// free edges.
-    bool in_newtons() const { return effects.free_edges || radius().has_value(); }
-    /// Returns the size of box and block as text: "64 x 64 sites, box 166 Å, 64 layers in 3
-    /// levels".
+    /// Returns true if forces are reported in nN and lengths in nm: where the contact is bounded.
+    bool in_newtons() const { return effects.bounded_contact(); }
+    /// Returns the size of the box as text: "64 x 64 sites, 166.4 Å wide".
     std::string box_in_words() const;
+    /// Returns the size of the block as text: "64 layers (166.4 Å)".
+    std::string block_in_words() const;
+    /// Returns true if the block between interface and top plane is a spring that can jump.
+    bool jumps_as_a_whole() const;
     /// Returns a number of sites divided by the number of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.

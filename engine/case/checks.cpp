@@ -311,34 +311,9 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "frictionless = false");
 
     check_path(c, problems);
-    if (drive.stiffness && drive.control == Control::mean_height)
-        problems.add(
-            "drive.stiffness",
-            fmt::format("= {:.6g} N/m with drive.control = \"mean-height\"", *drive.stiffness),
-            "the mean height is prescribed as by a machine that is hard, whatever holds "
-            "the top plane",
-            "take control = \"top\", or leave stiffness out");
-    if (scene.has_free_edges() && drive.control == Control::mean_height)
-        problems.add("drive.control", "= \"mean-height\" with surface.boundary = \"free\"",
-                     "the surface goes on beyond the box, and displacements are measured from far "
-                     "away",
-                     "take control = \"top\"");
     if (surface.kind == SurfaceKind::file && surface.file_missing == MapMissing::hole && !wall)
         problems.add("surface.file_missing", "= \"hole\" without a wall",
                      "of a layer of atoms no place is empty", "take interface.kind = \"wall\"");
-    if (drive.stiffness && !scene.block.prony.empty())
-        problems.add("drive.stiffness",
-                     fmt::format("= {:.6g} N/m with block.prony", *drive.stiffness),
-                     "what a block remembers is measured from a top plane that the drive moves",
-                     "leave stiffness or prony out");
-    if (drive.stiffness && c.effects.dynamic && drive.temperature > 0.0)
-        problems.add(
-            "drive.stiffness",
-            fmt::format("= {:.6g} N/m with drive.temperature = {:.6g} K", *drive.stiffness,
-                        drive.temperature),
-            "a top plane on a spring is damped without thermal noise of its own, and would "
-            "cool the block",
-            "leave stiffness or temperature out");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\", or leave rms out to take the map as it is");
@@ -402,9 +377,6 @@ std::vector<io::Problem> device_problems(const Case& c) {
     if (c.has(Segment::slide))
         refuse("a slide in drive.path",
                "a device keeps its copy of the substrate where it is, and a slide moves it",
-               "take numerics.device = \"none\"");
-    if (c.scene.drive.stiffness)
-        refuse("drive.stiffness", "a device moves the top plane as the drive moves",
                "take numerics.device = \"none\"");
     if (!fuses(processor_level()))
         refuse(fmt::format("kernels of level {}", name(processor_level())),

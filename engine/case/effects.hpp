@@ -53,6 +53,8 @@ struct Effects {
 
     /// Returns true if the block has no layers and no surface stress, as the theories assume.
     bool one_modulus() const { return !layers && !surface_stress; }
+    /// Returns true if the contact ends within the box: of a sphere, or with free edges.
+    bool bounded_contact() const { return curvature || free_edges; }
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
 };

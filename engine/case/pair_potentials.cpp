@@ -47,7 +47,7 @@ struct BadTable {
 
 /// Returns the path of a table. Throws BadTable.
 std::string table_file(const Case& c, const std::string& file) {
-    const std::string found = find_beside_scene(c.scene, file, "interface.table");
+    std::string found = find_beside_scene(c.scene, file, "interface.table");
     if (found.empty())
         throw BadTable{"there is no such file", table_format,
                        "give the path of such a file, relative to the scene or to the working "
@@ -146,17 +146,17 @@ struct Entry {
     std::vector<std::string> words, quantities;
     explicit Entry(const std::string& text) {
         std::istringstream in(text);
-        for (std::string word; in >> word;)
-            if (words.size() == 2 && words[1] == Tabulated::name)
-                words.push_back(word); // any file name
-            else if (std::string_view("+-.0123456789").find(word.front()) !=
-                         std::string_view::npos &&
-                     !words.empty())
+        for (std::string word; in >> word;) {
+            const bool is_file = words.size() == 2 && words[1] == Tabulated::name;
+            const bool is_number =
+                std::string_view("+-.0123456789").find(word.front()) != std::string_view::npos;
+            if (is_number && !is_file && !words.empty())
                 quantities.push_back(word);
-            else if (quantities.empty())
+            else if (is_file || quantities.empty())
                 words.push_back(word);
             else
                 quantities.back() += " " + word;
+        }
     }
 };
 

@@ -169,9 +169,10 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                     "take 2.5e-4, the default");
 }
 
-/// Refuses a load under which a sphere's contact would be wider than a box with free edges, by JKR.
+/// Refuses a load under which a sphere's contact would be wider than a substrate that ends at the
+/// edges of the box, by JKR.
 void refuse_wide_contact(const Case& c, io::Problems& refused) {
-    if (!c.effects.free_edges || !c.radius()) return;
+    if (c.surface.repeats || !c.radius()) return;
     double modulus = 0.0;
     for (const Material& material : c.simulation.block.materials())
         modulus = std::max(modulus, material.contact_modulus());
@@ -186,8 +187,7 @@ void refuse_wide_contact(const Case& c, io::Problems& refused) {
                                                           0.9 * most / units::nanonewton)
                                             : std::string();
         refused.add(key, fmt::format("{} needs a contact wider than the box", shown),
-                    fmt::format("by JKR it would be {:.4g} nm wide, and the box with free edges is "
-                                "{:.4g} nm",
+                    fmt::format("by JKR it would be {:.4g} nm wide, and the substrate is {:.4g} nm",
                                 0.2 * radius, 0.1 * c.edge()),
                     fmt::format("take surface.sites = {:.0f}{}", sites, less));
     };

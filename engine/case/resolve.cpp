@@ -8,6 +8,7 @@
 #include "engine/scene/parse_path.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
+#include "io/terminal.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
 
@@ -111,7 +112,8 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
         block.layers.push_back({{young * units::gigapascal, poisson},
                                 static_cast<int>(std::lround(thickness / block.spacing))});
     block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
-    if (!dynamic) block.top_spring = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
+    block.top_spring = {scene.drive.stiffness.value_or(0.0) * units::newton_per_metre,
+                        scene.drive.mass.value_or(0.0) * units::atomic_mass};
     block.free_edges = scene.has_free_edges() && !dynamic;
     return block;
 }
@@ -134,7 +136,6 @@ void fill_interface(Case& c) {
     const double a = scene.surface.spacing, site = a * a;
     InterfaceOptions& options = c.simulation.interface;
     options.tail = i.tail;
-    options.free_edges = c.effects.free_edges;
     const std::string in_double = why_in_double(c);
     options.mixed = scene.numerics.precision == Precision::mixed && in_double.empty();
     if (scene.numerics.precision == Precision::mixed && !options.mixed)
@@ -297,8 +298,6 @@ void fill_motion(Case& c, io::Problems& refused) {
     drive.ramp = scene.drive.ramp ? *scene.drive.ramp * units::picosecond : crossing;
     drive.area = c.area();
     drive.control = scene.drive.control;
-    drive.stiffness = scene.drive.stiffness.value_or(0.0) * units::newton_per_metre;
-    drive.mass = scene.drive.mass.value_or(0.0) * units::atomic_mass;
     if (scene.drive.max_steps > 0) drive.max_steps = scene.drive.max_steps;
     drive.load_force = scene.drive.load * units::megapascal * drive.area;
     if (c.effects.temperature)
@@ -322,9 +321,9 @@ void fill_motion(Case& c, io::Problems& refused) {
 
     const double highest = block.highest_frequency(c.scales.stiffness);
     double of_top = 0.0;
-    if (drive.mass > 0.0) {
+    if (const TopSpring& spring = block.top_spring; spring.mass > 0.0) {
         const double column = (block.lame() + 2.0 * block.shear_modulus()) * block.spacing;
-        of_top = std::sqrt((drive.stiffness + column * c.sites()) / drive.mass);
+        of_top = std::sqrt((spring.stiffness + column * c.sites()) / spring.mass);
     }
     c.longest_timestep = 2.0 / std::max(highest, of_top);
     const double period = std::numbers::pi * c.longest_timestep; // period of the fastest vibration
@@ -419,13 +418,20 @@ double Case::load_in_megapascal() const {
 }
 
 std::string Case::box_in_words() const {
+    const int sites = simulation.block.sites;
+    if (!in_newtons()) return fmt::format("{0} x {0} sites, {1:.1f} Å wide", sites, edge());
+    return fmt::format("{0} x {0} sites, {1} nm wide{2}", sites, io::cell(0.1 * edge()),
+                       effects.free_edges ? ", with free edges" : "");
+}
+
+std::string Case::block_in_words() const {
     const BlockOptions& block = simulation.block;
-    const std::string sites = fmt::format("{0} x {0} sites", block.sites);
-    if (effects.free_edges)
-        return fmt::format("{}, {:.6g} nm wide, with free edges; a half-space", sites,
-                           0.1 * edge());
-    return fmt::format("{}, box {:.6g} Å, {} layers in {} level{}", sites, edge(), block.thickness,
-                       levels.size(), levels.size() == 1 ? "" : "s");
+    if (effects.free_edges) return "a half-space";
+    return fmt::format("{} layers ({:.1f} Å)", block.thickness, block.thickness * block.spacing);
+}
+
+bool Case::jumps_as_a_whole() const {
+    return simulation.drive.control == Control::top && !effects.free_edges;
 }
 
 ProcessGrid Case::grid(int rank) const {

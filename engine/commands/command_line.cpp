@@ -220,6 +220,7 @@ io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Co
                             command)});
         if (!word.starts_with("--") || std::ranges::find(names, word) != names.end()) continue;
         std::vector<std::string> words; // without dashes, which all have
+        words.reserve(names.size());
         for (const std::string& name : names)
             words.push_back(name.substr(2));
         const std::string near = io::nearest(word.substr(2), words);

@@ -141,7 +141,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root() || given.quiet) return io::exit_code::done;
     fmt::print("{}: nothing wrong\n", c.scene.file);
-    fmt::print("  {}\n", c.box_in_words());
+    fmt::print("  {}; {}\n", c.box_in_words(), c.block_in_words());
     if (c.effects.dynamic)
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));

@@ -71,6 +71,7 @@ std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int
     std::vector<std::string> words = {interpreter, "-m", "asperity"};
     words.insert(words.end(), argv + 1, argv + argc);
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words)
         pointers.push_back(word.data());
     pointers.push_back(nullptr);

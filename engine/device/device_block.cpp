@@ -25,7 +25,8 @@ const DeviceFunctions& functions_of(const DeviceChoice& choice) {
 /// one.
 DeviceChoice own_device(DeviceChoice choice, const Communicator& ranks) {
     const int devices = choice.kind == DeviceChoice::Kind::cuda ? cuda_device_count() : 0;
-    if (choice.index < devices) choice.index = (choice.index + ranks.local_rank()) % devices;
+    if (devices > 0 && choice.index < devices)
+        choice.index = (choice.index + ranks.local_rank()) % devices;
     return choice;
 }
 

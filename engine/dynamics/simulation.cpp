@@ -13,13 +13,10 @@ namespace asperity {
 Simulation::Simulation(const SimulationOptions& options, const Surface& substrate,
                        const Communicator& communicator, const ProcessGrid& grid)
     : options_(options), block_(options.block, communicator, grid),
-      interface_(substrate, grid.tile(0), options.block.spacing, options.interface) {
+      interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
+      top_(options.block.top_spring, block_.mass(), options.damping) {
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
-    if (options.drive.stiffness > 0.0)
-        top_spring_ = {options.drive.stiffness,
-                       options.drive.mass > 0.0 ? options.drive.mass : block_.mass(),
-                       options.damping};
     if (options.device) device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);
 }
 
@@ -28,7 +25,7 @@ Simulation::~Simulation() = default;
 
 void Simulation::start(double height, double velocity) {
     interface_.set_reference_height(height);
-    top_ = {.velocity = velocity};
+    top_.start(velocity);
     step_ = 0;
     record_ = {};
     ledger_ = {};
@@ -50,8 +47,7 @@ void Simulation::set_top(double z) {
 //   thermostat    noise on v(n+1/2) and u(n+1), if the scene has a temperature
 //   exchange      halos of u(n+1)
 //   sums          what the ranks summed at n, added up; work and dissipation integrated
-// The top plane moves to n+1 at the end of advance: as the machine does, or, on a spring, by the
-// force of the block on it at n.
+// The top plane moves to n+1 at the end of advance (Top::move()).
 const StepRecord& Simulation::step(const TopMotion& motion, bool observe) {
     top_.machine = motion;
     if (device_) {
@@ -85,8 +81,6 @@ void Simulation::step_on_device(bool observe) {
         block_, interface_.reference_height(),
         {options_.dt, options_.damping, options_.damping_from, top_.machine.z, observe},
         thermostat_ ? std::optional(noise(step_)) : std::nullopt);
-    top_.move(options_.dt);
-    block_.note_top(top_.z);
     sums_ = {.interface = sums.interface,
              .kick = sums.kick,
              .noise = sums.noise,
@@ -95,6 +89,8 @@ void Simulation::step_on_device(bool observe) {
              .elastic = sums.elastic,
              .top = {},
              .lateral = {}};
+    move_top();
+    block_.note_top(top_.z);
     begin_record(observe);
 }
 
@@ -147,8 +143,7 @@ void Simulation::advance_block(bool observe) {
 }
 
 void Simulation::move_top() {
-    if (!top_spring_) return top_.move(options_.dt);
-    sums_.top = top_.move(options_.dt, top_spring_, global_sum(communicator(), sums_.top_force));
+    sums_.top = top_.move(options_.dt, [&] { return global_sum(communicator(), sums_.top_force); });
 }
 
 /// Sums over u(n), before it moves on.
@@ -177,23 +172,20 @@ void Simulation::enter_in_ledger() {
     const auto [force, lowest, top_force, dissipated, dragged, heat, interface_energy, elastic,
                 kinetic, of_step] = sums;
     const double sites = static_cast<double>(options_.block.sites);
-    const double top = top_.z_before(options_.dt), drive = top_.drive_before(options_.dt);
-    const double spring = top_spring_.stiffness * (drive - top);
-    const double in_spring = 0.5 * spring * (drive - top);
-    StepTotals now{{.top = top,
-                    .drive = top_spring_ ? drive : top,
+    StepTotals now{{.top = top_.z_before(options_.dt),
+                    .drive = top_.drive_before(options_.dt),
                     .mean_height = interface_.reference_height() + lowest / (sites * sites),
                     .force = force,
                     .top_force = top_force},
                    {.interface_energy = interface_energy,
-                    .elastic_energy = elastic + in_spring,
-                    .kinetic_energy = kinetic + sums_.top.kinetic,
-                    .time_step_energy = thermostat_ ? of_step : 0.0,
-                    .machine_energy = in_spring},
-                   top_spring_ ? -spring : top_force,
+                    .elastic_energy = elastic,
+                    .kinetic_energy = kinetic,
+                    .time_step_energy = thermostat_ ? of_step : 0.0},
+                   top_.machine_force_before(options_.dt, top_force),
                    dissipated + sums_.top.dissipated,
                    top_.machine.z * (dragged + sums_.top.dragged),
                    heat};
+    top_.add_energies(options_.dt, sums_.top, now);
     if (slides()) {
         now.slide = interface_.place();
         now.lateral_force = global_sums(communicator(), sums_.lateral);

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The simulation: a block under its top plane, an interface, and the time step. The caller
-// prescribes the velocity of the machine in each step: of the top plane, or of the far end of its
-// spring.
+// The simulation: a block under its top plane (top.hpp), an interface, and the time step. The
+// caller prescribes the velocity of the machine in each step.
 //
 // Velocity Verlet in its leapfrog form: positions at whole steps n, velocities at half steps. At
 // the start of step n the state is u(n), v(n-1/2), halos of u current.
@@ -64,9 +63,8 @@ public:
     const Top& top() const { return top_; }
     /// Sets the displacement of the top plane and the machine at the next step, Å.
     void set_top(double z);
-    /// Returns the mass of the block, plus that of a top plane on a spring, eV fs^2/Å^2. Not
-    /// collective.
-    double moving_mass() const { return block_.mass() + top_spring_.mass; }
+    /// Returns the mass of the block and of its top plane, eV fs^2/Å^2. Not collective.
+    double moving_mass() const { return block_.mass() + top_.mass(); }
     long long steps() const { return step_; } ///< returns the number of steps so far
     /// Returns the time after these steps, fs.
     double time() const { return static_cast<double>(step_) * options_.dt; }
@@ -133,7 +131,6 @@ private:
     mutable Block block_; ///< fields of the host; const functions bring them up to date
     Interface interface_;
     Top top_;
-    TopSpring top_spring_;
     std::optional<Thermostat> thermostat_; ///< thermostat; empty at zero temperature
     std::unique_ptr<DeviceBlock> device_;  ///< block on a device; null: none
     mutable bool device_is_newer_ = false;
@@ -153,16 +150,11 @@ void Simulation::visit(Visitor& v) {
     double height = interface_.reference_height();
     v("reference_height", height);
     if constexpr (Visitor::restores) interface_.set_reference_height(height);
-    v("top", top_.z);
+    top_.visit(v);
     v("record", record_);
     v("ledger", ledger_);
-    if (top_spring_) {
-        v("machine", top_.drive);
-        v("top_velocity", top_.velocity);
-    }
     if (slides()) v("place", top_.place);
     if constexpr (Visitor::restores) {
-        if (!top_spring_) top_.drive = top_.z;
         block_to_write().set_top(top_.z);
         if (slides()) interface_.slide_to(record_.slide[0], record_.slide[1]);
     }

@@ -16,7 +16,7 @@ namespace asperity {
 
 /// Work and dissipation since the start, eV.
 struct EnergyBalance {
-    /// Work of the machine on the top plane or its spring, sideways included.
+    /// Work of the machine on the top plane, or on what holds the plane, sideways included.
     double top_work = 0.0;
     double lateral = 0.0;   ///< part of top_work that moves the block sideways
     double drag_work = 0.0; ///< work of the moving damping medium on the block

@@ -71,8 +71,8 @@ InterfaceOptions within_single(InterfaceOptions options) {
 Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
     : options_(within_single(options)), tile_(tile), spacing_(spacing),
-      map_(substrate, options.free_edges ? tile.sites / 2 : tile.sites, spacing),
-      method_(method_for(options, substrate, tile.sites)),
+      across_(static_cast<int>(std::lround(substrate.length / spacing))),
+      map_(substrate, across_, spacing), method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
     set_reference_height(start_height());
     if (options.tail && !wall()) find_mean_heights();
@@ -127,11 +127,13 @@ Interface::Substrate Interface::substrate_of(const AtomPositions& atoms) const {
         throw std::invalid_argument(std::string("interface: ") + why);
     };
     const bool anywhere = atoms.size() > 0;
+    if (across_ > tile_.sites || (across_ < tile_.sites && method_ != InterfaceMethod::wall))
+        refuse("the substrate and the box differ in width");
     if (method_ != InterfaceMethod::wall) check(options_, anywhere, spacing_, map_.spacing());
     switch (method_) {
     case InterfaceMethod::wall:
         if (!options_.wall) refuse("a wall needs its law");
-        return OverWall(map_, tile_, options_);
+        return OverWall(map_, across_, tile_, options_);
     case InterfaceMethod::cells:
         if (!anywhere) refuse("the sweep over cells needs atoms anywhere, and there are none");
         return OverAtoms(atoms, tile_, spacing_, options_);

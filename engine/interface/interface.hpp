@@ -71,7 +71,8 @@ void crop_map(std::vector<T>& map, int across, int n) {
 class Interface {
 public:
     /// Makes the tables; copies the needed part of the surface. spacing: a, the block's lattice
-    /// constant, Å.
+    /// constant, Å. A wall may end below the first sites of the tile's grid, where the substrate's
+    /// length is less than the grid's; no solid is below the others.
     Interface(const Surface& substrate, const Tile& tile, double spacing,
               const InterfaceOptions& options);
 
@@ -121,9 +122,8 @@ public:
     /// Returns the number of atoms across the box, for a substrate that is a map.
     int substrate_sites() const { return map_.sites(); }
     const InterfaceOptions& options() const { return options_; }
-    /// Returns the number of sites across the box above the substrate: N; with free edges the grid
-    /// of the tile has 2N.
-    int sites_across() const { return options_.free_edges ? tile_.sites / 2 : tile_.sites; }
+    /// Returns the number of sites across the box above the substrate, N.
+    int sites_across() const { return across_; }
     std::size_t bytes() const; ///< returns the memory of the tables, bytes
 
 private:
@@ -138,6 +138,7 @@ private:
     InterfaceOptions options_;
     Tile tile_;
     double spacing_;
+    int across_;    ///< number of sites across the substrate
     HeightMap map_; ///< heights; for atoms anywhere, those of the topmost atoms
     InterfaceMethod method_;
     Substrate substrate_;

@@ -21,6 +21,7 @@ CellOptions cell_options(const InterfaceOptions& options, double spacing) {
             "of {} Å at most; it was asked for {} Å{}",
             largest_cell_cutoff, pairs.cutoff, options.tail ? ", a tail" : ""));
     std::vector<double> cutoffs;
+    cutoffs.reserve(static_cast<std::size_t>(pairs.types));
     for (int type = 0; type < pairs.types; ++type)
         cutoffs.push_back(cutoff_of(pairs.of[type]));
     return {spacing, std::move(cutoffs), sideways_margin(spacing), options.skip};

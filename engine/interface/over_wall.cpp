@@ -9,14 +9,15 @@
 
 namespace asperity {
 
-OverWall::OverWall(const HeightMap& map, const Tile& tile, const InterfaceOptions& options)
+OverWall::OverWall(const HeightMap& map, int across, const Tile& tile,
+                   const InterfaceOptions& options)
     : law_(*options.wall) {
     const int n = map.sites();
-    if (tile.sites != (options.free_edges ? 2 * n : n))
+    if (across != n)
         throw std::invalid_argument(fmt::format(
             "interface: a wall needs a height below each site, and {} x {} sites have {} x {}; "
             "take surface.lattice_ratio = 1",
-            tile.sites, tile.sites, map.sites(), map.sites()));
+            across, across, n, n));
     if (options.slides) {
         sliding_.emplace(map, tile);
         return;
@@ -25,14 +26,14 @@ OverWall::OverWall(const HeightMap& map, const Tile& tile, const InterfaceOption
     const PlaneView<double> below = height_.plane(0);
     for (int y = 0; y < tile.ny; ++y)
         for (int x = 0; x < tile.nx; ++x)
-            below(x, y) = options.free_edges && (tile.x0 + x >= n || tile.y0 + y >= n)
-                              ? std::numeric_limits<double>::quiet_NaN()
-                              : map.at(tile.x0 + x, tile.y0 + y);
+            below(x, y) = tile.x0 + x < n && tile.y0 + y < n
+                              ? map.at(tile.x0 + x, tile.y0 + y)
+                              : std::numeric_limits<double>::quiet_NaN();
     if (!options.adhesion) return;
-    if (const int across = options.adhesion->sites; across != n)
+    if (options.adhesion->sites != n)
         throw std::invalid_argument(
             fmt::format("interface: {} x {} sites have a field of {} x {} works of adhesion", n, n,
-                        across, across));
+                        options.adhesion->sites, options.adhesion->sites));
     factor_ = Field<double>(tile, 1, 0);
     const PlaneView<double> factor = factor_.plane(0);
     for (int y = 0; y < tile.ny; ++y)

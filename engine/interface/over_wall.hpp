@@ -19,10 +19,10 @@ namespace asperity {
 /// A wall in place of atoms.
 class OverWall {
 public:
-    /// Makes the wall below the sites of a tile. With free edges the map is below the first N x N
-    /// of 2N x 2N sites, and the other sites have no solid below them. With options.slides, which
-    /// excludes free edges, slide_to() moves the map.
-    OverWall(const HeightMap& map, const Tile& tile, const InterfaceOptions& options);
+    /// Makes the wall below the first across x across sites of the grid of a tile; the other sites
+    /// have no solid below them. With options.slides slide_to() moves the map, which then is below
+    /// all sites.
+    OverWall(const HeightMap& map, int across, const Tile& tile, const InterfaceOptions& options);
 
     /// Moves the block to (x, y) over the wall, Å. Requires options.slides.
     void slide_to(double x, double y) { sliding_->slide_to(x, y); }

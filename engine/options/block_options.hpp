@@ -42,6 +42,13 @@ struct MaterialLayer {
     int cells = 0; ///< thickness in cells of edge a
 };
 
+/// The spring between the machine and the top plane of a block, and the plane's mass.
+struct TopSpring {
+    double stiffness = 0.0; ///< eV/Å^2; 0: the machine moves the plane itself
+    double mass = 0.0;      ///< eV fs^2/Å^2, in time steps; 0: the mass of the block's nodes
+    explicit operator bool() const { return stiffness > 0.0; }
+};
+
 /// Shape, elasticity and resolution of a block.
 struct BlockOptions : Material {
     int sites = 512;        ///< atoms across the box, N
@@ -56,9 +63,8 @@ struct BlockOptions : Material {
     /// last layer.
     std::vector<MaterialLayer> layers{};
     double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
-    /// Stiffness of the spring that holds the top plane of a block at rest, eV/Å^2; 0: none.
-    double top_spring = 0.0;
-    bool free_edges = false; ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
+    TopSpring top_spring{};      ///< spring that holds the top plane
+    bool free_edges = false;     ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }

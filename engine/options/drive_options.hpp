@@ -16,10 +16,8 @@ enum class Control { top, mean_height };
 
 /// Options of the drive, in the units of the engine.
 struct DriveOptions {
-    double velocity = 5e-5; ///< Å/fs
-    double ramp = 0.0;      ///< time over which a velocity changes, fs
-    double stiffness = 0.0; ///< stiffness of the spring that holds the top plane, eV/Å^2; 0: rigid
-    double mass = 0.0;      ///< mass of a top plane on a spring, eV fs^2/Å^2; 0: mass of the block
+    double velocity = 5e-5;  ///< Å/fs
+    double ramp = 0.0;       ///< time over which a velocity changes, fs
     double load_force = 0.0; ///< total normal force at which an approach ends, eV/Å
     double area = 1.0;       ///< area of the interface, Å^2
     /// Time over which the force that ends a segment is averaged, fs, for a warm block, whose force

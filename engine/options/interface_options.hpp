@@ -59,7 +59,6 @@ struct InterfaceOptions {
     bool tail = false;             ///< continuum correction beyond the cutoff
     bool mixed = false;            ///< pairs in single precision, in the sweep over a lattice
     bool mixed_on_request = false; ///< SweepOptions::mixed_precision may be used
-    bool free_edges = false;       ///< a wall below the first N x N of 2N x 2N sites
     bool slides = false;           ///< Interface::slide_to() may be used
     InterfaceMethod method = InterfaceMethod::automatic;
     /// Skip offsets or atoms beyond reach; false: visit all, with bitwise identical results, for

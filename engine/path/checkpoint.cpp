@@ -172,7 +172,7 @@ std::string differing_keys(const io::Json& one, const io::Json& other) {
             for (const auto& [key, value] : values.items())
                 if (!b->contains(section) || !(*b)[section].contains(key) ||
                     (*b)[section][key] != value)
-                    keys.insert(section + "." + key);
+                    keys.insert(fmt::format("{}.{}", section, key));
     return fmt::format("{}", fmt::join(keys, ", "));
 }
 

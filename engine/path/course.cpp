@@ -84,8 +84,7 @@ void Course::begin(std::size_t segment, const StepRecord& now, double seconds) {
     if (case_.path()[segment].kind == Segment::approach) descent_.clear();
 }
 
-/// Returns the place along approach and pull-off, Å: what the drive moves, and of a spring its far
-/// end, as the top plane hardly moves while a soft spring is stretched.
+/// Returns the place along approach and pull-off, Å: of what the drive moves.
 double Course::place(const StepRecord& now) const {
     return case_.simulation.drive.control == Control::mean_height ? now.mean_height : now.drive;
 }

@@ -86,7 +86,7 @@ struct PathResults {
     std::optional<double> dissipated_in_block_in_cycle;
     double strongest = 0.0;              ///< strongest attraction of the path so far, eV/Å
     std::optional<double> contact_made;  ///< time of the end of the last approach, fs
-    std::optional<double> edge_distance; ///< least distance of a contact from a free edge, Å
+    std::optional<double> edge_distance; ///< least distance of a contact from an edge, Å
     /// Dissipation of a quasi-static path; the path keeps the numbers for checkpoints.
     std::optional<Dissipation> dissipated;
     std::vector<SegmentResults> segments; ///< segments that have ended

@@ -66,7 +66,7 @@ void StaticPath::record_slide() {
 }
 
 void StaticPath::look_at_edges() {
-    if (!case_.effects.free_edges) return;
+    if (interface_.sites_across() == interface_.tile().sites) return; // the substrate has no edges
     const InterfaceMaps maps = interface_.maps(layer());
     const int n = interface_.sites_across(), first = interface_.tile().y0;
     int nearest = n;

@@ -68,7 +68,7 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
 double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
     const Tile tile = c.grid(rank).tile(0);
     const BlockOptions& block = c.simulation.block;
-    const double grid = static_cast<double>(block.grid()) / block.sites; // two with free edges
+    const double grid = static_cast<double>(block.grid()) / block.sites; // per site, along an edge
     const double one = std::pow(grid * piece.sites, 2), h = 2.0 * halo_width;
     const double whole = std::pow(block.grid(), 2) / one;
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
@@ -184,7 +184,7 @@ Plan make_plan(const Case& c, int threads) {
 
 void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
-    io::print_text(to, "{}: {}\n\n", c.scene.name, c.box_in_words());
+    io::print_text(to, "{}: {}; {}\n\n", c.scene.name, c.box_in_words(), c.block_in_words());
     io::Table effects({"effect", "", "because"}, "<<<");
     for (const auto& [name, effect] : c.effects.list())
         effects.row({name, effect ? "on" : "off", effect.why});

@@ -99,7 +99,8 @@ Surface stand_in(Case piece, double rms, int atoms) {
     for (int i = 0; i < atoms; ++i) {
         at.x.push_back(block.spacing * (i % block.sites));
         at.y.push_back(block.spacing * (i / block.sites % block.sites));
-        at.z.push_back(-block.spacing * (i / (block.sites * block.sites)));
+        const int layer = i / (block.sites * block.sites);
+        at.z.push_back(-block.spacing * layer);
         if (!piece.types.empty()) at.type.push_back(0);
     }
     return surface_from_atoms(s, std::move(at));

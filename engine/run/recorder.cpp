@@ -186,7 +186,7 @@ Path::Wish Recorder::wish_of_row() const {
 void Recorder::row(const Path& path) {
     std::vector<double> row;
     for (const SeriesColumn* c : columns_)
-        row.push_back(c->value(path));
+        row.push_back(c->value(path, path.now()));
     ++rows_;
     communicator_.on_root([&] {
         waiting_.insert(waiting_.end(), row.begin(), row.end());

@@ -3,6 +3,7 @@
 #include "engine/run/run_result.hpp"
 
 #include "engine/device/device_block.hpp"
+#include "engine/run/series.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -238,8 +239,6 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     if (results.dissipated) add_dissipation(results, c, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
-    if (c.in_newtons() && c.effects.spring)
-        result.set("instrument.spring", c.simulation.drive.stiffness / units::newton_per_metre);
     if (c.in_newtons() && results.dissipated)
         result.set("instrument.energy_lost", results.dissipated->total() / units::attojoule);
     if (results.edge_distance) result.set("instrument.edge_distance", 0.1 * *results.edge_distance);
@@ -284,18 +283,10 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
     result.set("run.steps", failed ? failed->step : path.steps());
     if (const auto iterations = path.iterations()) result.set("run.iterations", *iterations);
     if (path.steps() > 0 || now.observed) {
-        result.set("energy.balance_error", now.residual);
-        result.set("energy.work", now.work);
-        result.set("energy.kinetic", now.kinetic_energy);
-        result.set("energy.elastic", now.elastic_energy);
-        result.set("energy.interface", now.interface_energy);
-        if (c.effects.temperature) result.set("energy.time_step", now.time_step_energy);
-        result.set("energy.damped", now.damped);
-        if (c.effects.spring) result.set("energy.spring", now.machine_energy);
-        if (c.effects.branches) {
-            result.set("energy.branches", now.branch_energy);
-            result.set("energy.dissipated_in_block", now.dissipated_in_block);
-        }
+        result.set("energy.kinetic", now.kinetic_energy); // zero at rest
+        for (const SeriesColumn& column : series_columns())
+            if (!column.result.empty() && column.is_in(c.effects))
+                result.set(io::Key::composed(column.result), column.value(path, now));
     } else if (const std::optional<ZeroLoad>& z = path.results().zero_load) {
         const double area = c.area() / units::milli_per_unit;
         result.set("energy.kinetic", 0.0);

@@ -257,7 +257,7 @@ void RunSession::open_recorder() {
     };
     std::vector<const SeriesColumn*> columns;
     for (const SeriesColumn& c : series_columns())
-        if (c.is_in(case_.effects.dynamic, case_.effects)) columns.push_back(&c);
+        if (c.is_in(case_.effects)) columns.push_back(&c);
     recorder_.emplace(ranks_.root() ? storage_.directory() : io::Directory("."), surface_, ranks_,
                       std::move(columns), resumed_at_, add);
 }

@@ -11,25 +11,22 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace asperity {
 
 /// A column of the series.
 struct SeriesColumn {
-    /// Runs that have the column. time: dynamic runs and viscoelastic blocks; sliding: paths
-    /// that slide; relaxing: viscoelastic blocks; thermal: scenes with a temperature; sprung: paths
-    /// with a spring that holds the top plane.
-    enum In { both, dynamic, quasistatic, time, sliding, relaxing, thermal, sprung };
-    In in;
+    /// Returns true if runs with these effects have the column.
+    bool (*is_in)(const Effects& effects);
     io::Quantity quantity; ///< the name is that of the data set, "series/force"
-    /// Returns the value at path.now(), the same on all ranks. Collective.
-    double (*value)(const Path& path);
+    /// Returns the value at a record of the path, the same on all ranks. Collective.
+    double (*value)(const Path& path, const StepRecord& now);
+    std::string_view result{}; ///< name in result.json of the value at the last recorded step
     /// The value is computed from path.layer(), which each row then needs.
     bool of_sites = false;
 
-    /// Returns true if runs of such a path with these effects have the column.
-    bool is_in(bool dynamic_path, const Effects& effects) const;
     /// Returns the name of the column, "force".
     std::string name() const {
         return std::string(quantity.name.substr(quantity.name.find('/') + 1));

@@ -26,7 +26,7 @@ constexpr double no_adhesion = 0.01;
 /// Share of the box's edge within which a contact is said to come near a free edge.
 constexpr double near_edge = 0.05;
 
-/// Returns a force on the box as people read it: a pressure, or of a sphere and with free edges a
+/// Returns a force on the box as people read it: a pressure, or of a bounded contact a
 /// force.
 std::string force_text(const Case& c, double force) {
     if (c.in_newtons()) return io::cell(force / units::nanonewton, 4) + " nN";
@@ -80,7 +80,7 @@ std::string with_units(double value) {
 }
 
 /// Works, energies and heights of a run as people read them: energies over the nominal area, those
-/// of a sphere or with free edges whole, in aJ; heights in Å, or beside forces in nN in nm.
+/// of a bounded contact whole, in aJ; heights in Å, or beside forces in nN in nm.
 class Form {
 public:
     explicit Form(const Case& c)
@@ -197,7 +197,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                        "  The work of the interface is that of its force on the mean height of the "
                        "surface: a jump of the whole block does not change it, jumps of single "
                        "patches do.\n");
-    if (!hardly && c.simulation.drive.control == Control::top && !c.effects.free_edges)
+    if (!hardly && c.jumps_as_a_whole())
         io::print_text(to, "  A thick block is a soft spring and jumps as a whole; a thinner one "
                            "(block.thickness) less so.\n");
 }
@@ -319,23 +319,12 @@ std::string wall_text(const Case& c) {
 
 void print_opening(std::FILE* to, const Case& c, const Surface& surface, const ProcessGrid& grid,
                    int threads, std::size_t bytes, const std::string& directory) {
-    const BlockOptions& block = c.simulation.block;
     const InterfaceOptions& interface = c.simulation.interface;
-    if (c.in_newtons())
-        io::print_text(to, "{}: {} x {} sites, {} nm wide{}\n", c.scene.name, block.sites,
-                       block.sites, io::cell(0.1 * c.edge()),
-                       c.effects.free_edges ? ", with free edges" : "");
-    else
-        io::print_text(to, "{}: {} x {} sites, {} Å wide\n", c.scene.name, block.sites, block.sites,
-                       io::number(c.edge(), 1));
+    io::print_text(to, "{}: {}\n", c.scene.name, c.box_in_words());
     io::print_text(to, "  substrate   {}{}\n", surface_text(c, surface),
                    c.radius() ? fmt::format(", on a sphere of R = {:.6g} nm", 0.1 * *c.radius())
                               : "");
-    if (c.effects.free_edges)
-        io::print_text(to, "  block       a half-space: {}\n", levels_text(c));
-    else
-        io::print_text(to, "  block       {} layers ({} Å): {}\n", block.thickness,
-                       io::number(block.thickness * block.spacing, 1), levels_text(c));
+    io::print_text(to, "  block       {}: {}\n", c.block_in_words(), levels_text(c));
     io::print_text(to,
                    "  interface   {}flat surfaces bind with {} at {} Å; interaction range {} Å; "
                    "{} precision\n",

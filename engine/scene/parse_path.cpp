@@ -70,6 +70,7 @@ std::vector<Segment> parse_path(const std::vector<std::string>& path, double are
         };
         if (!found) {
             std::vector<std::string> known;
+            known.reserve(std::size(syntax));
             for (const Word& w : syntax)
                 known.emplace_back(word(w.kind));
             if (name == "zero-load") {

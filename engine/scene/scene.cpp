@@ -16,7 +16,6 @@
 
 namespace asperity {
 
-using io::any;
 using io::at_least;
 using io::between;
 using io::positive;
@@ -256,8 +255,8 @@ io::Schema bind(Scene& scene) {
         .count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
                          "thickness in lattice layers, or a length (\"33 nm\"), rounded to whole "
                          "layers; by default N")
-        .needs = {
-        {needs.periodic.is_met, "surface.boundary is \"free\", and the block is a half-space"}};
+        .needs = {{[&scene] { return !scene.has_free_edges(); },
+                   "surface.boundary is \"free\", and the block is a half-space"}};
     schema
         .integer("layers_per_level", block.layers_per_level, between(2, 1024),
                  "thickness of each level of the multiscale block, in its own cells")
@@ -299,7 +298,7 @@ io::Schema bind(Scene& scene) {
     schema
         .number("surface_stress", block.surface_stress, "N/m", at_least(0.0),
                 "tension of the block's surface (quasi-static paths)")
-        .needs = {needs.refusing(needs.equilibria, "N/m on a dynamic path", at_rest,
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
                                  "take drive.mode = \"quasistatic\", or leave surface_stress out")};
     schema.removed({"block.seams", "",
                     "levels always reflect the waves that the next level cannot carry",
@@ -436,6 +435,11 @@ io::Schema bind(Scene& scene) {
                        "a dynamic path prescribes the top plane; the mean height of the lowest "
                        "layer follows from the motion of the block",
                        "take drive.mode = \"quasistatic\", or control = \"top\""),
+        needs.refusing({[&scene] { return !scene.has_free_edges(); }, ""},
+                       "with surface.boundary = \"free\"",
+                       "the surface goes on beyond the box, and displacements are measured from "
+                       "far away",
+                       "take control = \"top\""),
         {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
     schema.removed({"drive.hold", "", "it is called drive.control",
                     "write control = \"top\" or \"mean-height\""});
@@ -451,7 +455,21 @@ io::Schema bind(Scene& scene) {
                    "stiffness of a spring between drive and top plane, for the whole box, like the "
                    "cantilever of an instrument; \"none\": the drive moves the top plane itself")
         .needs = {
-        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
+        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"},
+        needs.refusing({[&scene] { return scene.drive.control == Control::top; }, ""},
+                       "with drive.control = \"mean-height\"",
+                       "the mean height is prescribed as by a machine that is hard, whatever holds "
+                       "the top plane",
+                       "take control = \"top\", or leave stiffness out"),
+        needs.refusing({[&scene] { return scene.block.prony.empty(); }, ""}, "with block.prony",
+                       "what a block remembers is measured from a top plane that the drive moves",
+                       "leave stiffness or prony out"),
+        needs.refusing(
+            {[&needs] { return !needs.dynamic.is_met() || !needs.temperature.is_met(); }, ""},
+            "with drive.temperature",
+            "a top plane on a spring is damped without thermal noise of its own, and would cool "
+            "the block",
+            "leave stiffness or temperature out")};
     schema
         .number_or("mass", drive.mass, "block", "u", positive(),
                    "mass of the top plane on the spring of drive.stiffness; \"block\": the mass of "

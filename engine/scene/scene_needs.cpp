@@ -18,7 +18,8 @@ namespace {
 std::string shown(const io::Schema::Key& key) {
     const io::Json value = key.load();
     if (value.is_array()) return "[...]";
-    if (value.is_number_float()) return fmt::format("{:.6g}", value.get<double>());
+    const std::string unit = key.unit.empty() ? "" : " " + key.unit;
+    if (value.is_number_float()) return fmt::format("{:.6g}{}", value.get<double>(), unit);
     return io::json_text(value);
 }
 
@@ -50,6 +51,7 @@ std::vector<std::string> notes_on_idle_keys(const Scene& scene) {
         of_reason->second.push_back(key.path());
     }
     std::vector<std::string> notes;
+    notes.reserve(idle.size());
     for (const auto& [reason, keys] : idle)
         notes.push_back(keys.size() == 1
                             ? fmt::format("{} has no effect: {}", keys.front(), reason)

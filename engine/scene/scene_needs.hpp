@@ -29,7 +29,6 @@ struct Needs {
                "surface.kind is \"flat\""};
     Need one_layer{[this] { return scene.surface.kind != SurfaceKind::atoms; },
                    "surface.kind is \"atoms\""};
-    Need periodic{[this] { return !scene.has_free_edges(); }, "surface.boundary is \"free\""};
     Need wall{[this] { return scene.interface.kind == InterfaceKind::wall; },
               "interface.kind is not \"wall\""};
     Need adhesion{[this] { return scene.interface.has_adhesion(); },

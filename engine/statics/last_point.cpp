@@ -110,7 +110,7 @@ std::function<double(int, int)> LastPoint::moves() const {
                                            state_[2].plane(0)};
     const int across = interface_.sites_across(), first = interface_.tile().y0;
     return [=](int x, int y) {
-        if (x >= across || first + y >= across) return 0.0; // beside a box with free edges
+        if (x >= across || first + y >= across) return 0.0; // beside the substrate
         return std::hypot(layer.x(x, y) - old.x(x, y), layer.y(x, y) - old.y(x, y),
                           layer.z(x, y) - old.z(x, y));
     };

@@ -81,7 +81,7 @@ public:
     long long iterations() const { return iterations_; }
     void set_iterations(long long iterations) { iterations_ = iterations; }
     /// Returns a function of (x, y): the distance that a site of the lowest layer has moved since
-    /// the last point, Å; zero for sites outside the box of a block with free edges.
+    /// the last point, Å; zero for sites beside the substrate.
     std::function<double(int, int)> moves() const;
     /// Returns the site that has moved furthest since the last point. Collective.
     LargestSite largest_move() const {

@@ -67,7 +67,7 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                          : "look at run.h5 whether the surfaces touch at all");
     const double area = c.area();
     ZeroLoad z;
-    const double elastic = s.elastic_energy - s.machine_energy; // without that of what loads it
+    const double elastic = s.energy_of_block();
     z.binding_energy = -units::milli_per_unit * (s.interface_energy + elastic) / area;
     z.pairwise = -units::milli_per_unit * s.interface_energy / area;
     z.elastic = units::milli_per_unit * elastic / area;

@@ -89,7 +89,7 @@ Spectrum realised_of(const Case& c, const Surface& surface, TheoryCase& out) {
                                         "the corners of the grid, and is not in the theory",
                                         100.0 * lost));
     const bool scaled = c.surface.kind == SurfaceKind::self_affine || c.surface.rms > 0.0;
-    const Spectrum spectrum = Spectrum::rings(edges, C);
+    Spectrum spectrum = Spectrum::rings(edges, C);
     if (!scaled) return spectrum;
     return spectrum.with_rms_height(c.surface.rms * std::sqrt(variance) / rms);
 }

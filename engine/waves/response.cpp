@@ -185,8 +185,8 @@ double Response::stiffest_wave() const {
 
 double Response::held_stiffness() const {
     const double block = factor_ * table_.uniform();
-    if (options_.top_spring == 0.0) return block;
-    const double sites = slab_.sites, machine = options_.top_spring / (sites * sites);
+    if (!options_.top_spring) return block;
+    const double sites = slab_.sites, machine = options_.top_spring.stiffness / (sites * sites);
     return block * machine / (block + machine);
 }
 
@@ -194,12 +194,12 @@ double Response::top() const {
     if (!constraint_.is_top())
         return mean_height() - (constraint_.stretches ? constraint_.load() / spring() : 0.0);
     return constraint_.value +
-           (options_.top_spring > 0.0 ? top_force() / options_.top_spring : 0.0);
+           (options_.top_spring ? top_force() / options_.top_spring.stiffness : 0.0);
 }
 
 double Response::drive() const {
     if (constraint_.is_top()) return constraint_.value;
-    return top() - (options_.top_spring > 0.0 ? constraint_.load() / options_.top_spring : 0.0);
+    return top() - (options_.top_spring ? constraint_.load() / options_.top_spring.stiffness : 0.0);
 }
 
 double Response::mean_height() const {
@@ -209,7 +209,7 @@ double Response::mean_height() const {
 }
 
 double Response::mean_height_of_box() const {
-    if (!options_.free_edges) return mean_height();
+    if (options_.grid() == options_.sites) return mean_height();
     const PlaneView<const double> z = layer_.z.plane(0);
     const int n = options_.sites;
     ExactSum sum;
@@ -239,9 +239,9 @@ BlockEnergies Response::energies() const {
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
     BlockEnergies energies;
     energies.elastic_energy = 0.5 * (twice + load * load / spring());
-    if (options_.top_spring > 0.0) {
+    if (options_.top_spring) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
-        energies.machine_energy = 0.5 * force * force / options_.top_spring;
+        energies.machine_energy = 0.5 * force * force / options_.top_spring.stiffness;
     }
     if (memory_)
         energies.branches = memory_->energies(

@@ -15,8 +15,8 @@
 // The stiffness is composed of separate terms:
 //
 //     the table S(q)     of the lattice, constant (stiffness_table.hpp)
-//     the holder         the uniform normal wave against the rigid top plane, if that is held, in
-//                        series with the spring of the machine
+//     the holder         the uniform normal wave against the machine, if that is held: the block
+//                        and what holds its rigid top plane, in series
 //     the branches       a factor on all of S in a step of a viscoelastic block, and a force that
 //                        is known at its start (block_memory.hpp); or a factor for each wave, as
 //                        long as a shape is sought that slides on unchanged (moving_pattern.hpp)
@@ -62,8 +62,7 @@ struct Holder {
     double operator()(double mean_height) const { return stiffness * (mean_height - at) + force; }
 };
 
-/// Energies of the block at rest, eV: its springs (including the stretch under a load), its
-/// branches and the spring that holds its top plane.
+/// Energies of the block at rest, eV, including the stretch under a load.
 struct BlockEnergies : Energies {
     BranchEnergies branches{};
 };
@@ -144,13 +143,11 @@ public:
     double stiffest_wave() const;
     /// Returns the displacement of the top plane along z, Å. Collective.
     double top() const;
-    /// Returns the displacement of the drive along z, Å: the top plane, or the far end of the
-    /// spring that holds the top plane. Collective.
+    /// Returns the displacement of the drive along z, Å (PlaceAndForces::drive). Collective.
     double drive() const;
     /// Returns the mean of u_z over the layer, Å. Collective.
     double mean_height() const;
-    /// Returns the mean of u_z over the box, Å; with free edges the mean over the N x N sites above
-    /// the substrate. Collective.
+    /// Returns the mean of u_z over the box, Å: the first N x N sites of the grid. Collective.
     double mean_height_of_box() const;
     /// Returns the elastic force on the top plane along z, eV/Å; a load presses down. Collective.
     double top_force() const;

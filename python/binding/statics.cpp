@@ -40,7 +40,7 @@ void bind_spring(Class& statics) {
     statics.def_property_readonly(
         "stiffness",
         [](const LedPath& s) {
-            return s.scene_case().simulation.drive.stiffness / units::newton_per_metre;
+            return s.scene_case().simulation.block.top_spring.stiffness / units::newton_per_metre;
         },
         "stiffness of the spring that holds the top plane (drive.stiffness), N/m; 0: the top is "
         "held itself");

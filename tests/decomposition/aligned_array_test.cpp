@@ -23,11 +23,16 @@ TEST(AlignedArray, AFreedOneServesTheNextOfItsSize) {
     first.reset();
     AlignedArray<float> same = aligned_array<float>(2 * size, &home);
     EXPECT_EQ(same.get(), static_cast<const void*>(at));
-    const AlignedArray<double> third = aligned_array<double>(size, &home);
+    AlignedArray<double> third = aligned_array<double>(size, &home);
     EXPECT_NE(third.get(), at);
     same.reset();
+    // Room for three in use and one kept: a smaller one is then new, and the kept one stays.
+    aligned_array<double>(2 * size, &home).reset();
     const AlignedArray<double> smaller = aligned_array<double>(size - 8, &home);
-    EXPECT_NE(smaller.get(), at);
+    third.reset();
+    EXPECT_EQ(home.kept(), size * sizeof(double));
+    const AlignedArray<double> smallest = aligned_array<double>(size - 16, &home);
+    EXPECT_EQ(home.kept(), size * sizeof(double));
 }
 
 TEST(AlignedArray, NoMoreIsKeptThanWasInUse) {

@@ -231,7 +231,7 @@ TEST(Results, AStateIsTheOneBelowTheStrongestAttraction) {
 namespace {
 
 /// The force on the lowest layer, summed anew.
-double force_of_sites(const Path& path) {
+double force_of_sites(const Path& path, const StepRecord&) {
     VectorField<double> force(path.grid().tile(0), 1);
     const InterfaceSums sums = path.interface().sweep(path.layer(), force.plane(0));
     return global_sum(path.communicator(), sums.force_z);
@@ -240,11 +240,11 @@ double force_of_sites(const Path& path) {
 } // namespace
 
 TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
-    constexpr SeriesColumn sites = {
-        SeriesColumn::both, {"series/f", "eV/Å", "", ""}, force_of_sites, true};
-    constexpr SeriesColumn step = {SeriesColumn::both,
+    constexpr auto all = [](const Effects&) { return true; };
+    constexpr SeriesColumn sites = {all, {"series/f", "eV/Å", "", ""}, force_of_sites, "", true};
+    constexpr SeriesColumn step = {all,
                                    {"series/g", "eV/Å", "", ""},
-                                   [](const Path& p) { return p.now().force; }};
+                                   [](const Path&, const StepRecord& now) { return now.force; }};
     for (const char* mode : {"dynamic", "quasistatic"}) {
         const Case c = resolve(read_scene_text(
             "surface.sites = 16\nblock.thickness = 8\ndrive.velocity = 100\ndrive.timestep = 40\n"

@@ -308,7 +308,6 @@ TEST(Scene, ABoxWithFreeEdges) {
         still + free + "drive.load = \"20 nN\"\ndrive.path = [\"approach\", \"load 30 nN\"]",
         "s.toml");
     EXPECT_TRUE(c.simulation.block.free_edges);
-    EXPECT_TRUE(c.simulation.interface.free_edges);
     EXPECT_EQ(c.simulation.block.grid(), 128);
     EXPECT_EQ(c.area(), 640.0 * 640.0);
     EXPECT_FALSE(c.effects.theory);

@@ -155,7 +155,7 @@ TEST(Checkpoint, AtFiniteStrain) {
 TEST(Checkpoint, OfATopPlaneOnASpring) {
     SimulationOptions o = options();
     o.temperature = 0.0;
-    o.drive.stiffness = 20.0;
+    o.block.top_spring.stiffness = 20.0;
     goes_on(o, "spring");
 }
 

@@ -38,19 +38,20 @@ struct Variant {
     bool on_ranks; ///< with more than one rank, too
     double temperature = 0.0;
     std::size_t potential = 0; ///< of test::potentials()
+    double spring = 0.0;       ///< stiffness of the spring that holds the top plane, eV/Å^2
 };
 // Shallow and deep: as in same_bits_test, cut on one level and on all but the last.
 constexpr Variant cases[] = {
-    {"shallow", 32, 3, true, false, true},       {"shallow", 32, 3, false, true, false},
-    {"deep", 62, 2, true, false, true},          {"deep", 62, 2, false, false, false},
-    {"lattice", 6, 0, true, false, false},       {"lattice", 6, 0, false, false, true},
-    {"deep", 62, 2, true, false, true, 300.0},   {"lattice", 6, 0, true, true, false, 0.0, 1},
-    {"lattice", 6, 0, true, false, true, 0.0, 2}};
+    {"shallow", 32, 3, true, false, true},        {"shallow", 32, 3, false, true, false},
+    {"deep", 62, 2, true, false, true},           {"deep", 62, 2, false, false, false},
+    {"lattice", 6, 0, true, false, false},        {"lattice", 6, 0, false, false, true},
+    {"deep", 62, 2, true, false, true, 300.0},    {"lattice", 6, 0, true, true, false, 0.0, 1},
+    {"lattice", 6, 0, true, false, true, 0.0, 2}, {"deep", 62, 2, true, false, true, 0.0, 0, 20.0}};
 constexpr const Variant &with_tail = cases[1], &with_table = cases[8];
 void PrintTo(const Variant& c, std::ostream* out) {
     *out << c.stack << (c.damped ? ", damped" : "") << (c.tail ? ", tail" : "")
          << (c.temperature > 0.0 ? ", warm" : "")
-         << std::array{"", ", Morse", ", table"}[c.potential];
+         << std::array{"", ", Morse", ", table"}[c.potential] << (c.spring > 0.0 ? ", spring" : "");
 }
 
 constexpr DeviceChoice processor, emulated{DeviceChoice::Kind::emulated};
@@ -64,6 +65,7 @@ std::vector<DeviceChoice> devices() {
 SimulationOptions options_of(const Variant& c, const DeviceChoice& device) {
     SimulationOptions options;
     options.block = test::paper_block(32, c.thickness, c.layers);
+    options.block.top_spring.stiffness = c.spring;
     options.interface = test::paper_interface();
     options.interface.potential = test::potentials()[c.potential];
     options.interface.tail = c.tail;

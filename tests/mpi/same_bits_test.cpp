@@ -82,7 +82,7 @@ SimulationOptions options_of(const Stack& stack) {
     options.damping_from = 0.3;
     options.temperature = stack.temperature;
     options.seed = 7;
-    if (stack.spring) options.drive.stiffness = 20.0;
+    if (stack.spring) options.block.top_spring.stiffness = 20.0;
     // Over more than a spacing: the substrate's tables are made anew.
     if (stack.slides) {
         options.drive.ramp = 100.0;

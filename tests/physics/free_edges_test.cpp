@@ -32,12 +32,6 @@ BlockOptions free_block(int sites, double edge, double modulus, double poisson =
     return o;
 }
 
-InterfaceOptions free_wall(const WallLaw& law) {
-    InterfaceOptions o = test::over(law);
-    o.free_edges = true;
-    return o;
-}
-
 /// A block with free edges over a wall.
 struct Free {
     BlockOptions options;
@@ -49,7 +43,8 @@ struct Free {
     /// length: of the interface, over which its force on a site changes.
     Free(const BlockOptions& o, Surface s, const WallLaw& law, double length)
         : options(o), surface(std::move(s)),
-          interface(surface, ProcessGrid::slabs(1, 0, o.grid()).tile(0), o.spacing, free_wall(law)),
+          interface(surface, ProcessGrid::slabs(1, 0, o.grid()).tile(0), o.spacing,
+                    test::over(law)),
           block(o, Communicator(), true) {
         scales.length = length;
         scales.stiffness = 100.0 * o.contact_modulus() * o.spacing;

@@ -20,7 +20,7 @@ namespace {
 /// A small rough contact whose top plane a spring holds.
 SimulationOptions sprung(double stiffness, double dt = 4.0) {
     SimulationOptions o = test::free_contact(dt);
-    o.drive.stiffness = stiffness;
+    o.block.top_spring.stiffness = stiffness;
     return o;
 }
 
@@ -41,9 +41,10 @@ TEST(SpringInTime, IsTheSpringOfAMass) {
     for (const double mass_of_blocks : {1.0, 8.0}) {
         SimulationOptions o = sprung(0.05);
         const double block = mass_of(o);
-        o.drive.mass = mass_of_blocks * block;
+        o.block.top_spring.mass = mass_of_blocks * block;
         const double period =
-            2.0 * std::numbers::pi * std::sqrt((1.0 + mass_of_blocks) * block / o.drive.stiffness);
+            2.0 * std::numbers::pi *
+            std::sqrt((1.0 + mass_of_blocks) * block / o.block.top_spring.stiffness);
         o.dt = 10.0;
         test::Driven s = made(o);
         s.Simulation::start(100.0, 1e-4); // both moving
@@ -110,7 +111,7 @@ TEST(SpringInTime, ComesToRestInTheStaticState) {
     // the energies are those of the equilibrium with the drive at this place.
     for (const double stiffness : {2.0, 20.0}) {
         SimulationOptions o = test::free_contact(8.0, 0); // a state at rest has no coarse levels
-        o.drive.stiffness = stiffness;
+        o.block.top_spring.stiffness = stiffness;
         o.damping = 2e-3;
         test::Driven s = made(o);
         s.start(5.0);
@@ -123,7 +124,6 @@ TEST(SpringInTime, ComesToRestInTheStaticState) {
         EXPECT_NEAR(moving.machine_energy, 0.5 * stiffness * std::pow(moving.top - moving.drive, 2),
                     1e-12);
 
-        o.block.top_spring = stiffness;
         test::PathCase rest(o.block, test::reference_surface("n8_b_rms1.0"));
         rest.interface.set_reference_height(5.0);
         copy_layer(std::as_const(s).block().lowest_layer(), rest.block.layer().plane(0));
@@ -147,8 +147,8 @@ TEST(SpringInTime, AStiffOneIsARigidMachine) {
     SimulationOptions stiff = o;
     const double column = (o.block.lame() + 2.0 * o.block.shear_modulus()) * o.block.spacing *
                           o.block.sites * o.block.sites / o.block.thickness;
-    stiff.drive.stiffness = 100.0 * column;
-    stiff.drive.mass = 1e3 * mass_of(o);
+    stiff.block.top_spring.stiffness = 100.0 * column;
+    stiff.block.top_spring.mass = 1e3 * mass_of(o);
     test::Driven a = made(o), b = made(stiff);
     a.start(9.0), b.start(9.0);
     double most = 0.0, strongest = 0.0;

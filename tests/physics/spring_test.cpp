@@ -19,7 +19,7 @@ constexpr double adhesion = 0.7; ///< eV for each site
 
 /// Returns the options of a block whose top plane a spring holds; 0: none.
 BlockOptions on_spring(BlockOptions block, double spring) {
-    block.top_spring = spring;
+    block.top_spring.stiffness = spring;
     return block;
 }
 

@@ -251,7 +251,6 @@ CASES = [
     ("or surface.lattice_ratio = 1", {"numerics.device": "emulated", "surface.lattice_ratio": "2"}, {"surface.lattice_ratio": "1"}, MOVING),
     ('or block.strain = "linear"', {"numerics.device": "emulated", "block.strain": "finite"}, {"block.strain": "linear"}, MOVING),
     ('take numerics.device = "none"', {"numerics.device": "emulated", "drive.path": '["approach", "slide x 5 Å"]'}, {"numerics.device": "none"}, MOVING),
-    ('take numerics.device = "none"', {"numerics.device": "emulated", "drive.stiffness": "0.2"}, {"numerics.device": "none"}, MOVING),
     ('take "auto"', {"numerics.device": "7"}, {"numerics.device": "auto"}, MOVING),
     # Potentials
     ('take interface.kind = "atoms"', {"interface.kind": "wall", "interface.law": "smeared"}, {"interface.kind": "atoms"}, TABLE),

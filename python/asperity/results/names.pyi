@@ -113,8 +113,6 @@ class Instrument(Values):
     """nN: pull_off_force in units of instruments"""
     contact_radius: float
     """nm: contact_radius.relaxed in units of instruments"""
-    spring: float
-    """N/m: drive.stiffness in units of instruments"""
     energy_lost: float
     """aJ: dissipated.energy in units of instruments"""
     edge_distance: float
