@@ -45,7 +45,8 @@ public:
     double velocity = 0.0;         ///< velocity along z, Å/fs
     TopMotion machine{};           ///< velocity of the machine
 
-    /// Puts the plane and the machine at zero displacement. velocity: of the plane along z, Å/fs.
+    /// Puts the plane and the machine at zero displacement, the plane with this velocity along z,
+    /// Å/fs.
     void start(double at_velocity) {
         z = drive = 0.0;
         place = {};
