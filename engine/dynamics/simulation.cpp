@@ -14,7 +14,7 @@ Simulation::Simulation(const SimulationOptions& options, const Surface& substrat
                        const Communicator& communicator, const ProcessGrid& grid)
     : options_(options), block_(options.block, communicator, grid),
       interface_(substrate, grid.tile(0), options.block.spacing, options.interface),
-      top_(options.block.top_spring, block_.mass(), options.damping) {
+      top_(options.block, block_.mass(), options.damping) {
     if (options.temperature > 0.0)
         thermostat_.emplace(options.temperature, options.damping, options.seed);
     if (options.device) device_ = std::make_unique<DeviceBlock>(options.device, block_, interface_);

@@ -29,14 +29,12 @@ struct TopEnergies {
 /// The top plane. At time step n its velocities are those between n and n + 1.
 class Top {
 public:
-    /// Makes the plane of a block. block: mass of the block's nodes, eV fs^2/Å^2; damping: rate of
-    /// the drag against the medium, 1/fs.
-    Top(const TopSpring& spring, double block, double damping)
-        : spring_(spring), damping_(damping) {
-        if (!spring)
-            spring_ = {};
-        else if (!(spring.mass > 0.0))
-            spring_.mass = block;
+    /// Makes the plane of a block. mass: of the block's nodes, eV fs^2/Å^2; damping: rate of the
+    /// drag against the medium, 1/fs.
+    Top(const BlockOptions& block, double mass, double damping) : damping_(damping) {
+        if (!block.top_spring) return;
+        spring_ = block.top_spring;
+        if (!(spring_.mass > 0.0)) spring_.mass = mass;
     }
 
     double z = 0.0;     ///< displacement along z, Å
