@@ -179,6 +179,24 @@ TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
         EXPECT_EQ(written(device), expected) << describe_device(device);
 }
 
+TEST_F(OneDevice, SitesDisplacedBeyondTheTablesAreSummedWhereTheyAre) {
+    // By more than two spacings sideways, in each rank's own tile.
+    const auto displaced = [](const DeviceChoice& device) {
+        test::Driven s = make(cases[0], world(), device);
+        Trace trace;
+        s.start(height);
+        trace.follow(s, 180);
+        Block& block = s.block_to_write();
+        block.fields(block.levels()[0]).u.view().x(1, 2, 0) += 2.4 * s.options().block.spacing;
+        trace.follow(s, 2);
+        trace.conclude(s);
+        return trace;
+    };
+    const Trace expected = displaced(processor);
+    for (const DeviceChoice& device : devices())
+        EXPECT_EQ(displaced(device), expected) << describe_device(device);
+}
+
 TEST_F(OneDevice, NoResultDependsOnTheOrderOfItsThreads) {
     if (world().size() > 1) return;
     const Trace expected = run(cases[0], world(), emulated, 60);
