@@ -29,8 +29,8 @@ struct TopEnergies {
 /// The top plane. At time step n its velocities are those between n and n + 1.
 class Top {
 public:
-    /// Makes the plane of a block. mass: of the block's nodes, eV fs^2/Å^2; damping: rate of the
-    /// drag against the medium, 1/fs.
+    /// Makes the plane of a block. mass: mass of the block's nodes, eV fs^2/Å^2; damping: rate of
+    /// the drag against the medium, 1/fs.
     Top(const BlockOptions& block, double mass, double damping) : damping_(damping) {
         if (!block.top_spring) return;
         spring_ = block.top_spring;
