@@ -8,6 +8,16 @@
 
 namespace asperity {
 
+double BlockOptions::shortest_wave() const {
+    double wave = 0.0;
+    for (const Material& material : materials())
+        wave = std::max(wave, 0.5 * std::numbers::pi * material.contact_modulus() * spacing);
+    wave += 4.0 * surface_stress;
+    for (const Branch& branch : branches)
+        wave *= 1.0 + branch.ratio;
+    return wave;
+}
+
 double BlockOptions::sound_speed() const {
     const double density = atom_mass / (spacing * spacing * spacing);
     return std::sqrt(modulus_of_compression() / density);

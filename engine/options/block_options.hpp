@@ -88,6 +88,9 @@ struct BlockOptions : Material {
     /// Returns the stiffness of the longest wave of the box at the lowest layer of a thick block,
     /// eV/Å^4: E* q_L / 2, or the lattice's for a block with layers. Thin blocks are stiffer.
     double softest_wave() const;
+    /// Returns an estimate of the stiffness of the shortest wave at the lowest layer, eV/Å^2 per
+    /// site: E* q / 2 of the stiffest material and the surface stress, with unrelaxed branches.
+    double shortest_wave() const;
     /// Returns the speed of longitudinal waves, Å/fs.
     double sound_speed() const;
     /// Returns the constants of the cells of a level.

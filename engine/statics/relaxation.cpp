@@ -14,7 +14,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -261,15 +260,8 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
 } // namespace
 
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
-    // Stiffness of the block for the shortest wave, E* q/2.
-    double wave = 0.0;
-    for (const Material& material : block.materials())
-        wave = std::max(wave, 0.5 * std::numbers::pi * material.contact_modulus() * block.spacing);
-    wave += 4.0 * block.surface_stress;
-    for (const Branch& branch : block.branches)
-        wave *= 1.0 + branch.ratio;
-    const double positions =
-        4.0 * std::numeric_limits<double>::epsilon() * (scales.stiffness + wave) * height;
+    const double positions = 4.0 * std::numeric_limits<double>::epsilon() *
+                             (scales.stiffness + block.shortest_wave()) * height;
     return positions + 0x1p-51; // with the quantum of sums over sites (kernels/exact_sum.hpp)
 }
 
