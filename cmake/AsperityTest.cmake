@@ -8,7 +8,7 @@
 # asperity_suite(<folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...] [LONG]
 #                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
 #   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
-#   its name; THREADS is 1 unless given. With RANKS it is run once for each number of ranks, as
+#   its name; THREADS is ASPERITY_TEST_THREADS (1) unless given. With RANKS it is run once for each number of ranks, as
 #   <file>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <file>_<level>.
 #   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <file less _test>_long.
 #
@@ -29,7 +29,7 @@ function(asperity_suite file)
         message(FATAL_ERROR "asperity_suite(${file}): unknown ${ARG_UNPARSED_ARGUMENTS}")
     endif()
     if(NOT ARG_THREADS)
-        set(ARG_THREADS 1)
+        set(ARG_THREADS ${ASPERITY_TEST_THREADS})
     endif()
     if(NOT ARG_TIMEOUT)
         set(ARG_TIMEOUT 300)

@@ -12,6 +12,7 @@
 #include "support/cases.hpp"
 #include "support/message.hpp"
 #include "support/simulation_checkpoint.hpp"
+#include "support/threads.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -227,6 +228,7 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
 
 TEST_F(OneDevice, NeverTouchesTheFieldsOfTheHost) {
     if (world().size() > 1) return;
+    const test::Threads one(1); // a process has no other threads after fork()
     const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
         test::Driven s = make(c, Communicator(), emulated);
         s.start(height);
