@@ -191,7 +191,7 @@ public:
     /// Adds a boolean or a text.
     template <class T>
     Key& key(std::string name, T& field, std::string doc) {
-        return add({name, &field, doc});
+        return add({std::move(name), &field, std::move(doc)});
     }
     /// Adds an integer.
     template <class T>
