@@ -8,8 +8,8 @@
 # asperity_suite(<folder>/<file> LABELS ... [THREADS n] [RANKS n ...] [KERNELS level ...] [LONG]
 #                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
 #   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
-#   its name; THREADS is ASPERITY_TEST_THREADS (1) unless given. With RANKS it is run once for each number of ranks, as
-#   <file>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <file>_<level>.
+#   its name; THREADS is ASPERITY_TEST_THREADS (1) and TIMEOUT ASPERITY_TEST_TIMEOUT (300 s) unless given. With
+#   RANKS it is run once for each number of ranks, as <file>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <file>_<level>.
 #   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <file less _test>_long.
 #
 # asperity_suites(<folder> LABELS ...)
@@ -32,7 +32,7 @@ function(asperity_suite file)
         set(ARG_THREADS ${ASPERITY_TEST_THREADS})
     endif()
     if(NOT ARG_TIMEOUT)
-        set(ARG_TIMEOUT 300)
+        set(ARG_TIMEOUT ${ASPERITY_TEST_TIMEOUT})
     endif()
     get_filename_component(folder ${file} DIRECTORY)
     get_filename_component(name ${file} NAME)
