@@ -9,8 +9,9 @@
 #                [TIMEOUT s] [ENVIRONMENT NAME=VALUE ...])
 #   Adds tests/<folder>/<file>.cpp to the folder's program, and the tests of that file to ctest under
 #   its name; THREADS is ASPERITY_TEST_THREADS (1) and TIMEOUT ASPERITY_TEST_TIMEOUT (300 s) unless given. With
-#   RANKS it is run once for each number of ranks, as <file>_ranks<n>. KERNELS repeats it (on one rank) with the kernels of other processor levels, as <file>_<level>.
-#   LONG repeats it with ASPERITY_LONG=1 and the label "long", as <file less _test>_long.
+#   RANKS it is run once for each number of ranks, as <file>_ranks<n>. KERNELS repeats it (on one rank) with the
+#   kernels of other processor levels, as <file>_<level>. LONG repeats it with ASPERITY_LONG=1 and the label "long",
+#   as <file less _test>_long.
 #
 # asperity_suites(<folder> LABELS ...)
 #   The same for every file tests/<folder>/*_test.cpp that is not a suite yet.

@@ -100,6 +100,19 @@ Trace run(const Variant& c, const Communicator& ranks, const DeviceChoice& devic
     return trace;
 }
 
+/// Steps `before`, lets the host write to the block, and steps `after`.
+template <class Write>
+Trace run_with(const Write& write, const DeviceChoice& device, int before, int after) {
+    test::Driven s = make(cases[0], world(), device);
+    s.start(height);
+    Trace trace;
+    trace.follow(s, before);
+    write(s.block_to_write());
+    trace.follow(s, after);
+    trace.conclude(s);
+    return trace;
+}
+
 /// The reference, on every rank.
 Trace on_processor(const Variant& c) {
     return test::from_root([&] { return run(c, Communicator(), processor); });
@@ -163,39 +176,21 @@ TEST_F(OneDevice, CheckpointsCrossBetweenDeviceAndProcessor) {
 }
 
 TEST_F(OneDevice, WhatTheHostWritesReachesTheDevice) {
-    const auto written = [](const DeviceChoice& device) {
-        test::Driven s = make(cases[0], world(), device);
-        Trace trace;
-        s.start(height);
-        trace.follow(s, 15);
-        Block& block = s.block_to_write();
-        // On all ranks, each in its own tile.
+    const auto write = [](Block& block) { // on all ranks, each in its own tile
         block.fields(block.levels()[0]).v.view().x(1, 2, 0) = 1e-3;
-        trace.follow(s, 15);
-        trace.conclude(s);
-        return trace;
     };
-    const Trace expected = written(processor);
+    const Trace expected = run_with(write, processor, 15, 15);
     for (const DeviceChoice& device : devices())
-        EXPECT_EQ(written(device), expected) << describe_device(device);
+        EXPECT_EQ(run_with(write, device, 15, 15), expected) << describe_device(device);
 }
 
 TEST_F(OneDevice, SitesDisplacedBeyondTheTablesAreSummedWhereTheyAre) {
-    // By more than two spacings sideways, in each rank's own tile.
-    const auto displaced = [](const DeviceChoice& device) {
-        test::Driven s = make(cases[0], world(), device);
-        Trace trace;
-        s.start(height);
-        trace.follow(s, 180);
-        Block& block = s.block_to_write();
-        block.fields(block.levels()[0]).u.view().x(1, 2, 0) += 2.4 * s.options().block.spacing;
-        trace.follow(s, 2);
-        trace.conclude(s);
-        return trace;
+    const auto displace = [](Block& block) { // by more than two spacings, in each rank's own tile
+        block.fields(block.levels()[0]).u.view().x(1, 2, 0) += 2.4 * block.options().spacing;
     };
-    const Trace expected = displaced(processor);
+    const Trace expected = run_with(displace, processor, 180, 2);
     for (const DeviceChoice& device : devices())
-        EXPECT_EQ(displaced(device), expected) << describe_device(device);
+        EXPECT_EQ(run_with(displace, device, 180, 2), expected) << describe_device(device);
 }
 
 TEST_F(OneDevice, NoResultDependsOnTheOrderOfItsThreads) {
@@ -228,7 +223,7 @@ TEST_F(OneDevice, ThatIsLostOrTooSmallIsSaid) {
 
 TEST_F(OneDevice, NeverTouchesTheFieldsOfTheHost) {
     if (world().size() > 1) return;
-    const test::Threads one(1); // a process has no other threads after fork()
+    const test::Threads one(1);             // a process has no other threads after fork()
     const auto end = [](const Variant& c) { // in a process of its own, for the pages stay closed
         test::Driven s = make(c, Communicator(), emulated);
         s.start(height);
