@@ -130,17 +130,18 @@ void check_layers(const Case& c, io::Problems& problems) {
                      "branches relax the whole stiffness of a wave, and the tension of a surface "
                      "does not relax",
                      "leave surface_stress or prony out");
-    double sum = 0.0;
+    const bool continuum = scene.block_model() == BlockModel::continuum;
+    double sum = 0.0; // in cells
     for (std::size_t i = 0; i < block.layers.size(); ++i) {
         const double thickness = block.layers[i][0], spacing = scene.surface.spacing;
-        if (thickness < 0.5 * spacing) {
+        if (thickness < 0.5 * spacing && !continuum) {
             problems.add(
                 "block.layers", fmt::format("has a layer {} of {:.4g} Å", i + 1, thickness),
                 fmt::format("a lattice layer is {:.4g} Å thick (surface.spacing)", spacing),
                 "take a thicker layer or a smaller surface.spacing");
             return;
         }
-        sum += std::round(thickness / spacing);
+        sum += continuum ? thickness / spacing : std::round(thickness / spacing);
     }
     if (!block.layers.empty() && sum >= block.thickness && !scene.has_free_edges())
         problems.add(
@@ -404,7 +405,7 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     const Scene& scene = c.scene;
     std::vector<std::string> list;
     const auto& surface = scene.surface;
-    if (c.effects.dynamic && scene.block.model == BlockModel::multiscale) {
+    if (c.effects.dynamic && scene.block_model() == BlockModel::multiscale) {
         int sites = surface.sites, halvings = 0;
         while (sites % 2 == 0)
             sites /= 2, ++halvings;
@@ -439,12 +440,14 @@ std::vector<std::string> notes_on_keys(const Case& c) {
                                    "block.strain = \"linear\" describes small strains",
                                    load, 100.0 * strain));
     for (const MaterialLayer& layer : c.simulation.block.layers) {
-        const std::size_t i = static_cast<std::size_t>(&layer - c.simulation.block.layers.data());
-        const double asked = scene.block.layers[i][0], made = layer.cells * surface.spacing;
-        if (std::abs(made - asked) > 0.01 * asked)
+        if (c.simulation.block.continuum) break;
+        const std::ptrdiff_t number = &layer - c.simulation.block.layers.data() + 1;
+        const double cells = std::round(layer.thickness / surface.spacing);
+        const double made = cells * surface.spacing;
+        if (std::abs(made - layer.thickness) > 0.01 * layer.thickness)
             list.push_back(fmt::format("block.layers: layer {} of {:.4g} Å has {} lattice layers, "
                                        "{:.4g} Å",
-                                       i + 1, asked, layer.cells, made));
+                                       number, layer.thickness, cells, made));
     }
     if (const auto note = note_on_contact_edge(c)) list.push_back(*note);
     for (std::size_t i = 0; i < c.simulation.interface.tables.size();

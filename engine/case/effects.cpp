@@ -82,7 +82,7 @@ Effects effects_of(const Case& c) {
                           fmt::format("drive.temperature = {:.4g} K", s.drive.temperature));
     const bool finite = s.block.strain == Strain::finite;
     e.finite_strain = {finite, finite ? "block.strain = \"finite\"" : "block.strain = \"linear\""};
-    const bool lattice = s.block.model == BlockModel::lattice;
+    const bool lattice = s.block_model() == BlockModel::lattice;
     e.coarse_levels = timed(!lattice && c.levels.size() > 1,
                             lattice ? "block.model = \"lattice\""
                             : c.levels.size() == 1

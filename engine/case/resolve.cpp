@@ -104,13 +104,13 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
     block.atom_mass = scene.block.atom_mass * units::atomic_mass;
     block.thickness = scene.block.thickness;
     block.layers_per_level = scene.block.layers_per_level;
-    block.multiscale = dynamic && scene.block.model == BlockModel::multiscale;
+    block.multiscale = dynamic && scene.block_model() == BlockModel::multiscale;
+    block.continuum = scene.block_model() == BlockModel::continuum;
     block.finite_strain = scene.block.strain == Strain::finite;
     for (const auto& [ratio, time] : scene.block.prony)
         block.branches.push_back({ratio, time * units::picosecond});
     for (const auto& [thickness, young, poisson] : scene.block.layers)
-        block.layers.push_back({{young * units::gigapascal, poisson},
-                                static_cast<int>(std::lround(thickness / block.spacing))});
+        block.layers.push_back({{young * units::gigapascal, poisson}, thickness});
     block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
     block.top_spring = {scene.drive.stiffness.value_or(0.0) * units::newton_per_metre,
                         scene.drive.mass.value_or(0.0) * units::atomic_mass};
@@ -427,6 +427,8 @@ std::string Case::box_in_words() const {
 std::string Case::block_in_words() const {
     const BlockOptions& block = simulation.block;
     if (effects.free_edges) return "a half-space";
+    if (block.continuum)
+        return fmt::format("a continuum, {:.1f} Å thick", block.thickness * block.spacing);
     return fmt::format("{} layers ({:.1f} Å)", block.thickness, block.thickness * block.spacing);
 }
 

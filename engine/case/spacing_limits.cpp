@@ -86,6 +86,7 @@ double lattice_softness(const BlockOptions& block, const SurfaceStatistics& surf
     BlockOptions deep; // one material, and its top plane does not matter
     static_cast<Material&>(deep) = block.surface_material();
     deep.spacing = a;
+    deep.continuum = block.continuum;
     const double modulus = deep.contact_modulus();
     constexpr int directions = 5; // directions between an axis and a diagonal of the lattice
     double lattice = 0.0, continuum = 0.0;

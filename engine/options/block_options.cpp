@@ -51,14 +51,34 @@ std::vector<CellLayer> BlockOptions::column() const {
     };
     int rest = thickness;
     for (const MaterialLayer& layer : layers) {
-        add(layer.material, layer.cells);
-        rest -= layer.cells;
+        const int cells = static_cast<int>(std::lround(layer.thickness / spacing));
+        add(layer.material, cells);
+        rest -= cells;
     }
     add(*this, rest);
     return column;
 }
 
+std::vector<SolidLayer> BlockOptions::solid() const {
+    std::vector<SolidLayer> solid;
+    double rest = thickness * spacing;
+    for (const MaterialLayer& layer : layers) {
+        solid.push_back({layer.material.shear_modulus(), layer.material.poisson, layer.thickness});
+        rest -= layer.thickness;
+    }
+    solid.push_back({shear_modulus(), poisson, rest});
+    return solid;
+}
+
 SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
+    if (continuum) {
+        const double px = std::atan2(x.sine, x.cosine), py = std::atan2(y.sine, y.cosine);
+        SurfaceMatrix s = continuum_stiffness(solid(), px / spacing, py / spacing);
+        for (double* entry : {&s.xx, &s.yy, &s.zz, &s.xy, &s.xz, &s.yz})
+            *entry *= spacing * spacing;
+        s.zz += surface_stress * (px * px + py * py);
+        return s;
+    }
     SurfaceMatrix s = surface_stiffness(column(), x, y);
     s.zz += surface_stress * (2.0 * (1.0 - x.cosine) + 2.0 * (1.0 - y.cosine));
     return s;

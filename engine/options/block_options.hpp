@@ -4,6 +4,7 @@
 // Options of the block, and its levels.
 #pragma once
 
+#include "kernels/continuum_stiffness.hpp"
 #include "kernels/elastic_level.hpp"
 #include "kernels/surface_stiffness.hpp"
 
@@ -39,7 +40,7 @@ struct Material {
 /// Layer of another material below the block's own.
 struct MaterialLayer {
     Material material;
-    int cells = 0; ///< thickness in cells of edge a
+    double thickness = 0.0; ///< Å
 };
 
 /// The spring between the machine and the top plane of a block, and the plane's mass.
@@ -57,6 +58,7 @@ struct BlockOptions : Material {
     int thickness = 512;    ///< number of cells of edge a
     int layers_per_level = 4;
     bool multiscale = true;
+    bool continuum = false; ///< waves of a block at rest are those of a continuum, not of cells
     bool finite_strain = false;
     std::vector<Branch> branches{}; ///< branches of a viscoelastic block, without inertia
     /// Layers of a block at rest, from its surface upwards; the block's own material is above the
@@ -78,12 +80,15 @@ struct BlockOptions : Material {
     const Material& surface_material() const {
         return layers.empty() ? *this : layers.front().material;
     }
-    /// Returns the layers of cells of the block at rest, from its surface upwards: `layers`, then
-    /// the block's own material. Neighbouring layers of the same material are merged.
+    /// Returns the layers of cells of the block at rest, from its surface upwards: `layers`, each
+    /// of whole cells, then the block's own material. Neighbouring layers of the same material are
+    /// merged.
     std::vector<CellLayer> column() const;
+    /// Returns the layers of the block at rest as a continuum, from its surface upwards.
+    std::vector<SolidLayer> solid() const;
     /// Returns the stiffness of a wave at the lowest layer of the block at rest, eV/Å^2 per site:
-    /// the lattice's, plus, for the normal component, the surface stress times the lattice's (q
-    /// a)^2 = (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2.
+    /// that of the continuum or of the lattice, plus, for the normal component, the surface stress
+    /// times (q a)^2, in the lattice (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2.
     SurfaceMatrix stiffness(WavePhase x, WavePhase y) const;
     /// Returns the stiffness of the longest wave of the box at the lowest layer of a thick block,
     /// eV/Å^4: E* q_L / 2, or the lattice's for a block with layers. Thin blocks are stiffer.

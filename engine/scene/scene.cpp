@@ -98,6 +98,12 @@ bool Scene::is_dynamic() const {
            });
 }
 
+BlockModel Scene::block_model() const {
+    if (block.model != BlockModel::automatic) return block.model;
+    if (is_dynamic()) return BlockModel::multiscale;
+    return interface.kind == InterfaceKind::wall ? BlockModel::continuum : BlockModel::lattice;
+}
+
 io::Schema bind(Scene& scene) {
     io::Schema schema;
     const auto shared_needs =
@@ -237,10 +243,29 @@ io::Schema bind(Scene& scene) {
     schema
         .choice<BlockModel>(
             "model", block.model,
-            {{"lattice", BlockModel::lattice}, {"multiscale", BlockModel::multiscale}},
-            "dynamic paths: every atom, or cells that become coarser with depth; quasi-static "
-            "paths use the exact static response of the lattice")
-        .needs = {needs.dynamic};
+            {{"auto", BlockModel::automatic},
+             {"lattice", BlockModel::lattice},
+             {"multiscale", BlockModel::multiscale},
+             {"continuum", BlockModel::continuum}},
+            "dynamic paths: every atom (lattice), or cells that become coarser with depth "
+            "(multiscale); quasi-static paths: the exact static response of the lattice (lattice "
+            "or multiscale), or over a wall that of an elastic continuum; auto: multiscale on "
+            "dynamic paths, on quasi-static ones continuum over a wall and lattice over atoms")
+        .needs = {
+        needs.refusing(
+            {[&scene] { return scene.block.model != BlockModel::continuum || !scene.is_dynamic(); },
+             ""},
+            "on a dynamic path", "a continuum is solved as waves at rest, without inertia",
+            "take drive.mode = \"quasistatic\", or model = \"multiscale\""),
+        needs.refusing({[&scene] {
+                            return scene.block.model != BlockModel::continuum ||
+                                   scene.interface.kind == InterfaceKind::wall;
+                        },
+                        ""},
+                       "over atoms", "the sites are then atoms of the block's lattice",
+                       "take interface.kind = \"wall\", or model = \"lattice\""),
+        {[&scene] { return scene.is_dynamic() || scene.interface.kind == InterfaceKind::wall; },
+         "no time passes on this path"}};
     schema.removed({"block.model", "spectral",
                     "a quasi-static path is always one of waves, and a dynamic path never",
                     "leave block.model out, and take drive.mode = \"quasistatic\" or drive.path = "
@@ -292,7 +317,7 @@ io::Schema bind(Scene& scene) {
                    {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
                    {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
                  "coatings between the block's own material and its surface (quasi-static paths), "
-                 "from the surface upwards; a thickness is rounded to whole lattice layers")
+                 "from the surface upwards; in a lattice a thickness is rounded to whole layers")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
                                  "take drive.mode = \"quasistatic\", or leave layers out")};
     schema

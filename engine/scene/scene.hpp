@@ -36,7 +36,7 @@ enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
 /// Resolution of the block on a dynamic path. Quasi-static paths use the exact static response of
 /// the lattice instead.
-enum class BlockModel { lattice, multiscale };
+enum class BlockModel { automatic, lattice, multiscale, continuum };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
 enum class WallLawKind { smeared, exponential, dugdale, power, nine_three, eight_two, table };
@@ -110,8 +110,8 @@ struct Scene {
 
     /// Section [block].
     struct Block {
-        BlockModel model = BlockModel::multiscale;
-        double young = 77.2; ///< GPa
+        BlockModel model = BlockModel::automatic; ///< as the scene gives it
+        double young = 77.2;                      ///< GPa
         double poisson = 0.42;
         double atom_mass = 197.0; ///< u
         int thickness = 512;      ///< number of lattice layers; default after reading: N
@@ -226,6 +226,8 @@ struct Scene {
 
     /// Returns true for a dynamic path, which is made of time steps.
     bool is_dynamic() const;
+    /// Returns the model of the block: block.model, or the one that "auto" stands for.
+    BlockModel block_model() const;
     /// Returns true if the path is a single relaxation.
     bool only_relaxes() const;
     /// Returns the edge of the box, Å

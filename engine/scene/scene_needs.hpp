@@ -61,7 +61,7 @@ struct Needs {
               },
               "no time passes on this path"};
     Need equilibria{[this] { return !scene.is_dynamic(); }, "drive.mode is \"dynamic\""};
-    Need multiscale{[this] { return scene.block.model == BlockModel::multiscale; },
+    Need multiscale{[this] { return scene.block_model() == BlockModel::multiscale; },
                     "block.model is not \"multiscale\""};
     Need damping{[this] { return scene.drive.damping > 0.0; }, "drive.damping is 0"};
     Need temperature{[this] { return scene.drive.temperature > 0.0; }, "drive.temperature is 0"};

@@ -266,9 +266,9 @@ TEST(Scene, ABlockOfLayers) {
                                   "s.toml");
     const BlockOptions& block = c.simulation.block;
     ASSERT_EQ(block.layers.size(), 2u);
-    EXPECT_EQ(block.layers[0].cells, 10);
+    EXPECT_EQ(block.layers[0].thickness, 20.0);
     EXPECT_DOUBLE_EQ(block.layers[0].material.young * 160.21766208, 10.0);
-    EXPECT_EQ(block.layers[1].cells, 3) << "6.9 Å, rounded";
+    EXPECT_EQ(block.column()[1].cells, 3) << "6.9 Å, rounded";
     EXPECT_EQ(block.layers[1].material.poisson, 0.2);
     EXPECT_NEAR(block.surface_stress, 0.03 / 16.021766208, 1e-12) << "eV/Å^2";
     EXPECT_NE(scene_toml(c.scene).find("layers = [[20.0, 10.0, 0.3], [6.9, 5.0, 0.2]]"),

@@ -51,7 +51,7 @@ TEST(Layers, AreTheElimination) {
             const Material m{o.young * std::pow(10.0, 6.0 * uniform(random) - 3.0),
                              -0.3 + 0.79 * uniform(random)};
             const int cells = 1 + static_cast<int>(14.0 * uniform(random));
-            o.layers.push_back({m, cells});
+            o.layers.push_back({m, cells * o.spacing});
             plain.push_back({cells, m.lame(), m.shear_modulus()});
             rest -= cells;
         }
@@ -77,7 +77,7 @@ TEST(Layers, CoatTheHalfSpace) {
         for (const double ratio : {10.0, 0.1}) {
             BlockOptions o = half_space(0.5, 0.3);
             constexpr int cells = 32;
-            o.layers = {{{ratio * o.young, 0.3}, cells}};
+            o.layers = {{{ratio * o.young, 0.3}, cells * o.spacing}};
             const double q = row.qt / (cells * o.spacing);
             const double found = normal_stiffness(o, q) / (0.5 * o.contact_modulus() * q);
             const double wanted = ratio > 1.0 ? row.stiff : row.soft;
@@ -94,7 +94,7 @@ BlockOptions graded(double poisson, int period, const Modulus& modulus) {
     BlockOptions o = half_space(1.0, poisson);
     const int cells = 5 * period;
     for (int k = 0; k < cells; ++k)
-        o.layers.push_back({{modulus((k + 0.5) * o.spacing), poisson}, 1});
+        o.layers.push_back({{modulus((k + 0.5) * o.spacing), poisson}, o.spacing});
     o.young = modulus(cells * o.spacing);
     return o;
 }
@@ -139,7 +139,7 @@ TEST(Layers, OfGibsonAreABedOfSpringsIfIncompressible) {
 TEST(Layers, OfOneMaterialAreOneBlock) {
     const BlockOptions plain = test::paper_block(16, 40, 0);
     BlockOptions layered = plain;
-    layered.layers = {{plain, 3}, {plain, 11}};
+    layered.layers = {{plain, 3 * plain.spacing}, {plain, 11 * plain.spacing}};
     for (int nx = 0; nx <= 8; ++nx)
         for (int ny = 0; ny <= 8; ++ny) {
             const WavePhase x = wave_phase(nx, 16), y = wave_phase(ny, 16);
@@ -152,7 +152,7 @@ TEST(Layers, OfOneMaterialAreOneBlock) {
 
 TEST(Layers, AreSpringsInSeriesForTheUniformWave) {
     BlockOptions o = test::paper_block(16, 40, 0);
-    o.layers = {{{0.1 * o.young, 0.2}, 4}, {{7.0 * o.young, 0.45}, 9}};
+    o.layers = {{{0.1 * o.young, 0.2}, 4 * o.spacing}, {{7.0 * o.young, 0.45}, 9 * o.spacing}};
     const auto modulus = [](const Material& m) { return m.lame() + 2.0 * m.shear_modulus(); };
     double normal = 0.0, shear = 0.0; // compliances of the area of a site
     const auto add = [&](const Material& m, int cells) {
