@@ -481,6 +481,7 @@ TEST(Scene, ScenesThatComeWithAsperity) {
     EXPECT_EQ(flat.numerics.precision, Precision::mixed);
     flat.drive.timestep = Scene{}.drive.timestep; // the rest is the defaults, spelt out
     flat.numerics.precision = Scene{}.numerics.precision;
+    flat.block.model = Scene{}.block.model;
     EXPECT_EQ(scene_toml(flat, false), scene_toml(Scene{}, false));
 }
 

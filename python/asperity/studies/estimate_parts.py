@@ -446,7 +446,7 @@ def _in_time(scene: Variations, part: Callable, start: Variation) -> None:
     own = scene.own
     if not scene.dynamic:
         return
-    if scene.scene.text("block.model") == "multiscale":
+    if scene.scene.text("block.model") != "lattice":
         layers = int(own("block.layers_per_level"))
         fewer = layers // 2 if layers >= 4 else 2 * layers
         part("levels", "discretisation", f"{fewer} layers a level", scene.layers(fewer),
