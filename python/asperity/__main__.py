@@ -112,7 +112,7 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise SceneError("command line", f"two files to write are given, {given.target} and {given.out}", "", "leave one out")
         target = given.target or given.out or str(Path(given.source).with_suffix(".toml"))
         return prony_command(given.source, target, given.branches, given.poisson, given.frequency_unit, given.modulus_unit, given.modulus,
-                             voice)
+                             given.relaxed, voice)
     if given.command == "theory":
         from .commands.theory import theory_command
 

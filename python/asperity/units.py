@@ -89,6 +89,26 @@ def conversion(unit: object, base: str) -> float | None:
     return ratio * 10.0**shift if shift >= 0 else ratio / 10.0**-shift
 
 
+def quantity(text: object, base: str) -> float | None:
+    """Returns a quantity in base units.
+
+    Parameters
+    ----------
+    text : object
+        Number with its unit: "60 MPa", "5nN".
+    base : str
+        Unit of the answer.
+
+    Returns
+    -------
+    float | None
+        The quantity; None if the text is none, or has no unit or one of another dimension.
+    """
+    parts = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*?)\s*", str(text))
+    factor = conversion(parts[2], base) if parts else None
+    return float(parts[1]) * factor if parts and factor is not None else None
+
+
 def is_unit(text: str) -> bool:
     """Returns True for a unit of any dimension."""
     return bool(text.strip()) and _parsed(text) is not None

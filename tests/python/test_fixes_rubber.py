@@ -16,6 +16,7 @@ SOURCES = ("maps/master_curve.py", "studies/prony.py", "scene/scene_files")
 EXCUSED = {"cannot be read...check the path and its permissions": "whoever tests may read all files, and finds those that he names"}
 NAMES, SHEAR = "omega (rad/s), E' (MPa), E'' (MPa)", "omega (rad/s), G' (MPa), G'' (MPa)"
 FEW = text(omega=OMEGA[:7], moduli=MODULI[:7])
+CUT = text(omega=OMEGA[10:], moduli=MODULI[10:])
 BENT = text(moduli=np.where(np.arange(41) == 20, 1.5, MODULI.real) + 1j * MODULI.imag)
 
 CASES = (  # what is said, the bad call, the good one
@@ -45,6 +46,9 @@ CASES = (  # what is said, the bad call, the good one
     (r"say --branches (\d+), or less", (FEW, {"branches": 9}), (FEW, {"branches": 3})),
     ("look whether the columns are what their names say", (REFUSED["is not described by branches"], {}), (text(), {})),
     ("leave out the rows that flow", (text(moduli=MODULI - 2), {}), (text(), {})),
+    (r"for example --relaxed (\S+): within", (CUT, {}), (CUT, {"relaxed": "{0}"})),
+    (r"for example --relaxed (2MPa)", (CUT, {"relaxed": "2"}), (CUT, {"relaxed": "{0}"})),
+    (r"say --relaxed (\S+), or less", (CUT, {"relaxed": "9 MPa"}), (CUT, {"relaxed": "{0}"})),
     ("say E of Young's moduli, G of shear moduli", (text(), {"modulus": "Y"}), (text(), {"modulus": "E"})),
     (r"for example (\S+\.toml)", (text(), {"target": "rubber.dat"}), (text(), {"target": "{0}"})))
 

@@ -129,7 +129,7 @@ def test_what_the_messages_advise_works(place):
 def test_a_scene_takes_the_file(place):
     """Its numbers are those of the scene from then on: the file may be gone."""
     Path("curve.csv").write_text(text())
-    command("prony", "curve.csv", "rubber.toml", says=["7 branches", "young          2 MPa", "rms error", 'block.prony = "rubber.toml"'])
+    command("prony", "curve.csv", "rubber.toml", says=["7 branches", "young          2.00 MPa (1.9", "rms error", 'block.prony = "rubber.toml"'])
     assert Path("rubber.svg").exists()
     command("prony", "curve.csv", "rubber.toml", expect=2, says="rubber.svg")
     told = json.loads(command("prony", "curve.csv", "again.toml", "--json", "--branches", "9"))
@@ -155,6 +155,84 @@ def test_a_scene_takes_the_file(place):
     Path("rubber.toml").unlink()
     with pytest.raises(asperity.SceneError, match="there is no such file"):
         asperity.check("scene.toml")
+
+
+def branched(relaxed, *branches):
+    return lambda omega: relaxed * modulus([(ratio, 1e12 * time) for ratio, time in branches], 1e-12 * omega)
+
+
+def power(relaxed, factor, exponent, most=1e9):
+    """A power law ω^n that ends at most times the relaxed modulus, as Cole and Cole have it."""
+    return lambda omega: relaxed * (1 + most / (1 + most / (factor * (1j * omega) ** exponent)))
+
+
+DECADES = [(30 * 10 ** (-0.4 * k), 1e-6 * 10**k) for k in range(9)]
+HALVES = [(300 * 10 ** (-0.5 * k), 3.3e-8 * 10 ** (1.3 * k)) for k in range(7)]
+OWN = {  # modulus, MPa, over frequency, rad/s; its relaxed value; lowest frequency; noise; what is expected
+    "branches a decade apart, plateau": (branched(1.0, *DECADES), 1.0, 1e-4, 0.02, "stated"),
+    "branches a decade apart, cut at the slowest": (branched(1.0, *DECADES), 1.0, 1e-2, 0.02, ""),
+    "branches a decade apart, cut in the middle": (branched(1.0, *DECADES), 1.0, 1.0, 0.02, "refused"),
+    "uneven branches, plateau": (branched(2.0, *HALVES), 2.0, 1e-2, 0.01, "stated"),
+    "uneven branches, cut": (branched(2.0, *HALVES), 2.0, 1e-1, 0.01, ""),
+    "four branches two decades apart": (branched(2.0, (5, 1e-6), (3, 1e-4), (1, 1e-2), (0.5, 1)), 2.0, 1e-3, 0.02, "stated"),
+    "four branches, cut between two": (branched(2.0, (5, 1e-6), (3, 1e-4), (1, 1e-2), (0.5, 1)), 2.0, 10.0, 0.02, "refused"),
+    "square root, plateau": (power(1.0, 10.0, 0.5, 1000.0), 1.0, 1e-8, 0.02, "stated"),
+    "square root, cut at a loss tangent of 0.07": (power(1.0, 10.0, 0.5, 1000.0), 1.0, 1e-4, 0.02, ""),
+    "square root, cut at a loss tangent of 0.9": (power(1.0, 10.0, 0.5, 1000.0), 1.0, 63.0, 0.02, "refused"),
+    "slow power law": (power(1.0, 0.3, 0.2), 1.0, 1e-6, 0.0, ""),
+    "very slow power law": (power(60.0, 1.0, 0.1), 60.0, 1e-3, 0.03, "refused"),
+    "a liquid": (lambda omega: branched(1.0, *HALVES)(omega) - 1.0, 0.0, 1e-2, 0.01, "refused")}
+
+
+@pytest.mark.parametrize("name", OWN)
+def test_the_interval_of_the_relaxed_modulus_covers_it(place, name):
+    """A curve that does not determine the relaxed modulus is refused with the reason; with the modulus stated it has branches."""
+    curve, relaxed, lowest, noise, expected = OWN[name]
+    omega = np.geomspace(lowest, 1e6, round(5 * math.log10(1e6 / lowest)) + 1)
+    draw = np.random.default_rng(7).standard_normal((2, len(omega)))
+    moduli = curve(omega).real * (1 + noise * draw[0]) + 1j * curve(omega).imag * (1 + noise * draw[1])
+    content = text(moduli=moduli, omega=omega)
+    try:
+        found = fitted(content)
+    except asperity.InputOutputError as refused:
+        assert expected != "stated" and "relaxed modulus" in str(refused), refused
+        assert "--relaxed" in str(refused) or "flow" in str(refused)
+        if not relaxed:
+            return
+        found = fitted(content, relaxed=f"{relaxed} MPa")
+        assert found.stated and found.young == pytest.approx(1e-3 * relaxed) and found.rms_error < max(0.06, 1.5 * noise)
+        return
+    low, high = found.young_range
+    assert expected != "refused" and low <= 1e-3 * relaxed <= high <= 2 * low and low <= found.young <= high
+    assert any("--relaxed" in note for note in found.notes) == (found.loss[0] > 0.02 * found.storage[0])
+
+
+def test_cuts_of_one_curve_state_intervals_that_meet(place):
+    """Wherever a curve is cut, what is stated covers the same modulus: no cut states a number that another one denies."""
+    for lowest in np.geomspace(1e-9, 1e2, 9):
+        omega = np.geomspace(lowest, 1e6, round(4 * math.log10(1e6 / lowest)) + 1)
+        try:
+            low, high = fitted(text(moduli=power(1.0, 10.0, 0.5, 1000.0)(omega), omega=omega), branches=8).young_range
+        except asperity.InputOutputError as refused:
+            assert "--relaxed" in str(refused)
+            continue
+        assert low <= 1e-3 <= high
+
+
+def test_a_stated_modulus_leaves_the_measured_moduli_alone(place):
+    """What the data cannot know does not change what they say."""
+    omega = np.geomspace(1.0, 1e8, 41)
+    content = text(moduli=2.0 * modulus(BRANCHES, 1e-12 * omega), omega=omega)
+    found = [fitted(content, relaxed=one) for one in ("2 MPa", "1 MPa")]
+    assert np.abs(found[0].modulus(omega) / found[1].modulus(omega) - 1).max() < 0.05
+    assert "1 MPa, as stated (0 to" in found[1].toml
+
+
+def test_the_fast_end_has_its_word(place):
+    whole, cut = (fitted(text(moduli=2.0 * modulus(BRANCHES, 1e-12 * omega), omega=omega)).notes
+                  for omega in (np.geomspace(1e-2, 1e11, 53), OMEGA))
+    assert not any("at once" in note for note in whole)
+    assert any("at the highest frequency" in note and "at once" in note for note in cut)
 
 
 def test_the_plot_has_measured_and_fitted_moduli(place):

@@ -245,6 +245,8 @@ def parsers() -> dict[str, Parser]:
     prony.add_argument("-o", "--out", metavar="OUT.toml", help="the same as an option")
     prony.add_argument("--branches", type=_many, metavar="N", help="at most (default: one a decade of frequency)")
     prony.add_argument(*options("poisson"), type=_number, metavar="0.49", help="Poisson's ratio, which shear moduli need")
+    prony.add_argument("--relaxed", default="", metavar="60MPa",
+                       help="the relaxed Young's modulus, where the curve does not determine it")
     prony.add_argument("--frequency-unit", default="", metavar="UNIT", help="Hz or rad/s; holds over what the file says")
     prony.add_argument("--modulus-unit", default="", metavar="UNIT", help="for example MPa; holds over what the file says")
     prony.add_argument("--modulus", default="", metavar="KIND", help="E (Young's) or G (of shear); holds over what the file says")

@@ -23,12 +23,13 @@ def _text(found: Prony) -> str:
     return "\n".join([
         f"{found.source}: {len(found.frequency)} frequencies from {found.frequency[0]:.4g} to {found.frequency[-1]:.4g} rad/s, fitted by "
         f"{len(rows)} branches", "", terminal.table(["relaxation time", "over young", "MPa"], rows), "",
-        f"  young          {1e3 * found.young:.5g} MPa, relaxed; at once {1e3 * found.young * (1 + sum(r for r, _ in found.prony)):.5g} MPa",
+        f"  young          {found.relaxed}",
+        f"  at once        {1e3 * found.young * (1 + sum(r for r, _ in found.prony)):.3g} MPa",
         f"  fit            {found.errors}"])
 
 
 def prony_command(source: str, target: str, branches: int | None, poisson: float | None, frequency_unit: str, modulus_unit: str,
-                  modulus: str, voice: terminal.Voice) -> int:
+                  modulus: str, relaxed: str, voice: terminal.Voice) -> int:
     """Carries out `asperity prony`.
 
     Parameters
@@ -43,6 +44,8 @@ def prony_command(source: str, target: str, branches: int | None, poisson: float
         Poisson's ratio, which shear moduli need.
     frequency_unit, modulus_unit, modulus : str
         Units of frequency and moduli, and E or G, if the file does not say them.
+    relaxed : str
+        Relaxed Young's modulus with its unit; "": that of the fit.
     voice : Voice
         Output of the command.
 
@@ -53,13 +56,14 @@ def prony_command(source: str, target: str, branches: int | None, poisson: float
     """
     plot = Path(target).with_suffix(".svg")
     store.require_new(plot)
-    found = prony(source, target, branches, poisson, frequency_unit=frequency_unit, modulus_unit=modulus_unit, modulus=modulus)
+    found = prony(source, target, branches, poisson, frequency_unit=frequency_unit, modulus_unit=modulus_unit, modulus=modulus,
+                  relaxed=relaxed)
     figure = make(lambda ax: moduli(found, ax))
     assert figure is not None
     with store.new(plot) as beside:
         Path(beside).write_bytes(picture(figure, "svg"))
     voice.tell({**found.scene, "fit": {name: getattr(found, name) for name in (
-        "source", "rms_error", "storage_error", "loss_error", "largest_error", "at", "notes")}, "file": target})
+        "source", "young_range", "stated", "rms_error", "storage_error", "loss_error", "largest_error", "at", "notes")}, "file": target})
     voice.show(_text(found))
     for note in found.notes:
         voice.say(f"  note: {note}")
