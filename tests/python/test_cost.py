@@ -61,7 +61,7 @@ def test_parameters_are_those_that_the_scene_has():
     for other in ({"interface": {"kind": "wall"}, "drive": {"path": ["relax"]}}, {"surface": {"sites": 16, "lattice_ratio": 2.0}}):
         assert "precision" not in parameters(**other)  # pairs are in double
     wall = {"kind": "wall"}
-    assert parameters(interface=wall, drive={"path": ["relax"]}) == ["thickness", "tolerance"]  # it has no cutoff
+    assert parameters(interface=wall, drive={"path": ["relax"]}) == ["thickness", "spacing", "tolerance"]  # it has no cutoff
     assert "tail" in parameters(interface={**wall, "law": "smeared"}, drive={"path": ["relax"]})
     for parameter in case(surface={"sites": 32}).parameters:  # no value comes twice
         assert len({tuple(row.setting) for row in parameter.rows}) == len(parameter.rows) > 1, parameter.name

@@ -145,6 +145,11 @@ def cost_case(scene: Variations, names: list[str], same_experiment: bool) -> Cos
         vary("layers", scene.layers(2, 3, 4, 6, 8) + scene.lattice, "block", True)
     thick = scene.thickness
     vary("thickness", scene.at("block.thickness", *filter(None, (thick // 4, thick // 2, thick, 2 * thick, 8 * thick))))
+    if scene.continuous and not dynamic and scene.scene.text("surface.kind") in ("flat", "self-affine"):
+        finest = 0.25 if scene.sites <= 128 else 0.5
+        reference += [*scene.spaced(finest), "block.model=continuum"]
+        text += f", spacing {scene.worded('surface.spacing', finest * own('surface.spacing'))} of a continuum"
+        vary("spacing", scene.meshes(2, 1, 0.5))
     if scene.mixed:  # pairs over a lattice
         vary("precision", scene.precisions("mixed", "double"), "precision", True)
     if dynamic:

@@ -326,29 +326,6 @@ def is_coarse(scene: Variations) -> bool:
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
-def spaced(scene: Variations, factor: float, also: SpacingAlso) -> Setting:
-    """Returns the setting of the same surface and block at another spacing.
-
-    Parameters
-    ----------
-    scene : Variations
-        Settings of the scene.
-    factor : float
-        Spacing over that of the scene.
-    also : SpacingAlso
-        Makes what is set too.
-
-    Returns
-    -------
-    Setting
-        The setting.
-    """
-    own, kind = scene.own, scene.scene.text("surface.kind")
-    waves = [f"surface.q_max={min(own('surface.q_max'), scene.sites // 2):.10g}"] if kind == "self-affine" else []
-    return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={scene.sites / factor:.0f}",
-            f"block.thickness={scene.thickness / factor:.0f}", *waves, *also(factor)]
-
-
 def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
     """Plans the parts of a scene's errors.
 
@@ -373,7 +350,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     if scene.dynamic and not scene.finite:
         rest = Variation("rate", "quasi-static", AT_REST)
     base, moved = rest or start, AT_REST if rest else []
-    coarse = Variation("spacing", "twice the spacing", joined(moved, spaced(scene, 2, spacing_also))) if is_coarse(scene) else None
+    coarse = Variation("spacing", "twice the spacing", joined(moved, scene.spaced(2), spacing_also(2))) if is_coarse(scene) else None
     parts: list[Part] = []
 
     def part(name: str, group: str, what: str, choices: Sequence[Choice] = (), rule: Rule = limit, of: Variation | None = None,
@@ -399,7 +376,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
         pass  # a map has a scene of its own there
     elif scene.continuous:
         part("spacing", "discretisation", f"spacing {0.5 * own('surface.spacing'):.4g} Å",
-             [("half the spacing", spaced(scene, 0.5, spacing_also))], finer(2, order))
+             [("half the spacing", joined(scene.spaced(0.5), spacing_also(0.5)))], finer(2, order))
     else:
         part("spacing", "discretisation", "not varied: the spacing is that of the atoms")
     _in_time(scene, part, start)

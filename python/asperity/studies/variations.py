@@ -193,6 +193,21 @@ class Variations:
         return [(label + " + tail" * tail, [*setting, f"interface.tail={str(tail).lower()}"])
                 for label, setting in self.at("interface.cutoff", *cutoffs)]
 
+    def spaced(self, factor: float) -> Setting:
+        """Returns the setting of the same surface and block at so many times the spacing."""
+        own = self.own
+        waves = [f"surface.q_max={min(own('surface.q_max'), self.sites // 2):.10g}"] if self.scene.text("surface.kind") == "self-affine" else []
+        return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={self.sites / factor:.0f}",
+                f"block.thickness={self.thickness / factor:.0f}", *waves]
+
+    def meshes(self, *factors: float) -> list[Choice]:
+        """Returns choices of the spacing of a block over a wall, as a lattice and as a continuum, from coarse to fine; none that
+        does not show all waves of the surface."""
+        waves = self.own("surface.q_max") if self.scene.text("surface.kind") == "self-affine" else 0.0
+        fit = [factor for factor in factors if self.sites % max(1, factor) == 0 and 2 * factor * waves <= self.sites]
+        return [(f"{self.worded('surface.spacing', factor * self.own('surface.spacing'))}, {model}",
+                 [*self.spaced(factor), f"block.model={model}"]) for factor in fit for model in ("lattice", "continuum")]
+
     def layers(self, *counts: int) -> list[Choice]:
         """Returns choices of the layers per level of a multiscale block."""
         return [(f"{m} a level", [f"block.layers_per_level={m}", "block.model=multiscale"]) for m in counts]
