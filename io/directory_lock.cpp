@@ -3,14 +3,18 @@
 #include "io/directory_lock.hpp"
 
 #include "io/error.hpp"
+#include "io/file_record.hpp"
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <ctime>
+#include <optional>
 #include <span>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include <fcntl.h>
@@ -23,6 +27,8 @@
 
 namespace asperity::io {
 
+using namespace std::chrono_literals;
+
 namespace {
 
 std::string host_name() {
@@ -31,70 +37,88 @@ std::string host_name() {
     return name;
 }
 
-/// Holder of a lock as its file says; empty if the file does not say, or is incomplete.
+/// Holder of a lock.
 struct Holder {
     std::string host, process, since;
 };
 
-Holder read_lock(int fd) {
-    char text[4096] = "", host[256], process[32], since[64], end = '\0';
-    read_some(fd, std::as_writable_bytes(std::span(text).first(sizeof text - 1)), 0);
-    if (std::sscanf(text, "host %255s process %31s since %63[^\n]%c", host, process, since, &end) <
-        4)
-        return {};
-    return {host, process, since};
+/// Returns the text of a lock, which ends in its digest.
+std::string text_of(const Holder& holder) {
+    const std::string text =
+        fmt::format("host {}\nprocess {}\nsince {}\n", holder.host, holder.process, holder.since);
+    return text +
+           fmt::format("digest {}\n", digest_text(digest_of(std::as_bytes(std::span(text)))));
 }
 
-/// Returns true if a file begins as the text of a lock does, as far as it was written.
-bool is_lock(int fd) {
-    constexpr std::string_view first = "host ";
-    char text[first.size()];
-    const std::ptrdiff_t n = read_some(fd, std::as_writable_bytes(std::span(text)), 0);
-    return n >= 0 && first.starts_with(std::string_view(text, static_cast<std::size_t>(n)));
+/// Returns the holder that a file names; nothing if the file is not the whole text of a lock.
+std::optional<Holder> read_lock(int fd) {
+    char text[4096] = "", host[256], process[32], since[64];
+    const std::ptrdiff_t n =
+        read_some(fd, std::as_writable_bytes(std::span(text).first(sizeof text - 1)), 0);
+    if (n < 0 ||
+        std::sscanf(text, "host %255s process %31s since %63[^\n]", host, process, since) < 3)
+        return std::nullopt;
+    const Holder holder = {host, process, since};
+    const bool whole = text_of(holder) == std::string_view(text, static_cast<std::size_t>(n));
+    return whole ? std::optional(holder) : std::nullopt;
+}
+
+void refuse(const std::string& file, const std::string& why) {
+    throw SceneError(Problem{file, "is there already and is not replaced", why,
+                             "move it away, or name another directory (--out)"});
 }
 
 } // namespace
 
 DirectoryLock::DirectoryLock(Directory directory, int process) : directory_(std::move(directory)) {
     const std::string file = directory_ / name;
-    Holder holder;
-    for (bool mine = false; !mine;) {
+    for (int looks = 0;;) {
         file_ = directory_.open(name, O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW);
         const bool made = static_cast<bool>(file_);
         if (!made && errno == EEXIST) file_ = directory_.open(name, O_RDWR | O_NOFOLLOW);
         if (!file_ && errno == ENOENT) continue; // given back just now
         if (!file_) fail_by_system(file, "cannot be written");
+        const std::optional<Holder> holder = read_lock(file_.get());
+        if (!made && !holder && !FileRecord(directory_).calls_unfinished(name)) {
+            constexpr int most_looks = 20;
+            if (++looks == most_looks)
+                refuse(file, fmt::format(
+                                 "it is not the lock of a run: it does not end in its digest, and "
+                                 "the record of the directory ({}) does not name it",
+                                 FileRecord::name));
+            std::this_thread::sleep_for(5ms); // the process that made it may be about to write it
+            continue;
+        }
+        struct stat status {};
+        if (::fstat(file_.get(), &status) == 0 && status.st_nlink > 1)
+            refuse(file, "it is a hard link: the same file has another name");
         const bool kept = ::flock(file_.get(), LOCK_EX | LOCK_NB) == 0;
         const bool by_other = !kept && errno == EWOULDBLOCK;
         if (kept && !is_in_place()) continue; // given back just now
-        if (!made && !is_lock(file_.get()))
-            throw SceneError(Problem{file, "is there already and is not replaced",
-                                     "it is not the lock of a run: it does not begin with a host",
-                                     "move it away, or name another directory (--out)"});
-        holder = read_lock(file_.get());
-        const bool here = holder.host == host_name();
+        const bool here = holder && holder->host == host_name();
         // On a file system without such locks the process that makes the file has the lock.
-        mine = made ? !by_other : kept && (holder.host.empty() || here);
-        if (mine) break;
-        throw FileError(
-            directory_.path(), "is in use by another process",
-            holder.process.empty() ? file + " does not say by whom"
-                                   : fmt::format("process {} on host {} has had it since {} ({})",
-                                                 holder.process, holder.host, holder.since, file),
-            by_other && here
-                ? "wait for its end, stop it, or name another directory: --out"
-                : "wait for its end, or name another directory (--out); where it is certain that "
-                  "no such process lives, remove " +
-                      file);
+        if (made && !by_other) break;
+        if (made || !kept || (holder && !here))
+            throw FileError(
+                directory_.path(), "is in use by another process",
+                holder ? fmt::format("process {} on host {} has had it since {} ({})",
+                                     holder->process, holder->host, holder->since, file)
+                       : file + " does not say by whom",
+                by_other && here
+                    ? "wait for its end, stop it, or name another directory: --out"
+                    : "wait for its end, or name another directory (--out); where it is certain "
+                      "that no such process lives, remove " +
+                          file);
+        // The lock of the dead is not written over but made anew: only new files are written.
+        if (holder)
+            note_ = fmt::format("{}: process {}, which has had it since {}, is gone",
+                                directory_.path(), holder->process, holder->since);
+        directory_.remove(name);
     }
-    if (!holder.process.empty())
-        note_ = fmt::format("{}: process {}, which has had it since {}, is gone", directory_.path(),
-                            holder.process, holder.since);
     const std::time_t now = std::time(nullptr);
-    const std::string text = fmt::format("host {}\nprocess {}\nsince {:%Y-%m-%d %H:%M:%S}\n",
-                                         host_name(), process, fmt::localtime(now));
-    if (::ftruncate(file_.get(), 0) != 0 ||
-        !write_all(file_.get(), std::as_bytes(std::span(text)), 0)) {
+    const std::string text = text_of({host_name(), std::to_string(process),
+                                      fmt::format("{:%Y-%m-%d %H:%M:%S}", fmt::localtime(now))});
+    if (!write_all(file_.get(), std::as_bytes(std::span(text)), 0)) {
         const int reason = errno;
         ::unlinkat(directory_.fd(), name, 0);
         errno = reason;

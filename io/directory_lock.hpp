@@ -3,7 +3,9 @@
 //
 // The lock of a result directory, which one process at a time owns.
 //
-// The lock is a flock on run.lock, a file with host, process and time of the owner. The system
+// The lock is a flock on run.lock, a file with host, process and time of the owner and a digest of
+// these. A file of that name without the digest is somebody else's, unless the record of the
+// directory names it (file_record.hpp: a crash of the machine may empty a file). The system
 // releases the flock when its owner ends in any way. A run.lock of another host is refused even
 // without a flock, because not every file system shares flocks between hosts. If the file system
 // has no flocks, the process that creates the file has the lock, and an existing file is refused.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/error.hpp"
 
+#include "io/terminal.hpp"
+
 #include <algorithm>
 #include <cctype>
 
@@ -62,7 +64,7 @@ std::string format(const Problem& problem) {
     std::string text = problem.where.empty() ? problem.what : problem.where + ": " + problem.what;
     if (!problem.why.empty()) text += "\n    why: " + indented(problem.why);
     if (!problem.fix.empty()) text += "\n    fix: " + indented(problem.fix);
-    return text;
+    return printable(text);
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include <fcntl.h>
@@ -40,26 +41,34 @@ bool is_same_file(const struct stat& one, const std::string& path) {
 } // namespace
 
 std::optional<FileRecord::Names> FileRecord::read() const {
-    const std::string path = directory_ / name;
-    const Descriptor file = directory_.open(name, O_RDONLY | O_NOFOLLOW);
-    struct stat status {};
-    if (!file && errno == ENOENT) return std::nullopt;
-    std::string text;
-    if (!file || ::fstat(file.get(), &status) != 0 ||
-        !read_parts(file.get(), static_cast<std::uint64_t>(status.st_size), [&](Bytes part) {
-            text.append(reinterpret_cast<const char*>(part.data()), part.size());
-        }))
-        fail_by_system(path, "cannot be read", "check its permissions");
-    const Json json = is_sealed_json(text) ? Json::parse(text, nullptr, false) : Json();
-    const Json* const files = find(json, "files");
-    if (!files || !files->is_object())
-        throw SceneError(Problem{path, "is no record of the files that Asperity wrote",
+    const std::optional<std::string> text = contents_of({directory_, name}, O_NOFOLLOW);
+    if (!text) return std::nullopt;
+    std::optional<Names> names = sealed_texts(*text, "files");
+    if (!names)
+        throw SceneError(Problem{directory_ / name, "is no record of the files that Asperity wrote",
                                  "it does not end in its digest: it was changed or damaged",
                                  "move it away; the files that it named are not replaced then"});
-    Names names;
-    for (const auto& [file_name, digest] : files->items())
-        if (digest.is_string()) names[file_name] = digest.get<std::string>();
     return names;
+}
+
+bool FileRecord::calls_unfinished(const std::string& file) const {
+    const std::optional<Names> names = read();
+    const auto known = names ? names->find(file) : Names::const_iterator();
+    return names && known != names->end() && known->second == unfinished;
+}
+
+void FileRecord::remove_left_over() {
+    update([&](const std::optional<Names>& before) {
+        Names after = before.value_or(Names());
+        std::erase_if(after, [&](const auto& entry) {
+            const auto& [file, digest] = entry;
+            const bool left = digest == unfinished && file.ends_with(OutputFile::suffix) &&
+                              file.find('/') == std::string::npos;
+            if (left) directory_.remove(file);
+            return left;
+        });
+        return after;
+    });
 }
 
 std::string FileRecord::reason_to_keep(const std::string& file, const std::optional<Names>& names,
@@ -86,10 +95,26 @@ std::string FileRecord::reason_to_keep(const std::string& file, const std::optio
     if (known == names->end())
         return fmt::format("it is not one of the files that Asperity wrote here ({} lists them)",
                            name);
-    if (known->second == unfinished) return "";
+    if (known->second == unfinished)
+        return status.st_nlink > 1 ? "it is a hard link: the same file has another name" : "";
     if (known->second != digest_of_file(directory_, file))
         return "it was changed after Asperity wrote it";
     return "it belongs to an earlier result, and results are not written over";
+}
+
+void FileRecord::write(const std::string& text, bool replace) const {
+    const Bytes bytes = std::as_bytes(std::span(text));
+    const Descriptor unnamed(
+        replace ? -1 : ::openat(directory_.fd(), ".", O_TMPFILE | O_WRONLY | O_CLOEXEC, 0644));
+    if (unnamed && write_all(unnamed.get(), bytes, 0) && bring_to_disk(unnamed.get()) &&
+        ::linkat(AT_FDCWD, fmt::format("/proc/self/fd/{}", unnamed.get()).c_str(), directory_.fd(),
+                 name, AT_SYMLINK_FOLLOW) == 0)
+        return directory_.sync();
+    const std::string beside = std::string(name) + OutputFile::suffix;
+    if (replace) directory_.remove(beside);
+    OutputFile file({directory_, name}, beside);
+    file.write(bytes);
+    file.commit();
 }
 
 void FileRecord::update(const std::function<Names(const std::optional<Names>&)>& change) const {
@@ -102,32 +127,53 @@ void FileRecord::update(const std::function<Names(const std::optional<Names>&)>&
     const Names after = change(before);
     if (after.empty()) return directory_.remove(name);
     if (after == before) return;
-    Json json;
-    json["files"] = after;
-    write_whole({directory_, name}, sealed_json(json));
+    write(sealed_texts("files", after), before.has_value());
+}
+
+void FileRecord::claim_passing(const std::string& file) {
+    update([&](const std::optional<Names>& before) {
+        Names after = before.value_or(Names());
+        const auto known = after.find(file);
+        if (known == after.end() ? !directory_.exists(file) : known->second == unfinished) {
+            after[file] = unfinished;
+            passing_.push_back(file);
+        }
+        return after;
+    });
 }
 
 void FileRecord::claim(const std::vector<std::string>& names,
                        const std::vector<std::string>& inputs) {
+    std::vector<std::string> passing;
+    for (const std::string& file : names)
+        passing.push_back(OutputFile::temporary(file));
     update([&](const std::optional<Names>& before) {
+        std::optional<Names> earlier = before;
+        for (const std::string& file : passing_)
+            if (earlier) earlier->erase(file);
+        if (earlier && earlier->empty()) earlier.reset(); // this command has made the record
         std::vector<Problem> problems;
         for (const std::string& file : names)
-            if (const std::string why = reason_to_keep(file, before, inputs); !why.empty())
+            if (const std::string why = reason_to_keep(file, earlier, inputs); !why.empty())
                 problems.push_back({directory_ / file, "is there already and is not replaced", why,
                                     "move it away, or name another directory (--out)"});
         if (!problems.empty()) throw SceneError(std::move(problems));
         Names after = before.value_or(Names());
-        for (const std::string& file : names)
-            after[file] = unfinished;
+        for (const auto* const list : {&names, &std::as_const(passing)})
+            for (const std::string& file : *list)
+                after[file] = unfinished;
         return after;
     });
     claimed_ = names;
+    passing_.insert(passing_.end(), passing.begin(), passing.end());
 }
 
 void FileRecord::release(bool finished) {
-    if (claimed_.empty()) return;
+    if (claimed_.empty() && passing_.empty()) return;
     update([&](const std::optional<Names>& before) {
         Names after = before.value_or(Names());
+        for (const std::string& file : std::exchange(passing_, {}))
+            after.erase(file);
         for (const std::string& file : std::exchange(claimed_, {})) {
             struct stat status {};
             if (::fstatat(directory_.fd(), file.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)

@@ -37,6 +37,22 @@ std::uint64_t size_of(int fd) {
     return ::fstat(fd, &status) == 0 ? static_cast<std::uint64_t>(status.st_size) : 0;
 }
 
+/// Opens a regular file relative to a directory.
+Descriptor open_regular(int directory, const std::string& name, int flags,
+                        const std::string& path) {
+    // Non-blocking: to open a pipe of that name would wait for somebody at its other end.
+    Descriptor file(
+        ::openat(directory, name.c_str(), flags | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0644));
+    struct stat status {};
+    if (file && ::fstat(file.get(), &status) == 0 && !S_ISREG(status.st_mode))
+        throw FileError(path, "is no regular file",
+                        S_ISDIR(status.st_mode)    ? "it is a directory"
+                        : S_ISFIFO(status.st_mode) ? "it is a pipe"
+                                                   : "it is a device or a socket",
+                        "move it away, or name another file");
+    return file;
+}
+
 std::optional<SealBytes> seal_at_end(int fd) {
     const std::uint64_t size = size_of(fd);
     SealBytes end{};
@@ -84,8 +100,7 @@ bool Directory::exists(const std::string& name) const {
 }
 
 Descriptor Directory::open(const std::string& name, int flags) const {
-    // Non-blocking: to open a pipe of that name would wait for somebody at its other end.
-    return Descriptor(::openat(fd(), name.c_str(), flags | O_CLOEXEC | O_NONBLOCK, 0644));
+    return open_regular(fd(), name, flags, *this / name);
 }
 
 void Directory::remove(const std::string& name) const {
@@ -116,13 +131,23 @@ Directory FilePlace::directory() const {
 
 Descriptor FilePlace::open(int flags) const {
     if (directory_) return directory_->open(name_, flags);
-    return Descriptor(::open(name_.c_str(), flags | O_CLOEXEC, 0644));
+    return open_regular(AT_FDCWD, name_, flags, name_);
 }
 
-OutputFile::OutputFile(const FilePlace& place)
+std::string OutputFile::temporary(const std::string& name) {
+    return fmt::format("{}.{}{}", name, ::getpid(), suffix);
+}
+
+OutputFile::OutputFile(const FilePlace& place, const std::string& temporary)
     : path_(place.path()), directory_(place.directory()), name_(place.name()),
-      temporary_(name_ + "." + std::to_string(::getpid()) + suffix),
-      file_(directory_.open(temporary_, O_RDWR | O_CREAT | O_TRUNC | O_NOFOLLOW)) {
+      temporary_(temporary) {
+    constexpr int new_file = O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW;
+    file_ = directory_.open(temporary_, new_file);
+    // A file or link of that name is somebody else's, or of a killed process of the same number.
+    for (int i = 2; !file_ && errno == EEXIST && i < 1000; ++i) {
+        temporary_ = fmt::format("{}-{}", temporary, i);
+        file_ = directory_.open(temporary_, new_file);
+    }
     if (!file_) fail_by_system(path_, "cannot be written");
 }
 
@@ -151,6 +176,23 @@ void OutputFile::commit() {
     directory_.rename(temporary_, name_);
     in_place_ = true;
     directory_.sync();
+}
+
+std::optional<std::string> contents_of(const FilePlace& place, int flags) {
+    constexpr std::uint64_t longest = std::uint64_t{1} << 28;
+    const Descriptor file = place.open(O_RDONLY | flags);
+    if (!file && (errno == ENOENT || errno == ENOTDIR)) return std::nullopt;
+    const std::uint64_t length = file ? size_of(file.get()) : 0;
+    if (length > longest)
+        throw FileError(place.path(), "cannot be read",
+                        fmt::format("it has {} bytes, and {} are the limit", length, longest),
+                        "move it away");
+    std::string text;
+    if (!file || !read_parts(file.get(), length, [&](Bytes part) {
+            text.append(reinterpret_cast<const char*>(part.data()), part.size());
+        }))
+        fail_by_system(place.path(), "cannot be read", "check its permissions");
+    return text;
 }
 
 void write_whole(const FilePlace& place, const std::string& text) {

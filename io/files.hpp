@@ -61,7 +61,8 @@ public:
     /// Returns true if the directory has an entry of this name. Throws FileError if the entry
     /// cannot be examined.
     bool exists(const std::string& name) const;
-    /// Opens a file of the directory. Returns an empty descriptor, with errno set, if that fails.
+    /// Opens a regular file of the directory. Returns an empty descriptor, with errno set, if that
+    /// fails. Throws FileError for a folder, a pipe, a socket or a device.
     Descriptor open(const std::string& name, int flags) const;
     /// Removes a file if it exists. Throws FileError.
     void remove(const std::string& name) const;
@@ -85,7 +86,7 @@ public:
     std::string path() const { return directory_ ? *directory_ / name_ : name_; }
     std::string name() const;    ///< returns the name in its directory
     Directory directory() const; ///< opens the directory of the file; throws FileError
-    /// Opens the file. Returns an empty descriptor, with errno set, if that fails.
+    /// Opens the file as Directory::open() does.
     Descriptor open(int flags) const;
 
 private:
@@ -96,9 +97,11 @@ private:
 /// A file that is written completely or not at all.
 class OutputFile {
 public:
-    /// Opens a temporary file in the directory of the place. This and all other functions throw
-    /// FileError.
-    explicit OutputFile(const FilePlace& place);
+    /// Makes a temporary file in the directory of the place; a file or link that is there is not
+    /// touched. This and all other functions throw FileError.
+    explicit OutputFile(const FilePlace& place) : OutputFile(place, temporary(place.name())) {}
+    /// Makes a temporary file of this name.
+    OutputFile(const FilePlace& place, const std::string& temporary);
     /// Deletes the temporary file, unless commit() has renamed it.
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -114,6 +117,8 @@ public:
 
     /// Ending of the names of temporary files.
     static constexpr const char* suffix = ".part";
+    /// Returns the name of this process's temporary file for a file of this name.
+    static std::string temporary(const std::string& name);
 
 private:
     std::string path_;
@@ -123,6 +128,9 @@ private:
     bool in_place_ = false;
 };
 
+/// Returns the contents of a regular file; nothing if there is none. The flags are those of open(),
+/// O_NOFOLLOW for example. Throws FileError, also for a file of more than 256 MB.
+std::optional<std::string> contents_of(const FilePlace& place, int flags = 0);
 /// Writes a text to a file, completely or not at all. Throws FileError.
 void write_whole(const FilePlace& place, const std::string& text);
 

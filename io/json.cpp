@@ -14,6 +14,9 @@ namespace {
 
 /// Largest depth of arrays and objects. Results are six deep; copying and freeing are recursive.
 constexpr int deepest = 64;
+/// Largest number of members of all objects. A result has some hundreds; an object compares a new
+/// name with all names before it.
+constexpr int most_members = 20000;
 
 } // namespace
 
@@ -31,10 +34,14 @@ Json problems_json(const std::vector<Problem>& problems) {
 }
 
 Json parse_json(std::string_view text, const std::string& file) {
-    const auto limit = [&](int depth, Json::parse_event_t, Json&) {
-        if (depth > deepest)
+    int members = 0;
+    const auto limit = [&](int depth, Json::parse_event_t event, Json&) {
+        members += event == Json::parse_event_t::key ? 1 : 0;
+        if (depth > deepest || members > most_members)
             throw FileError(file, "this is no result",
-                            fmt::format("its values are nested more than {} deep", deepest),
+                            depth > deepest
+                                ? fmt::format("its values are nested more than {} deep", deepest)
+                                : fmt::format("it has more than {} members", most_members),
                             "run the scene again");
         return true;
     };
@@ -58,6 +65,30 @@ std::string sealed(std::string text) {
 
 std::string sealed_json(const Json& object) {
     std::string text = json_text(object, 2);
+    text.resize(text.rfind("\n}"));
+    return sealed(std::move(text));
+}
+
+std::optional<std::map<std::string, std::string>> sealed_texts(const std::string& text,
+                                                               const std::string& member) {
+    // An object of this kind finds a name in a tree, so that many names take no longer each.
+    using Tree = nlohmann::json;
+    const auto limit = [](int depth, Tree::parse_event_t, Tree&) {
+        if (depth > 2) throw FileError("", "this is no object of texts", "");
+        return true;
+    };
+    if (!is_sealed_json(text)) return std::nullopt;
+    try {
+        return Tree::parse(text, limit).at(member).get<std::map<std::string, std::string>>();
+    } catch (const std::exception&) {
+        return std::nullopt;
+    }
+}
+
+std::string sealed_texts(const std::string& member,
+                         const std::map<std::string, std::string>& texts) {
+    const nlohmann::json object = {{member, texts}};
+    std::string text = object.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
     text.resize(text.rfind("\n}"));
     return sealed(std::move(text));
 }

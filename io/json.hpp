@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -27,6 +29,13 @@ Json parse_json(std::string_view text, const std::string& file);
 /// Returns an object as the text of a file, with a last member `digest`: the digest of all bytes
 /// before the comma in front of it.
 std::string sealed_json(const Json& object);
+/// Returns the text of a file of an object of texts, as the member of an object with a digest.
+std::string sealed_texts(const std::string& member,
+                         const std::map<std::string, std::string>& texts);
+/// Returns the object of texts that is such a member; nothing if the text is no such file or was
+/// changed.
+std::optional<std::map<std::string, std::string>> sealed_texts(const std::string& text,
+                                                               const std::string& member);
 /// Returns true if a text of sealed_json() is unchanged.
 bool is_sealed_json(std::string_view text);
 /// Returns a member by its path, find(json, "energy.residual"); nullptr if there is none.

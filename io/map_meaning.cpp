@@ -159,6 +159,8 @@ void note_doubts(HeightMap& map) {
     const auto low = std::upper_bound(sorted.begin(), sorted.end(), sorted.front()),
                high = std::lower_bound(sorted.begin(), sorted.end(), sorted.back());
     const auto doubt = [&](double value, std::ptrdiff_t points, double from, double to) {
+        for (double* const height : {&value, &from, &to}) // rounding of a height at zero
+            if (std::abs(*height) < 1e-5 * (to - from)) *height = 0.0;
         map.doubts.push_back(fmt::format(
             "{} points have the height {:.6g} Å, all others are between {:.6g} and {:.6g} "
             "Å: if that stands for points without a height, write them as nan",

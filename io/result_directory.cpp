@@ -6,12 +6,9 @@
 #include "io/files.hpp"
 #include "io/json.hpp"
 
-#include <algorithm>
 #include <cerrno>
 #include <exception>
 #include <filesystem>
-#include <fstream>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -24,6 +21,17 @@ namespace fs = std::filesystem;
 
 // Contents of a directory.
 
+/// Returns the contents of result.json; null if it is damaged. Throws FileError if it is no regular
+/// file.
+Json result_in(const std::string& file) {
+    const std::optional<std::string> text = contents_of(file);
+    try {
+        return text ? parse_json(*text, file) : Json();
+    } catch (const FileError&) {
+        return {};
+    }
+}
+
 enum class Holds { nothing, result, unfinished };
 
 Holds holds(const fs::path& directory) {
@@ -33,8 +41,7 @@ Holds holds(const fs::path& directory) {
     const bool begun = there(run_file::journal) || there(run_file::checkpoint);
     if (!there("result.json")) return begun ? Holds::unfinished : Holds::nothing;
     if (!begun) return Holds::result;
-    std::ifstream stream(directory / "result.json", std::ios::binary);
-    const Json result = Json::parse(stream, nullptr, false);
+    const Json result = result_in(directory / "result.json");
     const Json* const stopped = find(result, "run.stopped");
     const Json* const code = find(result, "failure.exit_code");
     const bool goes_on = (stopped && (*stopped == "wall_limit" || *stopped == "signal")) ||
@@ -96,27 +103,6 @@ void check(const ResultRequest& request, const Directory& directory) {
             "or throw it away: --restart"});
 }
 
-/// Returns true if a file was left of one of these files by a command that was killed.
-bool is_left_of(const std::string& file, const std::vector<std::string>& names) {
-    const std::string_view end = OutputFile::suffix;
-    if (!file.ends_with(end)) return false;
-    const std::string_view beside = std::string_view(file).substr(0, file.size() - end.size());
-    const std::size_t dot = beside.rfind('.'); // in front of the number of the process
-    return dot != std::string_view::npos && dot + 1 < beside.size() &&
-           beside.find_first_not_of("0123456789", dot + 1) == std::string_view::npos &&
-           std::find(names.begin(), names.end(), beside.substr(0, dot)) != names.end();
-}
-
-/// Removes files that a command which was killed has not put in their places.
-void remove_left_over(const Directory& directory, const ResultRequest& request) {
-    std::vector<std::string> names = request.files;
-    names.emplace_back(FileRecord::name);
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(directory.path(), error))
-        if (const std::string file = entry.path().filename().string(); is_left_of(file, names))
-            directory.remove(file);
-}
-
 } // namespace
 
 ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string& path)
@@ -131,9 +117,10 @@ ResultDirectory::ResultDirectory(const ResultRequest& request, const std::string
 // If this constructor throws, the destructor undoes its work: the other constructor has ended.
 ResultDirectory::ResultDirectory(const ResultRequest& request)
     : ResultDirectory(request, choose(request)) {
+    record_.claim_passing(DirectoryLock::name);
     lock_.emplace(directory_, ::getpid());
     if (!lock_->note().empty()) notes_.push_back(lock_->note());
-    remove_left_over(directory_, request); // also of a run that had come to its end
+    record_.remove_left_over(); // also of a run that had come to its end
     check(request, directory_);
     record_.claim(request.files, request.inputs);
     if (request.restart)

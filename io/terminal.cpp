@@ -63,6 +63,21 @@ int columns_of(std::FILE* stream) {
 
 } // namespace
 
+std::string printable(std::string_view text) {
+    std::string shown;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
+        if (byte == 0xc2 && next >= 0x80 && next < 0xa0) // U+0080 to U+009F in UTF-8
+            shown += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[++i]));
+        else if ((byte < 0x20 && byte != '\n') || byte == 0x7f)
+            shown += fmt::format("\\x{:02x}", byte);
+        else
+            shown += text[i];
+    }
+    return shown;
+}
+
 int visible_width(std::string_view text) {
     return static_cast<int>(std::count_if(text.begin(), text.end(), [](char c) {
         return (static_cast<unsigned char>(c) & 0xC0) != 0x80; // begins a character
@@ -96,7 +111,9 @@ std::vector<std::string> wrapped(std::string_view text, int most) {
     return lines;
 }
 
-std::string folded(std::string_view text) {
+std::string folded(std::string_view unchecked) {
+    const std::string shown = printable(unchecked);
+    std::string_view text = shown;
     std::string all;
     while (!text.empty()) {
         const std::string_view line = text.substr(0, text.find('\n'));
@@ -131,6 +148,8 @@ Table::Table(std::vector<std::string> heads, std::string sides)
 
 void Table::row(std::vector<std::string> cells) {
     cells.resize(heads_.size());
+    for (std::string& cell : cells)
+        cell = printable(cell);
     rows_.push_back(std::move(cells));
 }
 
@@ -245,13 +264,14 @@ void Progress::update(const State& state) {
     const std::string line = progress_line(state, seconds(now - start_), state.steps - first_steps_,
                                            state.time_fs - first_time_);
     if (mode_ == ProgressMode::bar) {
-        put(fmt::format("\r\033[K{:.{}}", line, std::min(progress_columns, columns_of(to_))));
+        put(fmt::format("\r\033[K{:.{}}", printable(line),
+                        std::min(progress_columns, columns_of(to_))));
         bar_drawn_ = true;
     } else if (mode_ == ProgressMode::json) {
         const Json fraction = state.fraction < 0.0 ? Json() : Json(state.fraction);
         put(json_text({{"fraction", fraction}, {"text", line}}) + "\n");
     } else {
-        put(line + "\n");
+        put(printable(line) + "\n");
     }
 }
 
@@ -265,7 +285,8 @@ void Progress::say(const std::string& sentence) {
     first_steps_ = -1; // the next steps are of another kind and speed
     if (mode_ == ProgressMode::off) return;
     finish();
-    put((mode_ == ProgressMode::json ? json_text({{"text", sentence}}) : sentence) + "\n");
+    const bool json = mode_ == ProgressMode::json;
+    put((json ? json_text({{"text", sentence}}) : printable(sentence)) + "\n");
 }
 
 void Progress::finish() {

@@ -50,14 +50,17 @@ std::string with_error(double value, double error);
 
 /// Columns that a line of text fills at most; tables may be wider.
 inline constexpr int text_columns = 80;
+/// Returns a text without characters that control a terminal: names of scenes and files are
+/// anyone's. A newline stays; another such character is written as "\x1b".
+std::string printable(std::string_view text);
 /// Returns the number of visible characters of a UTF-8 text.
 int visible_width(std::string_view text);
 /// Returns a text in lines of at most this number of columns, broken at blanks; a longer word stays
 /// whole, and so does a number with the word behind it.
 std::vector<std::string> wrapped(std::string_view text, int most);
-/// Returns a text whose lines fill at most text_columns. The rest of a longer line stands below its
-/// first word, or of a line "  name   value" below the value.
-std::string folded(std::string_view text);
+/// Returns a printable() text whose lines fill at most text_columns. The rest of a longer line
+/// stands below its first word, or of a line "  name   value" below the value.
+std::string folded(std::string_view unchecked);
 /// Prints a text, folded; arguments as of fmt::print().
 template <typename... T>
 void print_text(std::FILE* to, fmt::format_string<T...> text, T&&... values) {

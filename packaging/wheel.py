@@ -164,8 +164,8 @@ def main():
         tag = run(python, "-c", "import sys; print('%d.%d' % sys.version_info[:2])", stdout=subprocess.PIPE).strip()
         tools = work / f"tools-{tag}"
         if not (tools / "bin" / "wheel").exists():
-            run(python, "-m", "venv", tools)
-            run(tools / "bin" / "python3", "-m", "pip", "install", "--quiet", *TOOLS)
+            run(python, "-I", "-m", "venv", tools)  # -I: no module of the current folder
+            run(tools / "bin" / "python3", "-I", "-m", "pip", "install", "--quiet", *TOOLS)
         run(tools / "bin" / "python3", __file__, out, "--work", work)
 
 

@@ -85,9 +85,9 @@ extern const Option scene, set, json, progress, quiet;
 Option out(const std::string& otherwise);
 } // namespace takes
 
-/// Replaces this process by `python3 -m asperity` if argv names a command of the Python package
-/// (python/asperity), which finds this program through $ASPERITY_PROGRAM. Returns nothing if argv
-/// names another command. If Python or the package was not found, prints the reason and returns the
+/// Replaces this process by Python if argv names a command of the Python package (python/asperity),
+/// which finds this program through $ASPERITY_PROGRAM. Python does not look for modules in the
+/// current folder. Returns nothing if argv names another command. If Python or the package was not found, prints the reason and returns the
 /// exit code. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 

@@ -5,6 +5,7 @@
 #include "decomposition/communicator.hpp"
 #include "io/error.hpp"
 #include "io/json.hpp"
+#include "io/terminal.hpp"
 
 #include <chrono>
 #include <cstdio>
@@ -54,7 +55,7 @@ int report(const std::exception& error, bool json, const Communicator& world) {
     }
     if (world.root()) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}\n", text);
+        fmt::print(stderr, "{}\n", io::printable(text));
         std::fflush(stderr);
     }
     return code;
@@ -66,7 +67,7 @@ int report(const std::exception& error, bool json, const Communicator& world) {
     const int code = report(error, json, world);
     if (!world.root()) {
         std::this_thread::sleep_for(std::chrono::seconds(5));
-        fmt::print(stderr, "rank {}: {}\n", world.rank(), error.what());
+        fmt::print(stderr, "rank {}: {}\n", world.rank(), io::printable(error.what()));
         std::fflush(stderr);
     }
     world.abort(code);

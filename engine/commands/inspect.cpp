@@ -127,7 +127,7 @@ int init_command(const Arguments& given, const Communicator& world) {
         if (given.json)
             fmt::print("{}\n", io::json_text({{"file", file}}));
         else if (!given.quiet)
-            fmt::print("{0}: made. Next: asperity check {0}\n", file);
+            io::print_text(stdout, "{0}: made. Next: asperity check {0}\n", file);
     });
     return io::exit_code::done;
 }
@@ -140,7 +140,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
     }
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root() || given.quiet) return io::exit_code::done;
-    fmt::print("{}: nothing wrong\n", c.scene.file);
+    io::print_text(stdout, "{}: nothing wrong\n", c.scene.file);
     fmt::print("  {}; {}\n", c.box_in_words(), c.block_in_words());
     if (c.effects.dynamic)
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -49,6 +50,24 @@ std::string python() {
     return fs::exists("/usr/bin/python3", error) ? "/usr/bin/python3" : "python3";
 }
 
+/// Lines that Python carries out first. Its options -c and -m put the current folder before all
+/// others into the search path, where a numpy.py beside the user's data would be run as code. Python without
+/// that folder (-P) is of 3.11; sys is part of the interpreter.
+constexpr const char* start = "import sys; sys.path[:] = filter(None, sys.path); "
+                              "from asperity.__main__ import start; start()";
+
+/// Returns the places of a search path without empty ones, which would be the current folder.
+/// "PYTHONPATH=$PYTHONPATH:/a" makes such a place of a variable that was not set.
+std::string without_empty(std::string_view path) {
+    std::string kept;
+    while (!path.empty()) {
+        const std::size_t end = std::min(path.find(':'), path.size());
+        if (end > 0) kept.append(kept.empty() ? "" : ":").append(path.substr(0, end));
+        path.remove_prefix(std::min(end + 1, path.size()));
+    }
+    return kept;
+}
+
 } // namespace
 
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc,
@@ -60,15 +79,15 @@ std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     const fs::path beside = python_beside(program); // knows the package
-    if (const fs::path folder = package_folder(program); beside.empty() && !folder.empty()) {
-        const char* known = std::getenv("PYTHONPATH");
-        const std::string path = known && *known ? folder.string() + ":" + known : folder.string();
-        ::setenv("PYTHONPATH", path.c_str(), 1);
-    }
+    const char* const known = std::getenv("PYTHONPATH");
+    std::string path = without_empty(known ? known : "");
+    if (const fs::path folder = package_folder(program); beside.empty() && !folder.empty())
+        path = folder.string() + (path.empty() ? "" : ":" + path);
+    ::setenv("PYTHONPATH", path.c_str(), 1);
     ::setenv("ASPERITY_PROGRAM", program.c_str(), 1);
     const std::string interpreter =
         beside.empty() || std::getenv("ASPERITY_PYTHON") ? python() : beside.string();
-    std::vector<std::string> words = {interpreter, "-m", "asperity"};
+    std::vector<std::string> words = {interpreter, "-c", start};
     words.insert(words.end(), argv + 1, argv + argc);
     std::vector<char*> pointers;
     pointers.reserve(words.size() + 1);

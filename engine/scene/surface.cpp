@@ -273,8 +273,9 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     }
     if (o.rms > 0.0) {
         const double own = heights::rms_of(h);
-        const double largest = std::max(std::abs(*std::max_element(h.begin(), h.end())),
-                                        std::abs(*std::min_element(h.begin(), h.end())));
+        double largest = 0.0;
+        for (const double v : h) // a hole is no number, and no larger than any
+            if (std::abs(v) > largest) largest = std::abs(v);
         require(
             own > 1e-12 * largest && own > 0.0,
             fmt::format("the height map is flat (rms = {:g} Å), so it cannot be scaled to rms = {} "

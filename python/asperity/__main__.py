@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""The command line: `python3 -m asperity` is `asperity`.
+"""The command line. The program starts Python with start() (engine/commands/python_commands.cpp), without the current folder in
+the search path; `python3 -m asperity` looks there for modules.
 
 theory, sweep, cost, estimate, adhesion, tip, states, report, export, convert and scenes are carried out here; the program hands them over.
 Every other command is handed to the program. In a wheel the program is entry(): the compiled module carries out the others.
@@ -22,7 +23,7 @@ from .commands.command_line import parsers
 from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .running import program
 from .running.scene import STANDARD_INPUT, scene_file
-from .terminal import Voice, launched, sleep_soon
+from .terminal import Voice, folded, launched, sleep_soon
 from .units import is_unit
 
 
@@ -100,7 +101,7 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise SceneError("command line", f"two files to write are given, {given.target} and {given.out}", "", "leave one out")
         target = given.target or given.out or Path(given.source.partition(":/")[0]).with_suffix(".h5")
         said, *notes = convert(given.source, target, given.channel).split("\n")
-        voice.show(said)
+        voice.show(folded(said))
         for note in notes:
             voice.say(note)
         voice.tell({"file": target, "text": said, "notes": [note.removeprefix("note: ") for note in notes]})
@@ -167,7 +168,7 @@ def _print_error(error: Error, as_json: bool) -> None:
     """Prints an error as the program does (engine/commands/exit_code.hpp)."""
     text = str(error)
     if as_json:
-        print(json.dumps({"error": {"code": error.code, "problems": error.listed, "text": text}}, ensure_ascii=False), file=sys.stderr)
+        print(json.dumps({"error": {"code": error.code, "problems": error.listed, "text": text}}, ensure_ascii=False).encode("utf-8", "replace").decode(), file=sys.stderr)
         return
     print(text, file=sys.stderr)
     if error.code == SceneError.code:
@@ -223,7 +224,8 @@ def entry() -> int:
     return _engine.program(words)
 
 
-if __name__ == "__main__":
+def start() -> None:
+    """Carries out the command line of this process and ends it."""
     try:
         sys.exit(main(sys.argv[1:]))
     except BrokenPipeError:
@@ -231,3 +233,7 @@ if __name__ == "__main__":
         sys.exit(0)
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+if __name__ == "__main__":
+    start()

@@ -12,6 +12,7 @@ Each error has the exit code of the command that it ends, as in the program, and
 from __future__ import annotations
 
 import difflib
+import re
 import sys
 import sysconfig
 from collections.abc import Callable, Iterable
@@ -34,13 +35,19 @@ def to_install(*packages: str) -> str:
             f"export ASPERITY_PYTHON={place}/bin/python3")
 
 
+def printable(text: str) -> str:
+    """Returns a text without characters that control a terminal, as io/terminal.cpp does: names of scenes and files are anyone's. A newline
+    stays; another such character is written as "\\x1b"."""
+    return re.sub(r"[\x00-\x09\x0b-\x1f\x7f-\x9f\ud800-\udfff]", lambda found: f"\\x{ord(found[0]) & 0xff:02x}", text)
+
+
 def _text_of(where: str, what: str = "", why: str = "", fix: str = "") -> str:
     """Returns the message of a problem."""
     text = f"{where}: {what}" if where and what else where or what
     for head, line in (("why", why), ("fix", fix)):
         if line:
             text += f"\n    {head}: " + line.replace("\n", "\n         ")
-    return text
+    return printable(text)
 
 
 class Error(Exception):

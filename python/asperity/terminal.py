@@ -11,13 +11,16 @@ import os
 import re
 import shutil
 import sys
+import textwrap
 import time
 from collections.abc import Iterable, MutableMapping
 from typing import Any
 
-from .errors import SceneError
+from .errors import SceneError, printable
 from .units import MILLIJOULE
 
+COLUMNS = 80
+"""Columns that a line of text fills at most."""
 WIDEST = 100
 """Columns of text that a table fills at most."""
 PROGRESS_MODES = ("auto", "bar", "lines", "off")
@@ -214,6 +217,16 @@ def environment_alone() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if not of_rank.match(name)}
 
 
+def folded(text: str) -> str:
+    """Returns a text whose lines fill at most 80 columns, as io/terminal.cpp folds them; the rest of a longer line stands below its first
+    word."""
+    def lines(line: str) -> str:
+        indent = " " * (len(line) - len(line.lstrip()))
+        return textwrap.fill(line, COLUMNS, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+
+    return "\n".join(line if len(line) <= COLUMNS else lines(line) for line in text.split("\n"))
+
+
 class Progress:
     """A bar that is drawn over (on a terminal) or lines that get rarer, to stderr."""
 
@@ -237,17 +250,17 @@ class Progress:
         """Shows a text in place of the last one."""
         self._last = time.monotonic()
         if self.mode == "bar":
-            sys.stderr.write("\r\033[K" + text[: shutil.get_terminal_size((110, 24)).columns - 1])
+            sys.stderr.write("\r\033[K" + printable(text)[: shutil.get_terminal_size((110, 24)).columns - 1])
             self._drawn = True
         elif self.mode == "lines":
-            sys.stderr.write(text + "\n")
+            sys.stderr.write(printable(text) + "\n")
         sys.stderr.flush()
 
     def say(self, sentence: str) -> None:
         """Writes a sentence that stays."""
         if self.mode != "off":
             self.finish()
-            sys.stderr.write(sentence + "\n")
+            sys.stderr.write(printable(sentence) + "\n")
             sys.stderr.flush()
 
     def finish(self) -> None:
@@ -274,17 +287,17 @@ class Voice:
     def say(self, sentence: str) -> None:
         """Prints a sentence on the course of the command or a note, unless it is quiet."""
         if not self.quiet and not self.json:
-            print(sentence, flush=True)
+            print(folded(printable(sentence)), flush=True)
 
     def show(self, text: str) -> None:
         """Prints a result for people."""
         if not self.json:
-            print(text, flush=True)
+            print(printable(text), flush=True)
 
     def tell(self, values: Any) -> None:
         """Prints a result for programs, if they ask; numbers that are not finite are null."""
         if self.json:
-            print(json.dumps(_finite(values), ensure_ascii=False), flush=True)
+            print(json.dumps(_finite(values), ensure_ascii=False).encode("utf-8", "replace").decode(), flush=True)
 
 
 def _finite(value: Any) -> Any:

@@ -193,7 +193,7 @@ together() { # CODE
         failures=0
         flock 9
         for rank in 0 1 2 3; do "$asperity" check >"rank-$rank" 2>&1 9>&- & pids+=($!); done
-        until [ "$(wc -l <waiting)" -eq 5 ]; do sleep 0.05; done
+        until [ "$(wc -l <waiting)" -ge 5 ]; do sleep 0.05; done
         flock -u 9
         for pid in "${pids[@]}"; do
             wait "$pid"
@@ -208,6 +208,16 @@ touch "$broken"
 together 1
 [ "$(grep -l "the build failed" rank-* | wc -l)" -eq 4 ] || fail "a rank ends without a word: $(cat rank-*)"
 rm "$broken" bin/flock "$builds" waiting rank-*
+# A start that waits for long says for whom.
+(
+    flock 9
+    printf 'process 7 since 12:34\n' >"../a house/build/.lock"
+    "$asperity" check >waits 2>&1 9>&- &
+    until grep -q "waiting for another build in .*/build (process 7 since 12:34)" waits; do sleep 0.05; done
+    flock -u 9
+    wait $! || fail "the start that waited ends otherwise: $(cat waits)"
+) 9<>"../a house/build/.lock"
+rm waits
 stand_in ninja 'true'
 
 # Under a limit on open files it says so, and builds nothing anywhere.

@@ -10,6 +10,7 @@
 #include "support/scratch.hpp"
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <fcntl.h>
@@ -68,21 +69,66 @@ TEST(ResultDirectory, BreaksTheLockOfTheDeadAndOfNobodyElse) {
     // The same of another host, and one that tells nothing.
     std::filesystem::create_directories(path);
     const std::size_t name = left.find(' ') + 1;
-    scratch.write("a/run.lock", left.substr(0, name) + "elsewhere" + left.substr(left.find('\n')));
+    const auto with_digest = [](const std::string& text) {
+        return text + "digest " + digest_text(digest_of(std::as_bytes(std::span(text)))) + "\n";
+    };
+    const std::string whole = left.substr(0, left.find("digest"));
+    ASSERT_EQ(with_digest(whole), left);
+    scratch.write("a/run.lock", with_digest(whole.substr(0, name) + "elsewhere" +
+                                            whole.substr(whole.find('\n'))));
     EXPECT_TRUE(holds(refusal({path, "x"}), "on host elsewhere"));
     EXPECT_EQ(contents(file).substr(0, 14), "host elsewhere") << "it is still theirs";
-    // What its owner did not come to write to the end is nobody's; nor is a number of a process,
-    // that another has by now.
+    // A number of a process that another has by now is nobody's.
+    scratch.write("a/run.lock", with_digest(fmt::format(
+                                    "host {}process {}\nsince then\n",
+                                    left.substr(name, left.find('\n') + 1 - name), ::getpid())));
+    EXPECT_EQ(refusal({path, "x"}), "");
+    EXPECT_FALSE(std::filesystem::exists(file));
+    // Other texts are somebody's, unless the record says that a command was writing one.
     for (const std::string& text :
-         {std::string(), left.substr(0, name), left.substr(0, left.size() - 1),
-          left.substr(0, left.find("since")),
-          fmt::format("host {}process {}\nsince then\n",
-                      left.substr(name, left.find('\n') + 1 - name), ::getpid())}) {
+         {std::string(), left.substr(0, name), left.substr(0, left.size() - 1), whole,
+          left.substr(0, left.find("since")), std::string("host foo\n  HostName bar\n"),
+          left + "more\n"}) {
         std::filesystem::create_directories(path);
         scratch.write("a/run.lock", text);
-        EXPECT_EQ(refusal({path, "x"}), "") << text;
-        EXPECT_FALSE(std::filesystem::exists(file));
+        const std::string said = refusal({path, "x"});
+        EXPECT_TRUE(holds(said, "2 ") && holds(said, "not the lock of a run")) << said;
+        EXPECT_EQ(contents(file), text);
+        scratch.write("a/.asperity-files.json",
+                      sealed_texts("files", {{"run.lock", "unfinished"}}));
+        EXPECT_EQ(refusal({path, "x", false, false, {"result.json"}}), "") << text;
+        EXPECT_TRUE(std::filesystem::is_empty(path)) << text;
     }
+}
+
+TEST(ResultDirectory, WritesIntoNoFileThatIsThere) {
+    const Scratch scratch;
+    const std::string path = scratch / "a";
+    std::string left;
+    {
+        const ResultDirectory owner({path, "x"});
+        left = contents(path + "/run.lock");
+    }
+    // A whole lock, and a file that the record calls unfinished, that are another name of a file.
+    for (const std::string name : {"run.lock", "run.journal"}) {
+        std::filesystem::create_directories(path);
+        scratch.write("theirs", left);
+        std::filesystem::create_hard_link(scratch / "theirs", path + "/" + name);
+        scratch.write("a/.asperity-files.json", sealed_texts("files", {{name, "unfinished"}}));
+        const std::string said = refusal({path, "x", false, true, {"run.journal"}});
+        EXPECT_TRUE(holds(said, "2 ") && holds(said, "hard link")) << said;
+        EXPECT_EQ(contents(scratch / "theirs"), left);
+        std::filesystem::remove_all(path);
+    }
+    // The name of a temporary file may be taken, by a link for example.
+    std::filesystem::create_directories(path);
+    scratch.write("theirs", "a text");
+    const std::string taken = path + "/" + OutputFile::temporary("f");
+    std::filesystem::create_hard_link(scratch / "theirs", taken);
+    write_whole({Directory(path), "f"}, "ours");
+    EXPECT_EQ(contents(path + "/f"), "ours");
+    EXPECT_EQ(contents(scratch / "theirs"), "a text");
+    EXPECT_EQ(contents(taken), "a text");
 }
 
 TEST(ResultDirectory, IsOfOneOfManyThatTakeItAtOnce) {
@@ -94,7 +140,7 @@ TEST(ResultDirectory, IsOfOneOfManyThatTakeItAtOnce) {
         const pid_t child = ::fork();
         if (child == 0) {
             int own = 0;
-            for (int round = 0; round < 200; ++round) {
+            for (int round = 0; round < 50; ++round) {
                 try {
                     const ResultDirectory directory({path, "x"});
                     // Two at once would meet here.
@@ -167,13 +213,18 @@ TEST(ResultDirectory, RefusesResultsAndUnfinishedRuns) {
     EXPECT_TRUE(holds(refused, "2 ") && holds(refused, "a/run.journal: is there already") &&
                 holds(refused, "a/result.json: is there already") && holds(refused, "no record"))
         << refused;
-    write(".asperity-files.json",
-          sealed_json({{"files", {{"run.journal", "unfinished"}, {"result.json", "unfinished"}}}}));
+    write(".asperity-files.json", sealed_texts("files", {{"run.journal", "unfinished"},
+                                                         {"result.json", "unfinished"},
+                                                         {"run.h5.12.part", "unfinished"},
+                                                         {"../b.1.part", "unfinished"}}));
     write("run.h5.12.part", "left over");
+    scratch.write("b.1.part", "of another directory");
     write("x.part", "of another program");
-    write("run.h5.old.part", "of another program");
+    write("run.h5.13.part", "of another program");
     EXPECT_EQ(refusal({path, "x", false, true, files}), "");
-    for (const char* file : {"x.part", "run.h5.old.part"}) {
+    EXPECT_EQ(contents(scratch / "b.1.part"), "of another directory");
+    std::filesystem::remove(path + "/.asperity-files.json"); // which still names that file
+    for (const char* file : {"x.part", "run.h5.13.part"}) {
         EXPECT_EQ(contents(scratch / ("a/" + std::string(file))), "of another program");
         std::filesystem::remove(path + "/" + file);
     }
@@ -253,6 +304,7 @@ TEST(ResultDirectory, KeepsWhatTheRecordDoesNotName) {
     scratch.write("a/.asperity-files.json", "by hand");
     EXPECT_TRUE(holds(refusal(request), "is no record of the files"));
     EXPECT_EQ(contents(path + "/.asperity-files.json"), "by hand");
+    std::filesystem::remove(path + "/.asperity-files.json");
     scratch.write("a/run.lock", "by hand");
     EXPECT_TRUE(holds(refusal(request), "not the lock of a run"));
     EXPECT_EQ(contents(path + "/run.lock"), "by hand");

@@ -21,6 +21,17 @@ TEST(Errors, Grammar) {
                  "a: b\nc: d");
 }
 
+TEST(Terminal, IsControlledByNoNameOfAFile) {
+    const std::string name = "a\x1b[31mred\x07\x7f\r\xc2\x9bµ";
+    const std::string shown = "a\\x1b[31mred\\x07\\x7f\\x0d\\x9bµ";
+    EXPECT_EQ(printable(name + "\n"), shown + "\n");
+    EXPECT_EQ(folded(name + "\n"), shown + "\n");
+    EXPECT_EQ(format(Problem{name, name, name, ""}), shown + ": " + shown + "\n    why: " + shown);
+    Table table({"", "b"});
+    table.row({name, "1"});
+    EXPECT_EQ(table.text(false).find('\x1b'), std::string::npos);
+}
+
 TEST(Table, AlignsWhatIsSeen) {
     Table table({"", "approach", "γ"});
     table.row({"work of adhesion", "12.34", "1"});

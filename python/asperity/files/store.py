@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import contextlib
 import csv
+import errno
 import fcntl
 import io
 import itertools
@@ -46,10 +47,88 @@ def directory(path: Path) -> Path:
     return path
 
 
+LONGEST = 1 << 28
+"""Bytes of a file that is read as a whole."""
+DEEPEST_JSON = 64
+"""Levels of a file; its reader, and whatever walks through it, is recursive."""
+
+
+def opened(path: str | os.PathLike) -> IO[bytes]:
+    """Opens a regular file to read it. Raises OSError, also for a folder, a pipe, a socket or a device, for which it does not wait."""
+    file = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+    if not stat.S_ISREG(os.fstat(file).st_mode):
+        os.close(file)
+        raise OSError(errno.EINVAL, "it is no regular file", str(path))
+    return os.fdopen(file, "rb")
+
+
+def contents(path: str | os.PathLike) -> bytes:
+    """Returns the bytes of a regular file. Raises OSError, also for a file of more than LONGEST bytes."""
+    with opened(path) as file:
+        found = file.read(LONGEST + 1)
+    if len(found) > LONGEST:
+        raise OSError(errno.EFBIG, f"it has more than {LONGEST} bytes", str(path))
+    return found
+
+
+def json_of(content: bytes, kind: Callable[[dict[str, Any]], Any] | None = None) -> Any:
+    """Returns the value of a JSON text.
+
+    Parameters
+    ----------
+    content : bytes
+        Text.
+    kind : callable, optional
+        Makes an object of its members.
+
+    Returns
+    -------
+    Any
+        The value.
+
+    Raises
+    ------
+    ValueError
+        The text is no JSON of Unicode, or nested more than DEEPEST_JSON deep.
+    """
+    try:
+        value = json.loads(content, object_hook=kind)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+    level = [value]
+    for _ in range(DEEPEST_JSON + 1):
+        level = [member for one in level for member in (one.values() if isinstance(one, dict) else one)
+                 if isinstance(member, (dict, list))] if isinstance(level[0], (dict, list)) else []
+        if not level:
+            break
+    else:
+        raise ValueError("it is nested too deeply")
+    if b"\\ud" in content.lower():
+        json.dumps(value, ensure_ascii=False).encode()  # halves of pairs are no text: UnicodeEncodeError
+    return value
+
+
+def _made_beside(path: Path, name: str = "") -> Path:
+    """Makes an empty file beside `path`, of a new name: what has that name already is somebody else's. Raises OSError."""
+    name = name or f"{path.name}.{os.getpid()}.tmp"
+    for number in itertools.count(1):
+        beside = path.with_name(name + f"-{number}" * (number > 1))
+        try:
+            os.close(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666))
+        except FileExistsError:
+            continue
+        return beside
+    raise AssertionError
+
+
 @contextlib.contextmanager
-def _replacing(path: Path) -> Iterator[Path]:
-    """Yields a path beside `path` to write to; the file replaces `path` when all went well and it is on the disk."""
-    beside = path.with_name(f"{path.name}.{os.getpid()}.tmp")
+def _replacing(path: Path, name: str = "") -> Iterator[Path]:
+    """Yields a path beside `path` to write to; the file replaces `path` when all went well and it is on the disk. name: of the file
+    beside; "": any."""
+    try:
+        beside = _made_beside(path, name)
+    except OSError as error:
+        raise _refuse(path, error) from None
     try:
         yield beside
         with open(beside, "rb") as written:
@@ -108,7 +187,7 @@ def digest_text(value: int) -> str:
 
 
 def _digest_of(path: Path) -> str:
-    with open(path, "rb") as file:
+    with opened(path) as file:
         return digest_text(_crc(file))
 
 
@@ -117,16 +196,19 @@ def _record(place: Path) -> dict[str, str] | None:
     name that is no record."""
     path = place / RECORD
     try:
-        content = path.read_bytes()
+        content = contents(path)
     except (FileNotFoundError, NotADirectoryError):
         return None
     except OSError as error:
         raise _refuse(path, error, "cannot be read") from None
-    found = json.loads(content) if json_is_whole(content) and not path.is_symlink() else {}
-    if not isinstance(found.get("files"), dict):
+    found = {}
+    with contextlib.suppress(ValueError):
+        found = json_of(content) if json_is_whole(content) and not path.is_symlink() else {}
+    files = found.get("files") if isinstance(found, dict) else None
+    if not isinstance(files, dict) or not all(isinstance(digest, str) for digest in files.values()):
         raise SceneError(str(path), "is no record of the files that Asperity wrote", "it does not end in its digest: it was "
                          "changed or damaged", "move it away; the files that it named are not replaced then")
-    return {str(name): str(digest) for name, digest in found["files"].items()}
+    return files
 
 
 def is_named(place: Path, name: str) -> bool:
@@ -152,6 +234,23 @@ def is_named(place: Path, name: str) -> bool:
     return name in (_record(place) or {})
 
 
+def _write_record(place: Path, opened_place: int, content: bytes, replace: bool) -> None:
+    """Writes the record as io/file_record.cpp does: a new one appears whole, and .asperity-files.json.part belongs to an earlier one."""
+    if not replace:
+        with contextlib.suppress(OSError):  # a file system without files that have no name
+            with os.fdopen(os.open(place, os.O_TMPFILE | os.O_WRONLY | os.O_CLOEXEC, 0o666), "wb") as file:
+                file.write(content)
+                file.flush()
+                os.fsync(file.fileno())
+                os.link(f"/proc/self/fd/{file.fileno()}", RECORD, dst_dir_fd=opened_place, follow_symlinks=True)
+                return
+    beside = RECORD + ".part"
+    if replace:
+        (place / beside).unlink(missing_ok=True)
+    with _replacing(place / RECORD, beside) as written:
+        written.write_bytes(content)
+
+
 def _update(place: Path, change: Callable[[dict[str, str]], dict[str, str]]) -> None:
     """Writes the record that change(record) returns; a record that names nothing is removed."""
     try:
@@ -161,13 +260,13 @@ def _update(place: Path, change: Callable[[dict[str, str]], dict[str, str]]) -> 
     try:
         with contextlib.suppress(OSError):  # a file system without such locks
             fcntl.flock(lock, fcntl.LOCK_EX)
-        before = _record(place) or {}
+        there = _record(place)
+        before = there or {}
         after = change(dict(before))
         if not after:
             (place / RECORD).unlink(missing_ok=True)
         elif after != before:
-            with _replacing(place / RECORD) as beside:
-                beside.write_text(sealed_json({"files": dict(sorted(after.items()))}), encoding="utf-8")
+            _write_record(place, lock, sealed_json({"files": dict(sorted(after.items()))}).encode(), there is not None)
     finally:
         os.close(lock)
 
@@ -187,15 +286,15 @@ def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew
         return "it is a symbolic link"
     if not stat.S_ISREG(there.st_mode):
         return "it is no regular file"
-    if name == LOCK:
-        return "" if b"host ".startswith(path.read_bytes()[:5]) else NO_LOCK
+    if name == LOCK and _is_lock(contents(path)):
+        return ""
     if record is None:
         return (f"the directory has no record ({RECORD}) of the files that Asperity wrote: the file is another program's, "
                 "or of a version without records")
     if name not in record:
         return f"it is not one of the files that Asperity wrote here ({RECORD} lists them)"
     if record[name] == UNFINISHED:
-        return ""
+        return "it is a hard link: the same file has another name" * (there.st_nlink > 1)
     if record[name] != _digest_of(path):
         return "it was changed after Asperity wrote it"
     return "" if renew else "it belongs to an earlier result, and results are not written over"
@@ -304,7 +403,8 @@ class Outputs:
     def append(self, name: str) -> IO[bytes]:
         """Opens a file to append to it."""
         self.digests[name] = UNFINISHED
-        return open(self._path(name), "ab")
+        flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
+        return os.fdopen(os.open(self._path(name), flags, 0o666), "ab")
 
 
 @contextlib.contextmanager
@@ -469,7 +569,15 @@ def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
 
 LOCK = "run.lock"
 """Lock of a directory of results, which the program takes (running/lock.py)."""
-NO_LOCK = "it is not the lock of a run: it does not begin with a host"
+_LOCK_END = re.compile(rb"digest crc32:([0-9a-f]{8})\n\Z")
+
+
+def _is_lock(content: bytes) -> bool:
+    """Returns True if the text of a lock is as its digest says."""
+    found = _LOCK_END.search(content)
+    return content.startswith(b"host ") and bool(found) and int(found[1], 16) == zlib.crc32(content[:found.start()])
+
+
 RUN_FILES = ("run.journal", "checkpoint.h5", "checkpoint-before.h5", "checkpoint-damaged.h5", "checkpoint-next.part",
              "run.h5", "result.json", "last-good.h5")
 """What a run may write into its directory (io/result_directory.hpp)."""
@@ -493,7 +601,7 @@ def json_is_whole(content: bytes) -> bool | None:
 
 def hdf5_digest(path: Path) -> int | None:
     """Returns the digest stated at the end of an HDF5 file; None if it does not end in a digest. Raises OSError."""
-    with open(path, "rb") as file:
+    with opened(path) as file:
         file.seek(max(0, file.seek(0, os.SEEK_END) - 32))
         end = file.read(32)
         return int.from_bytes(end[24:], "little") if end.startswith(_HDF5_END) else None
@@ -514,7 +622,7 @@ def seal_hdf5(path: Path) -> None:
 
 def hdf5_is_whole(path: Path) -> bool | None:
     """Returns True if an HDF5 file is as its digest says; None if it does not end in a digest. Raises OSError."""
-    with open(path, "rb") as file:
+    with opened(path) as file:
         length = max(0, file.seek(0, os.SEEK_END) - 32)
         file.seek(length)
         end = file.read(32)

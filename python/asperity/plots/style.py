@@ -46,6 +46,7 @@ for _map in (GAP, PRESSURE, CONTACT):
 
 RC: dict[str, Any] = {
     "font.family": "DejaVu Sans", "font.size": 8, "mathtext.fontset": "dejavusans",
+    "text.usetex": False,  # a matplotlibrc of the current folder starts no LaTeX
     "axes.linewidth": 0.7, "axes.labelsize": 8.5, "axes.edgecolor": INK, "axes.labelcolor": INK,
     "text.color": INK, "xtick.color": INK, "ytick.color": INK, "axes.facecolor": "none",
     "xtick.direction": "in", "ytick.direction": "in", "xtick.top": True, "ytick.right": True,

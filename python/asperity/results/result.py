@@ -34,8 +34,6 @@ else:
 
 LARGEST_ARRAY = 2**28
 """Largest number of values of a data set that is read."""
-DEEPEST_JSON = 64
-"""Largest number of levels of a JSON file; the program itself reads no deeper ones."""
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
@@ -61,27 +59,18 @@ def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
     return under if carried else "at zero load", f" {under}" if load and not swept else ""
 
 
-def _deeper_than(value: Any, levels: int) -> bool:
-    members = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
-    return any(levels == 0 or _deeper_than(m, levels - 1) for m in members if isinstance(m, (dict, list)))
-
-
 def read_json(path: Path) -> Values:
     """Reads a file with a JSON object and checks its digest, if it has one. Raises InputOutputError for anything else."""
     def refuse(why: str, remedy: str = "was it damaged, or written by hand?") -> InputOutputError:
         return InputOutputError(str(path), "cannot be read", why, remedy)
     try:
-        content = path.read_bytes()
-        value = json.loads(content, object_hook=Values)
+        content = store.contents(path)
+        value = store.json_of(content, Values)
     except OSError as error:
         raise InputOutputError(str(path), "cannot be read", error.strerror or str(error),
                                "check the path and its permissions") from None
-    except RecursionError:
-        raise refuse("it is nested too deeply") from None
-    except (ValueError, UnicodeDecodeError) as error:
+    except ValueError as error:
         raise refuse(f"it is not JSON: {error}") from None
-    if _deeper_than(value, DEEPEST_JSON):
-        raise refuse("it is nested too deeply")
     if not isinstance(value, Values):
         return Values()
     if "digest" in value and not store.json_is_whole(content):
@@ -167,7 +156,7 @@ class RunFile:
                 yield file
         except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
             why = str(error).splitlines()[0] if str(error) else type(error).__name__
-            if not h5py.is_hdf5(self.path):
+            if self.path.is_file() and not h5py.is_hdf5(self.path):
                 why = "it is not an HDF5 file"
             raise InputOutputError(str(self.path), "cannot be read", why,
                                    "run the scene again, or resume it from its checkpoint") from None

@@ -354,7 +354,7 @@ def _signals() -> Iterator[list[int]]:
 def _log(job: Job) -> str:
     """Returns the output of a job's run."""
     try:
-        return (job.directory / LOG).read_text("utf-8", "replace").strip()
+        return store.contents(job.directory / LOG).decode("utf-8", "replace").strip()
     except OSError:
         return ""
 

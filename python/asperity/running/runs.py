@@ -13,7 +13,7 @@ from numbers import Integral
 from pathlib import Path
 
 from ..arguments import checks_call
-from ..errors import InputOutputError, SceneError
+from ..errors import InputOutputError, SceneError, printable
 from ..files import store
 from ..results.result import Result
 from ..terminal import progress_shown, sleep_soon
@@ -94,7 +94,7 @@ def run(scene: SceneLike, overrides: Overrides | None = None, out: str | os.Path
                 if "text" not in told or told["text"] == line:  # an error, or what a launcher says
                     said.append(line)
                 elif shown:
-                    print(told["text"], file=sys.stderr, flush=True)
+                    print(printable(told["text"]), file=sys.stderr, flush=True)
             code = child.wait()
         except KeyboardInterrupt:
             child.send_signal(signal.SIGUSR1)  # mpirun passes it on

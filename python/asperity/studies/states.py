@@ -267,10 +267,10 @@ class Search:
     def resume(self, place: Path) -> None:
         """Reads a search that save() wrote. Raises SceneError if the file cannot be read or is of another scene."""
         try:
-            with numpy.load(place) as kept:
-                scene, log, tops = json.loads(str(kept["log"]))
+            with store.opened(place) as file, numpy.load(file) as kept:
+                scene, log, tops = store.json_of(str(kept["log"]).encode())
                 states = {name: State(kept[name], top) for name, top in tops.items()}
-        except (OSError, ValueError, KeyError) as error:
+        except Exception as error:  # zipfile, zlib and numpy have their own
             raise SceneError(str(place), "cannot be read", str(error), "remove it to begin anew") from None
         if scene != self.case["scene"]:
             raise SceneError(str(place), "is of another scene", "a search goes on with the scene that it began with",
