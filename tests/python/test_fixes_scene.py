@@ -206,7 +206,7 @@ CASES = [
     (r"take block.thickness = (\d+) or more", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.thickness": "{0}"}, QUASI),
     ("or thinner layers", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
     ("take a thicker layer", {"block.layers": '[["0.5 Å", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
-    ("or a smaller surface.spacing", {"block.layers": '[["1 Å", "10 GPa", 0.3]]'}, {"surface.spacing": "1.9"}, {**QUASI, "interface.kind": "wall"}),
+    ("or a smaller surface.spacing", {"block.layers": '[["1 Å", "10 GPa", 0.3]]'}, {"surface.spacing": "1.9"}, {**QUASI, "interface.kind": "wall", "block.model": "lattice"}),
     # Fields of the work of adhesion, and shapes
     ('write "(.*)", as in', {FIELD: "stripes 1 2"}, {FIELD: "stripes 1 2 20"}, WALL),
     ('as in "(.*)"', {FIELD: "discs 1 2 1 ps 4 nm"}, {FIELD: "discs 1 2 1 nm 4 nm"}, WALL),

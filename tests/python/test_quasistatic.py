@@ -110,7 +110,7 @@ def test_many_loads_of_a_wall_that_repels(place):
     run("one", *wall, 'drive.path=["load 500 MPa"]')
     run("many", *wall, up)
     one, many = asperity.load("one"), asperity.load("many")
-    assert [s["pressure"] for s in many["segments"]] == pytest.approx(loads, rel=1e-4)
+    assert [s["pressure"] for s in many["segments"]] == pytest.approx(loads, rel=1e-3)  # the accuracy of a load
     assert many.run.iterations < 2.5 * one.run.iterations
     assert many.run.steps < 2.0 * one.run.steps
     assert all(s["lost"] == 0.0 and s["work_of_drive"] == pytest.approx(s["stored"]) for s in many["segments"])
