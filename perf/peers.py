@@ -149,7 +149,7 @@ def main() -> None:
         for load in a.loads:
             with tempfile.TemporaryDirectory() as scratch:
                 place = pathlib.Path(scratch) / "asperity"
-                keys = {"drive.path": "relax", "block.thickness": sites, "interface.kind": "wall",
+                keys = {"drive.path": "relax", "block.thickness": sites, "interface.kind": "wall", "block.model": "lattice",
                         "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
                         "surface.q_max": sites / 8, "output.checkpoint": "none", "drive.load": load,
                         "drive.tolerance": TOLERANCE / attraction}

@@ -46,7 +46,7 @@ class Runs:
 
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
-        settings = {"numerics.precision": "double", "drive.path": "relax", "interface.kind": "wall",
+        settings = {"numerics.precision": "double", "drive.path": "relax", "interface.kind": "wall", "block.model": "lattice",
                     "output.checkpoint": "none", "drive.tolerance": 2.5e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
         return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)
