@@ -120,6 +120,13 @@ inline constexpr Quantity result_quantities[] = {
      "sites in contact at zero load: closer to an atom than the inflection of the pair potential; "
      "over a wall closer than the gap of its largest tension, or in touch with laws that begin at "
      "contact"},
+    {"contact_area", "1", per::area,
+     "area in contact with a wall at zero load: contact_fraction less (π - 1 + ln 2)/24 of a site "
+     "for each pair of neighbours of which one is in contact (Yastrebov et al. 2017). "
+     "contact_fraction counts sites at the edges of contacts whole, and is too large by a multiple "
+     "of the spacing"},
+    {"contact_area_uncertainty", "1", per::area,
+     "error of contact_area by the spacing: half of the difference from contact_fraction"},
     {"repulsive_fraction", "1", per::sites,
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},

@@ -259,10 +259,36 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
 
 double Interface::start_height() const { return map_.highest() + reach_of(options_); }
 
+double Interface::contact_gap() const {
+    return std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall);
+}
+
 double Interface::attraction_grows_down_to() const {
-    if (!wall()) return start_height();
-    return map_.highest() +
-           std::visit([](const auto& law) { return law.contact_gap(); }, *options_.wall);
+    return wall() ? map_.highest() + contact_gap() : start_height();
+}
+
+std::int64_t Interface::contact_edges(const VectorPlane<const double>& displacement,
+                                      const Communicator& ranks) const {
+    const PlaneView<const double> below = wall()->height(), u = displacement.z;
+    const double limit = contact_gap() - reference_height_;
+    const auto in_contact = [&](int x, int y) { return u(x, y) - below(x, y) < limit; };
+    // The first row of the next rank is above the last one of this rank.
+    const int size = ranks.size(), rank = ranks.rank();
+    std::vector<double> first(static_cast<std::size_t>(u.nx)), above(first.size());
+    for (int x = 0; x < u.nx; ++x)
+        first[static_cast<std::size_t>(x)] = in_contact(x, 0) ? 1.0 : 0.0;
+    const Message message{(rank + size - 1) % size, (rank + 1) % size, 0, first, above};
+    ranks.exchange(std::span(&message, 1));
+    std::array<std::int64_t, 1> edges{};
+    for (int y = 0; y < u.ny; ++y)
+        for (int x = 0; x < u.nx; ++x) {
+            const bool here = in_contact(x, y);
+            const bool next =
+                y + 1 < u.ny ? in_contact(x, y + 1) : above[static_cast<std::size_t>(x)] > 0.5;
+            edges[0] += (here != in_contact((x + 1) % u.nx, y)) + (here != next);
+        }
+    ranks.sum(edges);
+    return edges[0];
 }
 
 Interface::Tables Interface::tables() const {

@@ -98,6 +98,12 @@ public:
     /// Returns the wall; nullptr if the substrate consists of atoms.
     const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
 
+    /// Returns the number of pairs of neighbouring sites of which one is in contact with the wall:
+    /// the perimeter of the contact over the spacing. displacement: Å. Requires a wall, and whole
+    /// rows of sites on each rank. Collective.
+    std::int64_t contact_edges(const VectorPlane<const double>& displacement,
+                               const Communicator& ranks) const;
+
     /// Returns maps of the sites at these displacements, Å.
     InterfaceMaps maps(const VectorPlane<const double>& displacement) const;
 
@@ -133,6 +139,8 @@ private:
     InterfaceSums sweep_sites(const InterfaceSites& sites, SweepOptions how) const;
     VectorPlane<const double> over_substrate(const VectorPlane<const double>& displacement) const;
     void find_mean_heights();
+    /// Returns the gap below which a site is in contact with the wall, Å. Requires a wall.
+    double contact_gap() const;
     double density() const { return 1.0 / (map_.spacing() * map_.spacing()); }
 
     InterfaceOptions options_;

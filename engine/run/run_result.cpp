@@ -42,6 +42,10 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("binding_energy_uncertainty", z.uncertainty);
     result.set("pair_binding_energy", z.pairwise);
     result.set("contact_fraction", z.contact_fraction);
+    if (z.contact_area) {
+        result.set("contact_area", *z.contact_area);
+        result.set("contact_area_uncertainty", 0.5 * (z.contact_fraction - *z.contact_area));
+    }
     result.set("repulsive_fraction", z.repulsive_fraction);
     result.set("relaxed.elastic_energy", z.elastic);
     result.set("relaxed.mean_height", z.mean_height);

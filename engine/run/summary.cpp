@@ -384,6 +384,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("elastic energy stored", "relaxed.elastic_energy",
             form.energy(of("relaxed.elastic_energy")));
         row("contact fraction", "contact_fraction", number(of("contact_fraction"), 4));
+        if (of("contact_area"))
+            row("  area, less half sites of its edges", "contact_area",
+                io::with_error(*of("contact_area"), *of("contact_area_uncertainty")));
         row("repulsive sites, fraction", "repulsive_fraction", number(of("repulsive_fraction"), 4));
         fmt::print(to, "\n");
         table.print(to);

@@ -6,6 +6,7 @@
 // they do not.
 #include "engine/statics/relaxation.hpp"
 #include "support/cases.hpp"
+#include "support/path_case.hpp"
 #include "support/world.hpp"
 
 #include <gtest/gtest.h>
@@ -107,6 +108,30 @@ State relax_on(const Communicator& ranks, const BlockOptions& options, const Sur
 }
 
 } // namespace
+
+TEST(SpectralRanks, CountTheEdgesOfContactAlike) {
+    for (const int sites : {12, 13}) {
+        const Surface surface = test::surface_from(
+            sites, [](int x, int y) { return value(x, y, 0); }, 2.6);
+        const auto edges = [&](const Communicator& ranks) {
+            const Slab slab(sites, ranks);
+            Interface interface(surface, slab.tile(), 2.6,
+                                test::over(ExponentialWall(0.7, 1.3, 24.0)));
+            interface.set_reference_height(0.2);
+            const VectorField<double> rest(slab.tile(), 1, 0);
+            return interface.contact_edges(rest.plane(0), ranks);
+        };
+        std::int64_t counted = 0;
+        const auto touches = [&](int x, int y) { return value(x % sites, y % sites, 0) > 0.2; };
+        for (int y = 0; y < sites; ++y)
+            for (int x = 0; x < sites; ++x)
+                counted +=
+                    (touches(x, y) != touches(x + 1, y)) + (touches(x, y) != touches(x, y + 1));
+        EXPECT_GT(counted, sites);
+        EXPECT_EQ(edges(Communicator()), counted);
+        EXPECT_EQ(edges(test::world()), counted);
+    }
+}
 
 TEST(Slabs, AreOfTheRanksTheyAreGiven) {
     // Two halves of the ranks, each with a surface of its own, of another size: waves there and

@@ -233,6 +233,54 @@ TEST(FreeEdges, OfHertz) {
     EXPECT_NEAR(depths[0], depths[1], 1e-3 * depth);
 }
 
+TEST(ContactArea, LosesWhatItsEdgesCountTooMuch) {
+    // Contacts of some ten sites across, about several points of the mesh: sites at the edge are
+    // counted whole, and (pi - 1 + ln 2)/24 of a site for each step of the edge is too much. Hertz'
+    // contact in closed form, that of an adhesive sphere against a mesh four times finer.
+    constexpr double R = 20.0, modulus = 102.0, F = 15.0, w = 0.1, radius = 1.30175;
+    const double K = 4.0 * modulus / 3.0, a0 = std::cbrt(pi * w * R * R / K);
+    const double range = 0.4 * a0 * a0 / R, edge = 2.6 * radius;
+    struct Area {
+        double counted = 0.0, corrected = 0.0; // over that of Hertz
+    };
+    const auto area_of = [&](int sites, bool sticks, double x0, double y0) {
+        const BlockOptions o = free_block(sites, edge, modulus);
+        const double spacing = o.spacing;
+        Surface s = test::surface_from(
+            sites,
+            [&](int x, int y) {
+                const double dx = spacing * (x + x0 - 0.5 * sites);
+                const double dy = spacing * (y + y0 - 0.5 * sites);
+                return -(dx * dx + dy * dy) / (2.0 * R);
+            },
+            spacing);
+        const ExponentialWall sticky(w * spacing * spacing, range, 500.0 * pi * modulus * spacing);
+        Free c(o, std::move(s), sticks ? sticky : hard_wall(o), sticks ? range : 0.01);
+        c.block.set_uniform(sticks ? -c.interface.start_height() : 0.0);
+        const RelaxedState state =
+            c.relax(Constraint::load(sticks ? 0.0 : F), 1e-5 * F / (38 * 38), Start::anywhere);
+        const double counted = static_cast<double>(state.in_contact);
+        const auto edges = static_cast<double>(
+            c.interface.contact_edges(c.block.lowest_layer(), c.block.communicator()));
+        const double unit = spacing * spacing / (pi * radius * radius);
+        return Area{counted * unit,
+                    (counted - (pi - 1.0 + std::numbers::ln2) / 24.0 * edges) * unit};
+    };
+    for (const bool sticks : {false, true}) {
+        const double wanted = sticks ? area_of(112, true, 0.3, 0.1).corrected : 1.0;
+        Area mean;
+        for (const auto& [x, y] : {std::pair{0.0, 0.0}, {0.5, 0.5}, {0.3, 0.1}, {0.7, 0.4}}) {
+            const Area one = area_of(28, sticks, x, y);
+            mean.counted += 0.25 * one.counted / wanted;
+            mean.corrected += 0.25 * one.corrected / wanted;
+        }
+        // What is left is within half of the difference, contact_area_uncertainty.
+        EXPECT_GT(mean.counted, 1.015) << sticks;
+        EXPECT_NEAR(mean.corrected, 1.0, 0.5 * (mean.counted - mean.corrected)) << sticks;
+        EXPECT_NEAR(mean.corrected, 1.0, sticks ? 0.015 : 0.003) << sticks;
+    }
+}
+
 TEST(FreeEdges, OfASphereOnACoating) {
     // A coating ten times as stiff, half as thick as Hertz' contact is wide: the depth is between
     // those of both materials, and the same in a box of 1.25 and of 2.5 diameters.

@@ -452,6 +452,10 @@ class Numbers:
     stored: Stored
     contact_fraction: float
     """sites in contact at zero load"""
+    contact_area: float
+    """area in contact with a wall at zero load"""
+    contact_area_uncertainty: float
+    """error of contact_area by the spacing"""
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
