@@ -128,7 +128,7 @@ def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[s
 
 
 def _told(file: str | None, place: Path, given: dict[str, Any], voice: Voice) -> None:
-    """Says what would be run, how long it takes, and what will not be stated. Leaves nothing behind."""
+    """Prints what would be run, how long it takes, and what will not be stated. Leaves nothing behind."""
     with tempfile.TemporaryDirectory(prefix="asperity-") as folder:
         made = plan_of(file, Path(folder), given)
         scenes = {part: Values(program.check(str(scene))["scene"]) for part, scene in made.scenes.items()}

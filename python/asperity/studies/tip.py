@@ -416,7 +416,7 @@ def _curve(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarr
 
 
 def fold(tip: np.ndarray, force: np.ndarray, stiffness: float, degree: int) -> float:
-    """Extrapolates an approach to the place at which the tip jumps in.
+    """Finds the place at which the tip jumps in, from an approach.
 
     The place z of the tip is a smooth function of the attraction F, which is exponential far away: z is a polynomial of ln F through
     the last points. The drive, z + F/k, comes no further than to the fold, where dz/dF = -1/k.
