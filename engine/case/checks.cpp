@@ -6,6 +6,7 @@
 #include "engine/case/potential_table.hpp"
 #include "engine/case/resolving.hpp"
 
+#include "engine/case/contact_estimate.hpp"
 #include "engine/case/spacing_limits.hpp"
 #include "engine/options/sweep_limits.hpp"
 #include "engine/units.hpp"
@@ -269,7 +270,8 @@ void check_keys(const Case& c, io::Problems& problems) {
                      fmt::format("a grid of {} sites holds nothing above q = {} q_L", surface.sites,
                                  surface.sites / 2),
                      "give a smaller rolloff or more sites");
-    if (surface.radius && *surface.radius < scene.edge() * std::numbers::sqrt2 / 2.0)
+    if (surface.radius && !scene.has_free_edges() &&
+        *surface.radius < scene.edge() * std::numbers::sqrt2 / 2.0)
         problems.add(
             "surface.radius",
             fmt::format("= {:.6g} Å is less than half the diagonal of the box", *surface.radius),
@@ -434,11 +436,15 @@ std::vector<std::string> notes_on_keys(const Case& c) {
     for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)
             load = std::max(load, std::abs(segment.amount) / (units::megapascal * c.area()));
-    const double strain = load * units::megapascal / c.simulation.block.softest_column();
+    const BlockOptions& block = c.simulation.block; // the layers of a column have one pressure
+    const double strain = load * units::megapascal /
+                          (block.free_edges ? modulus_under_load(block) : block.softest_column());
     if (strain > 0.05 && scene.block.strain == Strain::linear)
-        list.push_back(fmt::format("a load of {:.4g} MPa strains the block by {:.2g} %, and "
-                                   "block.strain = \"linear\" describes small strains",
-                                   load, 100.0 * strain));
+        list.push_back(fmt::format(
+            "a load of {:.4g} MPa strains the {} by {:.2g} %, and block.strain = \"linear\" "
+            "describes small strains",
+            load, block.layers.empty() || block.free_edges ? "block" : "softest layer of the block",
+            100.0 * strain));
     for (const MaterialLayer& layer : c.simulation.block.layers) {
         if (c.simulation.block.continuum) break;
         const std::ptrdiff_t number = &layer - c.simulation.block.layers.data() + 1;

@@ -5,13 +5,14 @@
 // them: a run with them would not end, or its numbers would mean nothing.
 #include "engine/case/resolving.hpp"
 
+#include "engine/case/contact_estimate.hpp"
 #include "engine/units.hpp"
-#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace asperity {
 
@@ -150,11 +151,11 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                         fmt::format("take {:.2g} K or less with this time step",
                                     scene.drive.temperature * std::pow(0.1 * width / travel, 2)));
     }
-    const double modulus = c.simulation.block.softest_column() / units::megapascal;
+    const double modulus = modulus_under_load(c.simulation.block) / units::megapascal;
     const auto look = [&](const char* key, double load, const std::string& shown) {
         if (std::abs(load) > modulus)
             refused.add(key, fmt::format("{} strains the block by more than its thickness", shown),
-                        fmt::format("its modulus in compression is {:.4g} MPa", modulus),
+                        fmt::format("its modulus under this load is {:.4g} MPa", modulus),
                         fmt::format("{}: take a load below {:.2g} MPa", unit_fix, 0.05 * modulus));
     };
     look("drive.load", scene.drive.load, fmt::format("= {:.6g} MPa", scene.drive.load));
@@ -169,27 +170,47 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                     "take 2.5e-4, the default");
 }
 
+constexpr double most_beyond = 0.05; ///< part of a sphere's attraction that a box may leave out
+
+/// Returns a number of sites whose box is at least this wide, as text. width: Å.
+std::string sites_for(const Case& c, double width) {
+    return fmt::format("{:.0f}", 2.0 * std::ceil(0.5 * width / c.simulation.block.spacing));
+}
+
 /// Refuses a load under which a sphere's contact would be wider than a substrate that ends at the
-/// edges of the box, by JKR.
-void refuse_wide_contact(const Case& c, io::Problems& refused) {
+/// edges of the box, or than the sphere.
+void refuse_wide_contact(const Case& c, const std::optional<BeyondEdges>& beyond,
+                         io::Problems& refused) {
     if (c.surface.repeats || !c.radius()) return;
-    double modulus = 0.0;
-    for (const Material& material : c.simulation.block.materials())
-        modulus = std::max(modulus, material.contact_modulus());
-    const theory::jkr::Sphere sphere{*c.radius(), c.flat.work_of_adhesion / units::milli_per_unit,
-                                     modulus};
-    const double most = sphere.load(0.5 * c.edge());
+    constexpr double widest = 0.8; // radius of a contact over that of the sphere
+    const SphereOnBlock sphere = sphere_of(c);
+    const double of_sphere = widest * *c.radius();
+    const double most = sphere.load(std::min(0.5 * c.edge(), of_sphere));
+    const double fits = 0.9 * most; // a load that does
+    const bool smaller =
+        most > 0.0 && attraction_beyond(c, sphere.contact_radius(fits), c.edge()) < most_beyond;
+    const std::string less =
+        smaller ? fmt::format(", or a load of {:.3g} nN at most", fits / units::nanonewton)
+                : std::string();
     const auto look = [&](const char* key, double load, const std::string& shown) {
         if (!(load > most)) return;
         const double radius = sphere.contact_radius(load);
-        const double sites = std::ceil(2.5 * radius / c.simulation.block.spacing);
-        const std::string less = most > 0.0 ? fmt::format(", or a load of {:.3g} nN at most",
-                                                          0.9 * most / units::nanonewton)
-                                            : std::string();
+        const std::string wide = fmt::format("by JKR it would be {:.4g} nm wide", 0.2 * radius);
+        if (radius > of_sphere) {
+            const double held = 0.9 * sphere.load(of_sphere);
+            const std::string smaller_load =
+                held > 0.0 ? fmt::format("surface.sites = {} and a load of {:.3g} nN at most, ",
+                                         sites_for(c, 2.0 * *c.radius()), held / units::nanonewton)
+                           : std::string();
+            return refused.add(
+                key, fmt::format("{} needs a contact wider than the sphere allows", shown),
+                fmt::format("{}, and the sphere is {:.4g} nm", wide, 0.2 * *c.radius()),
+                fmt::format("take {}a larger surface.radius or a stiffer block", smaller_load));
+        }
+        const double wanted = std::max(2.5 * radius, beyond ? beyond->width : 0.0);
         refused.add(key, fmt::format("{} needs a contact wider than the box", shown),
-                    fmt::format("by JKR it would be {:.4g} nm wide, and the substrate is {:.4g} nm",
-                                0.2 * radius, 0.1 * c.edge()),
-                    fmt::format("take surface.sites = {:.0f}{}", sites, less));
+                    fmt::format("{}, and the substrate is {:.4g} nm", wide, 0.1 * c.edge()),
+                    fmt::format("take surface.sites = {}{}", sites_for(c, wanted), less));
     };
     if (c.has(Segment::approach) || c.has(Segment::relax))
         look("drive.load", c.simulation.drive.load_force,
@@ -199,9 +220,32 @@ void refuse_wide_contact(const Case& c, io::Problems& refused) {
             look("drive.path", segment.amount, fmt::format("has \"{}\", which", segment.text));
 }
 
+/// Refuses a box with free edges that leaves out a part of the sphere's attraction that matters,
+/// and notes one that leaves out less.
+void look_beyond_edges(const Case& c, const BeyondEdges& beyond, io::Problems& refused,
+                       std::vector<std::string>& notes) {
+    constexpr double noted = 0.005;
+    if (!(beyond.part > noted)) return;
+    const std::string why =
+        fmt::format("the substrate ends at the free edges, {:.3g} nm from the axis, and the "
+                    "attraction of a sphere of {:.4g} nm beyond them is about {:.2g} % of its "
+                    "pull-off force",
+                    0.05 * c.edge(), 0.1 * *c.radius(), 100.0 * beyond.part);
+    const std::string fix = fmt::format("take surface.sites = {}, or a larger surface.spacing",
+                                        sites_for(c, beyond.width));
+    if (beyond.part > most_beyond)
+        refused.add(
+            "surface.sites",
+            fmt::format("= {} makes a box too narrow for the attraction", c.scene.surface.sites),
+            why, fix);
+    else
+        notes.push_back(why + "; " + fix);
+}
+
 } // namespace
 
-void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
+void refuse_out_of_proportion(const Case& c, io::Problems& refused,
+                              std::vector<std::string>& notes) {
     const std::size_t before = refused.list().size();
     refuse_heights(c, refused);
     if (refused.list().size() > before) return; // further problems would have the same cause
@@ -210,7 +254,10 @@ void refuse_out_of_proportion(const Case& c, io::Problems& refused) {
     else
         refuse_short_steps(c, refused);
     refuse_violence(c, refused);
-    refuse_wide_contact(c, refused);
+    const std::optional<BeyondEdges> beyond = beyond_edges(c);
+    const std::size_t so_far = refused.list().size();
+    refuse_wide_contact(c, beyond, refused);
+    if (beyond && refused.list().size() == so_far) look_beyond_edges(c, *beyond, refused, notes);
 }
 
 } // namespace asperity

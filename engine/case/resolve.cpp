@@ -404,7 +404,7 @@ void derive(Case& c, io::Problems& problems) {
     note_coarse_tolerance(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
-    refuse_out_of_proportion(c, refused);
+    refuse_out_of_proportion(c, refused, c.notes);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
     look_at_ranks(c, refused);

@@ -24,8 +24,10 @@ void check_keys(const Case& c, io::Problems& problems);
 std::vector<io::Problem> device_problems(const Case& c);
 /// Adds to refused the keys that this release reads but does not support.
 void refuse_unsupported(const Case& c, io::Problems& refused);
-/// Adds to refused the values that are out of proportion with the box, the block or the step.
-void refuse_out_of_proportion(const Case& c, io::Problems& refused);
+/// Adds to refused the values that are out of proportion with the box, the block or the step, and
+/// to notes those that are nearly so.
+void refuse_out_of_proportion(const Case& c, io::Problems& refused,
+                              std::vector<std::string>& notes);
 /// Returns notes on the keys (a block thinner than wide, keys without effect), one sentence each.
 std::vector<std::string> notes_on_keys(const Case& c);
 /// Returns notes on limits of validity (roughness, velocity, time step), one sentence each.

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/case/spacing_limits.hpp"
 
+#include "engine/case/contact_estimate.hpp"
 #include "engine/case/wall_shape.hpp"
 #include "engine/units.hpp"
 #include "kernels/surface_stiffness.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -15,18 +17,36 @@ namespace asperity {
 
 namespace {
 
-/// Attraction of an exponential wall beside the edge of a contact.
+/// Attraction of a wall beside the edge of a contact.
 struct ContactEdge {
-    double strip = 0.0;   ///< width of the strip, Å
-    double pinning = 1.0; ///< Case::edge_pinning
-    std::string remedy;   ///< a range or a spacing that resolves it
+    double strip = 0.0;    ///< width of the strip, Å
+    double resolved = 0.0; ///< width of a strip that the spacing resolves, Å
+    double pinning = 1.0;  ///< Case::edge_pinning
+    std::string remedy;    ///< a range or a spacing that resolves it
 };
+
+/// Factor by which rows of sites that hold the edge of a contact increase the pull-off force of a
+/// smooth sphere, [1 + (part x)^power]^(1/power), x = spacing / strip, as measured
+/// (docs/explanation/model.md). A row lets go at its largest tension: where the strip is short the
+/// force goes as x. A tension that ends suddenly holds rows in wide strips too.
+struct Pinning {
+    double part, power;
+};
+
+Pinning pinning_of(WallLawKind law) {
+    switch (law) {
+    case WallLawKind::exponential:
+        return {0.68, 2.5};
+    case WallLawKind::dugdale:
+        return {1.0, 1.2};
+    default:
+        return {0.8, 2.5};
+    }
+}
 
 std::optional<ContactEdge> edge_of(const Case& c) {
     const auto& wall = c.scene.interface;
     if (!wall.has_adhesion() || wall.adhesion == 0.0) return std::nullopt;
-    // The gap opens as the root of the distance from the edge of a contact.
-    const double modulus = c.simulation.block.surface_material().contact_modulus();
     const double adhesion = wall.adhesion / units::milli_per_unit;
     const double spacing = c.simulation.block.spacing;
     ContactEdge edge;
@@ -37,14 +57,18 @@ std::optional<ContactEdge> edge_of(const Case& c) {
         steep = shape->shape().tension;
         if (shape->length() > 0.0) range = shape->length();
     }
-    edge.strip = modulus * range * range / (adhesion * steep * steep);
-    // A row lets go at its largest tension, adhesion / range, for any work of adhesion: where the
-    // strip is short the force goes as spacing / strip. Between that and 1 as measured on smooth
-    // spheres (docs/explanation/model.md).
-    edge.pinning = std::pow(1.0 + std::pow(0.68 * spacing / edge.strip, 2.5), 0.4);
+    edge.strip = edge_strip(c.simulation.block, adhesion, range / steep);
+    const Pinning pinning = pinning_of(wall.law);
+    edge.pinning = std::pow(1.0 + std::pow(pinning.part * spacing / edge.strip, pinning.power),
+                            1.0 / pinning.power);
+    // Strips of two spacings, or wider ones by law, in which rows change the force by 5 % at most.
+    const double slack = std::pow(1.05, pinning.power) - 1.0;
+    edge.resolved = std::max(2.0, pinning.part / std::pow(slack, 1.0 / pinning.power)) * spacing;
     edge.remedy =
         fmt::format("interface.range = {:.3g} Å or more, or surface.spacing = {:.3g} Å or less,",
-                    steep * std::sqrt(2.0 * spacing * adhesion / modulus), 0.5 * edge.strip);
+                    steep * std::sqrt(edge.resolved * adhesion /
+                                      contact_modulus_at(c.simulation.block, 1.0 / edge.resolved)),
+                    spacing * edge.strip / edge.resolved);
     return edge;
 }
 
@@ -53,10 +77,10 @@ std::optional<ContactEdge> edge_of(const Case& c) {
 std::optional<std::string> note_on_contact_edge(const Case& c) {
     const auto edge = edge_of(c);
     const double spacing = c.simulation.block.spacing;
-    if (!edge || edge->strip >= 2.0 * spacing) return std::nullopt;
+    if (!edge || edge->strip >= edge->resolved) return std::nullopt;
     return fmt::format(
-        "the attraction reaches {:.2g} Å beside the edge of a contact (E* range^2 / adhesion), "
-        "{:.2g} spacings: single rows of sites hold the edge in place, and a sphere's pull-off "
+        "the attraction reaches {:.2g} Å beside the edge of a contact, {:.2g} spacings: single "
+        "rows of sites hold the edge in place, and a sphere's pull-off "
         "force is about {:.3g} times too large; {} avoids that",
         edge->strip, edge->strip / spacing, edge->pinning, edge->remedy);
 }

@@ -4,6 +4,7 @@
 // Scenes that can be computed and whose results mean little: notes, which stop nothing.
 #include "engine/case/resolving.hpp"
 
+#include "engine/case/contact_estimate.hpp"
 #include "theory/spectrum.hpp"
 
 #include "engine/units.hpp"
@@ -66,7 +67,9 @@ std::vector<std::string> notes_on_validity(const Case& c) {
         // Measured on soft blocks: docs/explanation/relaxation.md.
         const bool sideways =
             scene.interface.kind != InterfaceKind::wall && !scene.interface.frictionless;
-        const double young = c.simulation.block.surface_material().young / units::gigapascal;
+        const BlockOptions& block = c.simulation.block; // slopes are those of its short waves
+        const double young = block.young / units::gigapascal / block.contact_modulus() *
+                             contact_modulus_at(block, std::numbers::pi / block.spacing);
         const bool soft = young * slope < 2.0 * c.largest_tension;
         if (c.starts_with(Segment::relax) && sideways && soft && slope > one_state)
             notes.push_back(fmt::format(

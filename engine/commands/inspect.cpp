@@ -3,6 +3,7 @@
 #include "engine/commands/commands.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/case/contact_estimate.hpp"
 #include "engine/case/site_field.hpp"
 #include "engine/commands/command_line.hpp"
 #include "engine/plan/plan.hpp"
@@ -55,6 +56,8 @@ io::Json check_json(const Case& c, const Communicator& world) {
     }
     all["effects"] = effects_json(c.effects);
     all["theory_needs_surface"] = theory_needs_surface(c);
+    if (const auto beyond = beyond_edges(c))
+        all["beyond_edges"] = {{"part", beyond->part}, {"width", beyond->width}};
     all["notes"] = io::Json::array();
     all["problems"] = io::Json::array();
     try {

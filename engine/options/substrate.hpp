@@ -41,7 +41,7 @@ struct AtomPositions {
 };
 
 /// Returns the height of a spherical cap relative to its apex, at (dx, dy) from the apex, Å:
-/// sqrt(R^2 - rho^2) - R, without the cancellation of this form.
+/// sqrt(R^2 - rho^2) - R, without the cancellation of this form; NaN beyond the equator.
 inline double cap_of(double radius, double dx, double dy) {
     const double rho2 = dx * dx + dy * dy;
     return -rho2 / (radius + std::sqrt(radius * radius - rho2));

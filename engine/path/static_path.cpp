@@ -141,6 +141,18 @@ Path::Remedy StaticPath::remedy_of_points() {
             "take a smaller drive.displacement_step"};
 }
 
+/// Returns the remedy. The steps of a slide over a wall are half a spacing however short
+/// drive.displacement_step is.
+Path::Remedy StaticPath::remedy() const {
+    Remedy remedy = remedy_of_points();
+    const bool slides = segment() < case_.path().size() &&
+                        case_.path()[segment()].kind == Segment::slide && interface_.wall();
+    if (slides)
+        remedy.fix = fmt::format("take drive.tolerance = {:.2g} or less",
+                                 0.1 * case_.tolerance / case_.scales.force);
+    return remedy;
+}
+
 std::vector<StateArray> StaticPath::arrays() const {
     return points_ ? points_->states() : state_of(block_);
 }

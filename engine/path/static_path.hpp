@@ -30,7 +30,7 @@ public:
     std::optional<long long> iterations() const override;
     std::size_t bytes() const override { return block_.bytes() + interface_.bytes(); }
     void free_workspace() const override { block_.workspace()->free_kept(); }
-    Remedy remedy() const override { return remedy_of_points(); }
+    Remedy remedy() const override;
     /// Returns the reason and remedy for points whose energy balance is violated.
     static Remedy remedy_of_points();
     const SpectralBlock& block() const { return block_; }

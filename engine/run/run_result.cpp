@@ -91,8 +91,8 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         if (in) result.set("instrument.approach_force", in->attraction / units::nanonewton);
         if (out) result.set("instrument.pull_off_force", out->attraction / units::nanonewton);
     }
+    if (radius && c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     if (!radius || !c.effects.one_modulus()) return; // JKR is of one modulus
-    if (c.edge_pinning > 1.05 && out) result.set("jkr.edge_pinning", c.edge_pinning);
     const auto as_work = [&](double force) {
         return units::milli_per_unit * theory::jkr::work_from_pull_off(force, *radius);
     };

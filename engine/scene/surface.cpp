@@ -125,6 +125,9 @@ Surface finish(const SurfaceOptions& o, Surface s) {
                 s.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(s.sites) +
                          static_cast<std::size_t>(x)] += cap_of(o.radius, dx, dy);
             }
+        // In a box with free edges the sphere ends at its equator.
+        s.holes =
+            std::count_if(s.height.begin(), s.height.end(), [](double h) { return std::isnan(h); });
     }
     s.statistics.lowest = std::numeric_limits<double>::infinity();
     s.statistics.highest = -s.statistics.lowest;

@@ -139,7 +139,7 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "tip":
         from .commands.tip import tip_command
 
-        return tip_command(given.map, given.out, options, voice, **{name: getattr(given, name) for name in (
+        return tip_command(given.map, given.out, options, given.plan, voice, **{name: getattr(given, name) for name in (
             "radius", "young", "poisson", "adhesion", "stiffness", "load", "range", "size", "unit", "channel", "sites")})
     from .commands.studies import cost_command, estimate_command, sweep_command
 

@@ -7,7 +7,8 @@ uniformly pressed discs, in complete elliptic integrals. The gap of ring i is
 
     g_i = d + shape_i + sum_j C_ij p(g_j),
 
-d the height of the surface at rest. pulled() follows the solutions from contact outwards. Nothing here is shared with the program.
+d the height of the surface at rest. pulled() follows the solutions from contact outwards, whole() all equilibria of a body that
+touches at its middle first. Nothing here is shared with the program.
 Units: Å, eV.
 """
 import numpy as np
@@ -102,4 +103,39 @@ def pulled(rings: Rings, shape: np.ndarray, law: Exponential, start: float, step
         gap = found
         rows.append((height, rings.area @ law(gap)[0], np.sqrt(rings.area[gap < 0].sum() / np.pi)))
         height += step
+    return np.array(rows).T
+
+
+def whole(rings: Rings, shape: np.ndarray, law: Exponential, middle: np.ndarray) -> np.ndarray:
+    """Heights, forces and contact radii of all equilibria, stable or not, of a body that is closest at its middle. middle: gaps
+    there, descending from far apart to a contact, where a negative gap stands for the pressure; each solution begins from the last
+    two."""
+    count, rows = len(shape), []
+    gap, height = middle[0] + shape, middle[0]
+    before: tuple[np.ndarray, float, float] | None = None
+    for at in middle:
+        tries = [(gap, height)]
+        if before is not None and gap[0] != before[2]:
+            part = min(1.5, (at - gap[0]) / (gap[0] - before[2]))
+            tries.insert(0, (gap + part * (gap - before[0]), height + part * (height - before[1])))
+        last = gap, height, gap[0]
+        for found, there in tries:
+            found = np.append(at, found[1:])
+            for _ in range(60):
+                pressure, slope = law(found)
+                matrix = np.eye(count) - rings.flexibility * slope
+                matrix[:, 0] = -1  # the height is unknown in place of the gap at the middle
+                change = np.linalg.solve(matrix, found - there - shape - rings.flexibility @ pressure)
+                change *= min(1.0, 5 * law.reach / np.abs(change[1:]).max())
+                there -= change[0]
+                found = found - np.append(0, change[1:])
+                if np.abs(change).max() < 1e-9 * law.reach:
+                    break
+            else:
+                continue
+            before, gap, height = last, found, there
+            rows.append((height, rings.area @ law(gap)[0], np.sqrt(rings.area[gap < 0].sum() / np.pi)))
+            break
+        else:
+            raise ArithmeticError(f"no solution with a gap of {at} at the middle")
     return np.array(rows).T

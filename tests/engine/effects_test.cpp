@@ -117,8 +117,8 @@ TEST(Effects, OffMakesNoCall) {
                still = {"block.thickness=16", "drive.mode=quasistatic",
                         "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
                state = {"block.thickness=16", "drive.path=relax"},
-               sphere = {"surface.kind=flat", "surface.radius=100", "interface.kind=wall",
-                         "interface.adhesion=5", "drive.path=relax"};
+               sphere = {"surface.kind=flat",    "surface.radius=100",  "interface.kind=wall",
+                         "interface.adhesion=5", "interface.range=0.3", "drive.path=relax"};
     const std::vector<Trace> traces = {
         {&Effects::dynamic,
          {"block.thickness=16", "drive.max_steps=20"},

@@ -4,6 +4,7 @@
 // What the spacing does not resolve, and by how much: rows of sites that hold the edge of a contact
 // over a wall of short range, and waves of a few spacings.
 #include "engine/case/spacing_limits.hpp"
+#include "engine/case/wall_shape.hpp"
 #include "engine/units.hpp"
 #include "support/message.hpp"
 #include "support/run_scene.hpp"
@@ -45,12 +46,43 @@ TEST(SpacingLimits, TheFactorOfThePullOffForceIsThatOfASphere) {
     }
 }
 
+TEST(SpacingLimits, TheFactorDependsOnTheLaw) {
+    // A tension that ends suddenly holds the edge in wide strips too.
+    struct {
+        const char* law;
+        double range, largest; // nm; largest tension over adhesion / range
+    } const laws[] = {{"dugdale", 0.6, 1.0},
+                      {"dugdale", 1.2, 1.0},
+                      {"9-3", 0.6, 1.466},
+                      {"8-2", 0.5, 1.026},
+                      {"power", 1.2, 3.0}};
+    for (const auto& [law, range, largest] : laws) {
+        const std::string keys = fmt::format("law = \"{}\"\n", law);
+        const Case c = sphere(range, (keys + "edge_pinning = \"allow\"").c_str());
+        EXPECT_NEAR(c.simulation.interface.shape->shape().tension, largest, 0.02 * largest) << law;
+        const io::Scratch scratch;
+        const io::Json result = test::run_scene(c, scratch / "run");
+        const double adhesion = 70.0 / 16.02176634 * 1e-3; // eV/Å^2
+        const double found =
+            test::number(result, "pull_off_force") / (1.5 * std::numbers::pi * adhesion * 1e4);
+        EXPECT_NEAR(found / c.edge_pinning, 1.0, 0.15) << law << ", " << range << ": " << found;
+    }
+}
+
 TEST(SpacingLimits, APullOffForceThatIsMuchTooLargeIsRefused) {
     const auto refusal = [](const Case& c) {
         return test::message_of<io::SceneError>([&] { c.require_runnable(); });
     };
     const Case coarse = sphere(0.3, "");
     EXPECT_GT(coarse.edge_pinning, 1.3);
+    for (const char* law : {"dugdale", "power", "9-3", "8-2"}) {
+        const std::string keys = fmt::format("law = \"{}\"", law);
+        const std::string why = refusal(sphere(0.3, keys.c_str()));
+        const std::size_t offered = why.find("interface.range = ", why.find("fix"));
+        ASSERT_NE(offered, std::string::npos) << law << why;
+        const Case followed = sphere(0.1 * std::stod(why.substr(offered + 18)), keys.c_str());
+        EXPECT_LT(followed.edge_pinning, 1.055) << law;
+    }
     const std::string said = refusal(coarse);
     EXPECT_NE(said.find("interface.range = 3 Å is not resolved"), std::string::npos) << said;
     EXPECT_NE(said.find("interface.edge_pinning = \"allow\""), std::string::npos) << said;

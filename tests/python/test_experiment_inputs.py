@@ -19,8 +19,8 @@ KEYS = {
     "interface.adhesion": ("stripes 50 10 4nm", "numbers of each site"),
     "interface.law": ("dugdale", None),
 }
-SPHERE = {"surface.kind": "flat", "surface.radius": "50 nm", "surface.sites": "16", "surface.spacing": "1 nm", "block.thickness": "16"}
-WALL = {**SPHERE, "interface.kind": "wall", "interface.adhesion": "50 mJ/m^2", "interface.range": "1 nm", "drive.mode": "quasistatic"}
+SPHERE = {"surface.kind": "flat", "surface.radius": "20 nm", "surface.sites": "16", "surface.spacing": "1 nm", "block.thickness": "16"}
+WALL = {**SPHERE, "interface.kind": "wall", "interface.adhesion": "50 mJ/m^2", "interface.range": "0.3 nm", "drive.mode": "quasistatic"}
 SCENES = {
     "wall": WALL,
     "wall, mean height": {**WALL, "drive.control": "mean-height"},

@@ -416,7 +416,8 @@ def test_scenes_of_another_folder():
 
 
 @pytest.mark.parametrize("bad, good", [
-    ({"load": "5"}, {"load": "5 nN"}), ({"sites": 16}, {"sites": 24}), ({"load": "2 µN"}, {"load": "1 nN"}),
+    ({"load": "5"}, {"load": "5 nN"}), ({"sites": 16}, {"sites": 24}), ({"load": "2 µN"}, {"load": "1 nN"}), ({"radius": "5 nm"}, {"radius": "50 nm"}),
+    ({"radius": "3 nm", "young": "0.5 GPa"}, {"radius": "3 nm", "young": "50 GPa"}), ({"range": "20 nm"}, {"range": "1 nm"}),
     ({"range": "0.01 nm"}, {"range": None}), ({"file": "map.npy", "size": "10 nm"}, {"file": "map.npy", "size": "60 nm"})])
 def test_a_fix_of_a_tip(bad, good):
     np.save("map.npy", np.random.default_rng(0).normal(size=(32, 32)))

@@ -35,7 +35,7 @@ QUASI = {**MOVING, "drive.mode": "quasistatic"}
 COATED = '[["1 nm", "10 GPa", 0.3]]'
 WALL = {**STILL, "interface.kind": "wall"}
 FREE = {**QUASI, "interface.kind": "wall", "surface.boundary": "free"}
-TIP = {**FREE, "surface.kind": "flat", "surface.radius": "10 nm", "interface.adhesion": "1", "interface.range": "5", "drive.path": "approach"}
+TIP = {**FREE, "surface.kind": "flat", "surface.radius": "10 nm", "interface.adhesion": "1", "interface.range": "0.25", "drive.path": "approach"}
 PULLED = {**WALL, "drive.mode": "quasistatic", "drive.path": "approach, pull-off"}
 ATOMS = {**STILL, "surface.kind": "atoms", "surface.file": "atoms.h5", "interface.pairs": '["Au 0.1 3.28", "B 0.05 3"]'}
 TWINS = {"surface.file": "twins.h5"}
@@ -241,8 +241,11 @@ CASES = [
     ('take interface.kind = "wall"', {"surface.boundary": "free"}, {"interface.kind": "wall"}, QUASI),
     ('or boundary = "periodic"', {"surface.boundary": "free"}, {"surface.boundary": "periodic"}, QUASI),
     ('take control = "top"', {"drive.control": "mean-height"}, {"drive.control": "top"}, FREE),
-    (r"take surface.sites = (\d+), or a load", {"drive.load": "200 nN"}, {"surface.sites": "{0}"}, TIP),
-    ("or a load of (.* nN) at most", {"drive.load": "200 nN"}, {"drive.load": "{0}"}, TIP),
+    (r"take surface.sites = (\d+)", {"drive.load": "200 nN"}, {"surface.sites": "{0}"}, TIP),
+    (r"take surface.sites = (\d+) and a load of (\S+ nN) at most", {"drive.load": "20 uN"}, {"surface.sites": "{0}", "drive.load": "{1}"}, TIP),
+    ("or a stiffer block", {"interface.adhesion": "3000", "block.young": "20", "surface.sites": "40"}, {"block.young": "200000"}, TIP),
+    (r"take surface.sites = (\d+), or a larger surface.spacing", {"interface.range": "2"}, {"surface.sites": "{0}"}, TIP),
+    ("or a load of (.* nN) at most", {"drive.load": "200 nN", "interface.adhesion": "0"}, {"drive.load": "{0}"}, TIP),
     ('take interface.kind = "wall"', {"surface.file_missing": "hole"}, {"interface.kind": "wall"}, MAP),
     # Devices
     ('take numerics.device = "none", or drive.mode', {"numerics.device": "emulated"}, {"numerics.device": "none"}, STILL),

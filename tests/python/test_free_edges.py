@@ -17,7 +17,7 @@ import bits
 
 TIP = """[surface]
 kind = "flat"
-radius = "50 nm"
+radius = "20 nm"
 boundary = "free"
 sites = 24
 spacing = "1 nm"
@@ -26,10 +26,10 @@ young = "2 GPa"
 [interface]
 kind = "wall"
 adhesion = "50 mJ/m^2"
-range = "1 nm"
+range = "0.4 nm"
 [drive]
 mode = "quasistatic"
-displacement_step = "0.3 nm"
+displacement_step = "0.2 nm"
 load = "5 nN"
 path = ["approach", "load 10 nN", "pull-off"]
 [output]
@@ -74,7 +74,7 @@ def test_the_bits_are_the_same_on_ranks_and_threads_and_after_a_resume(place, ef
 
 def test_a_tip_is_read_in_nanonewtons(place):
     said = run("tip")
-    for text in ("24.00 nm wide, with free edges", "a sphere of R = 50 nm", "a half-space", "ends at, nN", "largest attraction, nN"):
+    for text in ("24.00 nm wide, with free edges", "a sphere of R = 20 nm", "a half-space", "ends at, nN", "largest attraction, nN"):
         assert text in said
     assert "MPa" not in said and "free edge of the box" not in said
     tip = asperity.load("tip")
@@ -98,7 +98,7 @@ def test_a_tip_is_read_in_nanonewtons(place):
     assert "mean height, nm" in table and "work of the drive, aJ" in table and "MPa" not in table and "meV" not in table
     assert all(f"{s.force:.5g}" in table for s in tip.segments if s.force > 0)
     # The sphere is between DMT and JKR.
-    pull = math.pi * 50 * 0.05
+    pull = math.pi * 20 * 0.05
     assert 1.5 * pull < tip.instrument.pull_off_force < 2 * pull
     # The widest contact is that of 10 nN; the edge is as far from it as the box is wider.
     radius = 24 * math.sqrt(at.contact_fraction / math.pi)
@@ -120,11 +120,11 @@ def test_jumps_are_of_sites_of_the_box(place):
 
 
 def test_a_contact_at_a_free_edge_is_said(place):
-    said = run("wide", "drive.path=height -3.2 nm")
+    said = run("wide", "drive.path=height -7.4 nm")
     wide = asperity.load("wide")
     assert 0 <= wide.instrument.edge_distance <= 1
     assert "The contact comes within" in said and "nm of a free edge of the box" in said
-    said = command("check", "tip.toml", "--set", "drive.load=1 uN", expect=2)
+    said = command("check", "tip.toml", "--set", "drive.load=400 nN", expect=2)
     assert "needs a contact wider than the box" in said
 
 

@@ -130,3 +130,45 @@ def test_overrides_that_are_no_values(given):
             asperity.run({"surface": {"sites": 16}}, overrides)
         with pytest.raises(asperity.SceneError, match="are "):
             asperity.sweep({"surface": {"sites": 16}}, overrides)
+
+
+SPHERE = ("surface.kind=flat", "surface.boundary=free", "interface.kind=wall", "drive.mode=quasistatic", "surface.sites=32",
+          "surface.spacing=0.4 nm", "surface.radius=20 nm", "block.young=2 GPa", "interface.adhesion=50 mJ/m^2", "interface.range=0.3 nm",
+          'drive.path=["approach", "pull-off"]')
+
+
+@pytest.mark.parametrize("changes", [
+    ["drive.load=200 nN"], ["drive.load=700 nN", "surface.sites=80"], ["interface.range=1 nm"],
+    ["surface.radius=80 nm"], ["surface.radius=6 nm", "drive.load=60 nN"],
+    ["surface.radius=3 nm", "surface.sites=16", "surface.spacing=0.1 nm"], ["interface.law=power", "interface.range=1 nm"],
+    ['drive.path=["approach", "load 80 nN"]'], ["drive.load=150 nN", 'block.layers=[["1 nm", "40 GPa", 0.3]]'],
+    ["surface.radius=10 um", "surface.spacing=40 nm", "interface.range=20 nm", "block.young=300 Pa", "block.surface_stress=20 mN/m",
+     "interface.adhesion=1 mJ/m^2"]])
+def test_each_way_out_of_a_box_that_is_too_narrow(changes):
+    """A box with free edges, its contact and the attraction beside it: what the messages offer is taken, each on its own."""
+    keys = dict(one.split("=", 1) for one in (*SPHERE, *changes))
+    said = command("check", "-", "--set", *(f"{k}={v}" for k, v in keys.items()), given="", expect=2)
+    problem = said[:said.index("1 problem")]
+    assert problem.count("fix: ") == 1, said
+    load_key, load = ("drive.path", '["approach", "load {} nN"]') if "load" in keys["drive.path"] else ("drive.load", "{} nN")
+    ways = []
+    for way in problem.split("fix: ")[1].split(", "):
+        sites, most = (re.search(what, way) for what in (r"surface.sites = (\d+)", r"a load of (\S+) nN at most"))
+        ways.append({"surface.sites": sites[1]} if sites else {})
+        ways[-1] |= {load_key: load.format(most[1])} if most else {}
+    ways = [way for way in ways if way]
+    assert ways, said
+    for way in ways:
+        command("check", "-", "--set", *(f"{k}={v}" for k, v in {**keys, **way}.items()), given="", expect=0)
+
+
+def test_a_slide_that_is_off_balance_takes_a_smaller_tolerance(place):
+    """Steps of a slide over a wall do not follow drive.displacement_step."""
+    scene = ("surface.sites=32", "surface.spacing=20", "surface.rms=8", "surface.rolloff=2", "surface.q_max=8", "block.young=0.02",
+             "block.poisson=0.48", "block.thickness=64", 'block.prony=[[30, "1 ns"], [9, "20 ns"]]', "interface.kind=wall", "interface.adhesion=2",
+             "interface.range=9", "drive.mode=quasistatic", "drive.control=mean-height", "drive.load=2", "drive.velocity=0.01",
+             'drive.path=["relax", "slide x 256 nm"]')
+    said = command("run", "-", "--out", "off", "--set", *scene, given="", expect=3, says="the energy balance is off")
+    assert "displacement_step" not in said
+    tolerance = re.search(r"take drive.tolerance = (\S+) or less", said)[1]
+    command("run", "-", "--out", "on", "--set", *scene, f"drive.tolerance={tolerance}", given="", expect=0)

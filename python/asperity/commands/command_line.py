@@ -206,6 +206,7 @@ def parsers() -> dict[str, Parser]:
     tip.add_argument(*options("unit"), metavar="nm", help="of the heights; holds over what the file says")
     tip.add_argument(*options("channel"), metavar="NAME", help="of a file with several maps: this one, by name or number")
     tip.add_argument(*options("sites"), type=_sites, metavar="N", help="along an edge of the box (default: 64 to 256, as needed)")
+    tip.add_argument("--plan", action="store_true", help="say what would be run, how long it takes and what will not be stated; run nothing")
     _out(tip, "results/<map>-tip")
     _jobs(tip)
     _voice(tip)

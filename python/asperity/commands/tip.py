@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import re
+import tempfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,12 +15,12 @@ from ..arguments import checks_call, chosen
 from ..errors import BY_CODE, InternalError, Stopped
 from ..files import store
 from ..reports import tip as report_tip
-from ..results.result import Result
+from ..results.result import Result, Values
 from ..running import lock, program
 from ..running.pool import DONE, STOPPED, PoolOptions, refuse_jobs, require_free_runs
-from ..studies.tip import Plan, Tip, files_of, plan_of, tip_of
+from ..studies.tip import NUMBERS, Plan, Tip, files_of, plan_of, seconds_of, tip_of
 from ..studies.variations import Runs, Variation
-from ..terminal import Voice
+from ..terminal import Voice, duration, table
 
 RUNS = re.compile(r"tip|coarse|wide|tip,displacement_step=.*")
 """Directories of the runs."""
@@ -126,7 +127,30 @@ def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[s
     return found
 
 
-def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: Voice, **given: Any) -> int:
+def _told(file: str | None, place: Path, given: dict[str, Any], voice: Voice) -> None:
+    """Prints what would be run, how long it takes, and what will not be stated. Leaves nothing behind."""
+    with tempfile.TemporaryDirectory(prefix="asperity-") as folder:
+        made = plan_of(file, Path(folder), given)
+        scenes = {part: Values(program.check(str(scene))["scene"]) for part, scene in made.scenes.items()}
+        seconds = seconds_of(made)
+    runs = []
+    for part, time in seconds.items():
+        keys = scenes.get(part, scenes[""])
+        sites = int(keys.needed("surface.sites"))
+        runs.append({"part": part, "sites": sites, "width": 0.1 * sites * keys.needed("surface.spacing"), "seconds": time})
+    names = {"": "the tip", "spacing": "coarser spacing", "width": "wider box", "step": "longer steps"}
+    total = sum(seconds.values())
+    voice.tell({"directory": place, "runs": runs, "seconds": total, "not_stated": list(made.not_stated), "notes": made.notes})
+    voice.show(table(["run", "sites", "width, nm", "about"],
+                     [[names[run["part"]], str(run["sites"]), f"{run['width']:.4g}", duration(run["seconds"])] for run in runs]))
+    voice.show(f"\n{len(runs)} runs, about {duration(total)} of one process at a time; they would be in {place}.")
+    for note in made.notes:
+        voice.say(f"note: {note}")
+    for path, why in made.not_stated.items():
+        voice.show(f"{NUMBERS[path][0].replace('_', ' ')} will not be stated: {why}")
+
+
+def tip_command(file: str | None, out: str | None, options: PoolOptions, plan: bool, voice: Voice, **given: Any) -> int:
     """Carries out `asperity tip`.
 
     Parameters
@@ -137,6 +161,8 @@ def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: 
         Result directory; None: the default one.
     options : PoolOptions
         Options of the runs.
+    plan : bool
+        True: only tells what would be run.
     voice : Voice
         Output of the command.
     **given : Any
@@ -148,6 +174,9 @@ def tip_command(file: str | None, out: str | None, options: PoolOptions, voice: 
         The exit code.
     """
     place = store.chosen(out, _place(file))
+    if plan:
+        _told(file, place, given, voice)
+        return 0
     made = _planned(file, place, given)
     for note in made.notes:
         voice.say(f"note: {note}")

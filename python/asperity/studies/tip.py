@@ -38,11 +38,19 @@ LEAST = 24
 """Of which a coarser box can be made."""
 RANGE = "3 Å"
 ROOM = 1.3
-"""Width of the box over the diameter of the contact."""
+"""Least width of the box over the diameter of the contact."""
+ACROSS = 10
+"""Least number of sites in the contact's radius without load."""
+WIDEST = 0.6
+"""Largest radius of the contact over that of the tip."""
 COARSER, WIDER, LONGER = 1.5, 1.3, 2.0
 """Factors of spacing, width and step of the variations."""
 PARTS = {"spacing": 1 / (COARSER - 1), "width": 1.0, "step": 1 / (LONGER - 1)}
 """Errors over the differences of a variation: an error of first order in spacing and step."""
+EDGE = 0.15
+"""Radius of a circle by its sites less its radius, in spacings."""
+GRAIN = 0.01
+"""Least error of a force or energy over its size, times the contact's radius in spacings."""
 JKR_FROM, DMT_BELOW = 5.0, 0.1
 """Maugis' parameter."""
 
@@ -77,6 +85,13 @@ class Contact(NamedTuple):
         return float(np.cbrt(self.radius * self.work**2 / self.modulus**2)) / self.range
 
     @property
+    def step(self) -> float:
+        """Step of the drive, nm: half the range, on a soft cantilever. Otherwise it moves the force by a hundredth of πwR or the
+        tip by a tenth of the length over which the attraction or the contact changes."""
+        contact = float(np.cbrt((self.unit / self.stiffness_of_contact) ** 2 / self.radius))
+        return min(0.5 * self.range, max(0.01 * self.unit / self.stiffness, 0.1 * min(self.range, contact)))
+
+    @property
     def model(self) -> str:
         """Name of the theory that applies to the smooth sphere: JKR, DMT or Maugis."""
         return "JKR" if self.parameter > JKR_FROM else "DMT" if self.parameter < DMT_BELOW else "Maugis"
@@ -89,6 +104,11 @@ class Contact(NamedTuple):
         """Returns JKR's contact radius under a force, nm."""
         f = 3 * self.unit
         return float(np.cbrt(self.radius / self.stiffness_of_contact * (force + f + math.sqrt(2 * f * force + f * f))))
+
+    def force_at(self, radius: float) -> float:
+        """Returns JKR's force at a contact radius, nN."""
+        cubed = self.stiffness_of_contact * radius**3
+        return cubed / self.radius - math.sqrt(6 * self.unit / self.radius * cubed)
 
 
 class Fit(NamedTuple):
@@ -107,7 +127,8 @@ class Fit(NamedTuple):
 @dataclass
 class Plan:
     """Runs of a tip: the scenes by part ("" is the scene itself), the contact, and notes. asked_range: requested
-    range before its increase, nm; longer_step: setting of the run with longer steps."""
+    range before its increase, nm; longer_step: setting of the run with longer steps; spacing: of the sites, nm; beyond: attraction
+    beyond the edges of the box, nN."""
 
     scenes: dict[str, Path]
     contact: Contact
@@ -115,6 +136,17 @@ class Plan:
     asked_range: float
     notes: list[str]
     longer_step: str
+    spacing: float
+    beyond: float
+
+    @property
+    def not_stated(self) -> dict[str, str]:
+        """Reasons why numbers will not be stated, by number."""
+        if not self.contact.range > 1.001 * self.asked_range:
+            return {}
+        why = (f"the range of the attraction decides, and is {self.contact.range:.3g} nm, which the spacing resolves, in place of "
+               f"{self.asked_range:.3g} nm: that takes {(self.contact.range / self.asked_range) ** 2:.2g} times as many sites along an edge (sites)")
+        return dict.fromkeys(("jump_in_distance", "lost"), why)
 
 
 @checks_calls
@@ -166,17 +198,54 @@ class Tip(Named):
 
 def _checked(given: dict[str, Any], channel_keys: dict[str, Any]) -> Values:
     """Returns the keys of a scene with these quantities, in the scene's units. Raises SceneError that names the arguments."""
-    sections = {"surface": {"kind": "flat", "sites": 32, "radius": with_unit("radius", given["radius"]), **channel_keys},
-                "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
-                "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
-                              "range": with_unit("range", given["range"] or RANGE)},
-                "drive": {"path": ["relax"], "mode": "quasistatic", "stiffness": with_unit("stiffness", given["stiffness"])}}
+    return Values(_asked({"surface": {"kind": "flat", "sites": 32, "boundary": "free", "radius": with_unit("radius", given["radius"]),
+                                      **channel_keys},
+                          "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
+                          "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
+                                        "range": with_unit("range", given["range"] or RANGE)},
+                          "drive": {"path": ["relax"], "mode": "quasistatic",
+                                    "stiffness": with_unit("stiffness", given["stiffness"])}})["scene"])
+
+
+def _asked(sections: dict[str, dict[str, Any]], to_run: bool = False) -> Values:
+    """Returns what the program says of a scene. to_run: the scene must be one that can be run. Raises SceneError in the words of
+    tip()."""
     try:
         with scene_file(sections) as file:
-            return Values(program.check(file)["scene"])
+            answer = Values(program.check(file))
+            if to_run and answer["problems"]:
+                raise SceneError.of(answer["problems"])
+            return answer
     except SceneError as error:
-        raise SceneError.of([{**one, "where": "", "what": named(one["what"]), "fix": one["fix"].replace('; "none" is allowed too', "")}
-                             for one in error.listed]) from None
+        raise SceneError.of([{"where": "", "what": named(one["what"]), "why": named(one["why"]),
+                              "fix": named(one["fix"]).replace('; "none" is allowed too', "")} for one in error.listed]) from None
+
+
+def _scene(keys: Values, contact: Contact, load: float) -> dict[str, dict[str, Any]]:
+    """Returns the sections of the scenes of all runs. keys: the scene's keys of the sample; load: nN."""
+    return {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"},
+            "block": {"young": keys.number("block.young"), "poisson": keys.number("block.poisson")},
+            "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": f"{contact.range:.10g} nm",
+                          "frictionless": True},
+            "drive": {"mode": "quasistatic", "path": ["approach", "pull-off"], "load": f"{load:.10g} nN", "stiffness": contact.stiffness,
+                      "displacement_step": f"{contact.step:.10g} nm"},
+            "output": {"fields": ["relaxed"], "trajectory": "none"}}
+
+
+def _refuse_steep(contact: Contact, load: float) -> None:
+    """Raises SceneError if the contact, or the attraction beside it, is too wide for gentle slopes."""
+    if contact.range > 0.3 * contact.radius:
+        raise SceneError(f"range = {contact.range:g} nm", f"reaches around a tip of {contact.radius:g} nm",
+                         "the surfaces are taken as gently sloped where they attract each other", "take a shorter range or a larger radius")
+    widest = WIDEST * contact.radius
+    if contact.radius_at(load) <= widest:
+        return
+    most = 0.95 * contact.force_at(widest)
+    held = contact.radius_at(0.0) <= widest and most > 0
+    raise SceneError(f"load = {load:g} nN", f"presses a tip of {contact.radius:g} nm into a contact of {2 * contact.radius_at(load):.3g} nm",
+                     "the surfaces are taken as gently sloped, which such a contact is not",
+                     (f'press less, for example load "{most:.2g} nN", or ' if held else "") + "take a larger tip, a stiffer sample or a "
+                     "smaller work of adhesion")
 
 
 def _force(text: object) -> float:
@@ -208,13 +277,17 @@ class _Sample(NamedTuple):
         return height_map.without_plane(RectBivariateSpline(at, at, smooth)(there, there))
 
 
+def _with_box(keys: dict[str, dict[str, Any]], width: float, sites: int) -> dict[str, dict[str, Any]]:
+    """Returns a smooth scene of a box of this width, nm."""
+    return {**keys, "surface": {"kind": "flat", **keys["surface"], "sites": sites, "spacing": f"{width / sites:.10g} nm"}}
+
+
 def _written(place: Path, name: str, keys: dict[str, dict[str, Any]], sample: _Sample | None, width: float, sites: int) -> Path:
     """Writes the scene of a box, and its map in the same directory."""
-    surface: dict[str, Any] = {"kind": "flat"}
     files = [f"{name}.toml"] + [f"{name}.npy"] * (sample is not None)
+    scene = _with_box(keys, width, sites)
     if sample is not None:
-        surface = {"kind": "file", "file": f"{name}.npy", "file_unit": "nm"}
-    scene = {**keys, "surface": {**surface, **keys["surface"], "sites": sites, "spacing": f"{width / sites:.10g} nm"}}
+        scene["surface"] |= {"kind": "file", "file": f"{name}.npy", "file_unit": "nm"}
     with store.outputs(place, files) as out:
         if sample is not None:
             with out.replacing(f"{name}.npy") as beside, open(beside, "wb") as opened:
@@ -270,16 +343,19 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
         heights, edge, notes = read_square(file, given["unit"], keys.number("surface.file_size"), given["channel"])
         sample = _Sample(0.1 * height_map.filled(heights), 0.1 * edge / len(heights))
     reach = contact.radius_at(load)
+    _refuse_steep(contact, load)
 
     def width_for(rms: float, range: float) -> float:
-        """Returns the width of a box for the contact and the attraction around it, nm."""
-        return 2 * (ROOM * math.sqrt(reach**2 + 4 * contact.radius * rms) + 4 * range)
+        """Returns the width of a box for the contact and for the attraction around it, nm."""
+        of_contact = 2 * (ROOM * math.sqrt(reach**2 + 4 * contact.radius * rms) + 4 * range)
+        there = _asked(_with_box(_scene(keys, contact._replace(range=range), load), of_contact, 32))
+        return max(of_contact, 0.1 * there.needed("beyond_edges.width") + 4 * math.sqrt(2 * contact.radius * rms) * bool(rms))
 
     def require_inside(width: float) -> None:
         if sample is not None and WIDER * width > sample.pixel * len(sample.heights):
             raise SceneError(str(file), f"is too small for this contact: {sample.pixel * len(sample.heights):.4g} nm wide",
-                             f"a contact of {2 * reach:.3g} nm and a wider box to compare with take {WIDER * width:.3g} nm",
-                             "press less (load), take a sharper tip, or a wider map")
+                             f"a contact of {2 * reach:.3g} nm, the attraction around it and a wider box to compare with take "
+                             f"{WIDER * width:.3g} nm", "press less (load), take a sharper tip, a shorter range, or a wider map")
 
     width = width_for(0.0, contact.range)
     if sample is not None:
@@ -288,12 +364,8 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
             rms = float(np.std(sample.below(width, FEWEST)))
             width = width_for(rms, contact.range)
             require_inside(width)
-    if width > contact.radius * 1.6:
-        raise SceneError(f"load = {load:g} nN", f"presses a tip of {contact.radius:g} nm into a contact of {2 * reach:.3g} nm",
-                         "the surfaces are taken as gently sloped, which such a contact is not",
-                         "press less, or take a larger tip or a stiffer sample")
     finest = contact.modulus * contact.range**2 / (2 * contact.work)  # two sites beside the edge of a contact
-    wanted = math.ceil(width / min(width / FEWEST, finest, sample.pixel if sample is not None else math.inf))
+    wanted = math.ceil(width / min(width / FEWEST, finest, contact.radius_at(0.0) / ACROSS, sample.pixel if sample is not None else math.inf))
     sites = given["sites"] or min(MOST, wanted + wanted % 2)
     if contact.range**2 < 0.999 * 2 * width / sites * contact.work / contact.modulus:
         longer = math.sqrt(2 * width / sites * contact.work / contact.modulus)
@@ -309,27 +381,30 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     if sample is not None:
         notes.append(f"the middle of the map is below the tip: {width:.3g} nm, {sites} sites along an edge; the mean plane is subtracted; "
                      f"its rms height is {float(np.std(sample.below(width, sites))):.3g} nm")
-    # A step moves the force by less than its share of the pull-off force.
-    step = min(0.5 * contact.range, 0.01 * contact.unit / contact.stiffness)
-    scene: dict[str, dict[str, Any]] = {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"},
-             "block": {"young": keys.number("block.young"), "poisson": poisson},
-             "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": f"{contact.range:.10g} nm",
-                           "frictionless": True},
-             "drive": {"mode": "quasistatic", "path": ["approach", "pull-off"], "load": f"{load:.10g} nN", "stiffness": contact.stiffness,
-                       "displacement_step": f"{step:.10g} nm"},
-             "output": {"fields": ["relaxed"], "trajectory": "none"}}
+    scene = _scene(keys, contact, load)
     coarse = 2 * round(sites / COARSER / 2)
     wide = 2 * round(sites * WIDER / 2)
-    scenes = {"": _written(place, "tip", scene, sample, width, sites), "spacing": _written(place, "coarse", scene, sample, width, coarse),
-              "width": _written(place, "wide", scene, sample, width * wide / sites, wide)}
-    return Plan(scenes, contact, load, asked, notes, f"drive.displacement_step={LONGER * step:.10g} nm")
+    boxes = {"": ("tip", width, sites), "spacing": ("coarse", width, coarse), "width": ("wide", width * wide / sites, wide)}
+    checked = {part: _asked(_with_box(scene, box, across), to_run=True) for part, (_, box, across) in boxes.items()}
+    beyond = 1.5 * contact.unit * checked[""].needed("beyond_edges.part")
+    scenes = {part: _written(place, name, scene, sample, box, across) for part, (name, box, across) in boxes.items()}
+    return Plan(scenes, contact, load, asked, notes, f"drive.displacement_step={LONGER * contact.step:.10g} nm", width / sites,
+                beyond)
+
+
+def seconds_of(plan: Plan) -> dict[str, float]:
+    """Returns the times of the runs of a plan by part, as `asperity plan` estimates them, s."""
+    found = {part: float(program.plan(str(file))["seconds"]["altogether"]) for part, file in plan.scenes.items()}
+    return found | {"step": found[""] / LONGER}
 
 
 class _Measured(NamedTuple):
-    """Numbers of a run by name, NaN if missing, and the reason why one is missing."""
+    """Numbers of a run by name, NaN if missing; the reason why one is missing; and the errors of those that are corrected or
+    extrapolated."""
 
     values: dict[str, float]
     missing: dict[str, str]
+    errors: dict[str, float]
 
 
 def _curve(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
@@ -340,22 +415,76 @@ def _curve(result: Result) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarr
             series["force"] / NANONEWTON, series["segment"])
 
 
+def fold(tip: np.ndarray, force: np.ndarray, stiffness: float, degree: int) -> float:
+    """Finds the place at which the tip jumps in, from an approach.
+
+    The place z of the tip is a smooth function of the attraction F, which is exponential far away: z is a polynomial of ln F through
+    the last points. The drive, z + F/k, comes no further than to the fold, where dz/dF = -1/k.
+
+    Parameters
+    ----------
+    tip, force : numpy.ndarray
+        Places of the tip, nm, and forces, nN, negative, of the points before the jump.
+    stiffness : float
+        Stiffness k of the cantilever, N/m.
+    degree : int
+        Degree of the polynomial.
+
+    Returns
+    -------
+    float
+        Place of the tip at the fold, nm; NaN if there is none.
+    """
+    if len(tip) <= degree or not (force[-degree - 1:] < 0).all():
+        return NAN
+    x = np.log(-force[-degree - 1:] / stiffness)
+    place = np.polynomial.Polynomial.fit(x, tip[-degree - 1:], degree)
+    beyond = np.linspace(x[-1], x[-1] + 3, 3001)
+    slope = place.deriv()(beyond) + np.exp(beyond)
+    turned = np.flatnonzero(slope > 0)
+    if not len(turned) or turned[0] == 0:
+        return NAN
+    i = int(turned[0])
+    return float(place(beyond[i - 1] - (beyond[i] - beyond[i - 1]) * slope[i - 1] / (slope[i] - slope[i - 1])))
+
+
+def _least(tip: np.ndarray, force: np.ndarray) -> float:
+    """Returns the least force of points without a jump, by a parabola through the three points around it."""
+    i = int(np.argmin(force))
+    if not 0 < i < len(force) - 1:
+        return float(force[i])
+    bend, slope, least = np.polyfit(tip[i - 1:i + 2] - tip[i], force[i - 1:i + 2], 2)
+    return float(least - 0.25 * slope**2 / bend) if bend > 0 else float(force[i])
+
+
 def _measured(result: Result, contact: Contact) -> _Measured:
     drive, tip, force, segment = _curve(result)
-    inwards = np.flatnonzero(segment == 0)
-    lost = np.diff(result.series["dissipated"][inwards])
-    joules = 1 / ATTOJOULE
-    values = {"pull_off_force": float(-force[segment == 1].min()), "jump_in_distance": NAN,
-              "contact_radius": result.number("instrument.contact_radius", NAN),
-              "lost": joules * float(result.series["dissipated"][-1])}
-    missing = {}
-    if len(lost) and joules * lost.max() > 1e-4 * contact.unit * contact.range:
-        values["jump_in_distance"] = float(tip[inwards[int(np.argmax(lost))]])
+    dissipated = result.series["dissipated"] / ATTOJOULE
+
+    def before_jump(number: int) -> tuple[np.ndarray, bool]:
+        """Returns the points of a segment up to its largest jump, and whether there is one."""
+        points = np.flatnonzero(segment == number)
+        lost = np.diff(dissipated[points])
+        if not len(lost) or lost.max() <= 1e-4 * contact.unit * contact.range:
+            return points, False
+        return points[:int(np.argmax(lost)) + 1], True
+
+    approach, jumps = before_jump(0)
+    held, _ = before_jump(1)
+    edge = EDGE * 0.1 * result.number("scene.surface.spacing", NAN)  # sites at the edge of the contact are counted whole
+    radius = result.number("instrument.contact_radius", NAN) - edge
+    values = {"pull_off_force": -_least(tip[held], force[held]), "jump_in_distance": NAN, "contact_radius": radius, "lost": float(dissipated[-1])}
+    missing, errors = {}, {"contact_radius": edge}
+    if jumps:
+        straight, values["jump_in_distance"] = (fold(tip[approach], force[approach], contact.stiffness, degree) for degree in (1, 2))
+        errors["jump_in_distance"] = abs(values["jump_in_distance"] - straight)
+        if not math.isfinite(errors["jump_in_distance"]):
+            missing["jump_in_distance"] = "the points of the approach do not tell where its fold is"
     else:
         missing["jump_in_distance"] = "the tip comes into contact without a jump: the cantilever is stiffer than the attraction"
     if not values["contact_radius"] > 0:
         missing["contact_radius"] = "the surfaces are apart at zero load"
-    return _Measured(values, missing)
+    return _Measured(values, missing, errors)
 
 
 def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
@@ -413,7 +542,7 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
     """
     own = _measured(results[""], plan.contact)
     others = {part: _measured(result, plan.contact) for part, result in results.items() if part}
-    used = plan.contact.range > 1.001 * plan.asked_range
+    used = bool(plan.not_stated)
     numbers = []
     for path, (symbol, name, unit) in NUMBERS.items():
         value = own.values[path]
@@ -421,13 +550,18 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
         withheld = own.missing.get(path, "")
         if not withheld and not all(math.isfinite(found.error) for found in parts.values()):
             withheld = "a coarser or wider run has no such number: its error is not known"
-        if not withheld and used and path in ("jump_in_distance", "lost"):
-            withheld = (f"the range of the attraction decides, and is {plan.contact.range:.3g} nm, which the spacing resolves, in place of "
-                        f"{plan.asked_range:.3g} nm")
+        withheld = withheld or plan.not_stated.get(path, "")
+        if path == "pull_off_force":
+            parts["beyond the box"] = Found(0.0, plan.beyond)
+        if path in own.errors:
+            parts[{"jump_in_distance": "fold", "contact_radius": "edge"}[path]] = Found(0.0, own.errors[path])
         if used and path == "pull_off_force":
             parts["range"] = Found(0.0, abs(plan.contact.pull_off() - plan.contact._replace(range=plan.asked_range).pull_off()))
+        radius = own.values["contact_radius"]
+        grain = GRAIN * abs(value) * plan.spacing / radius if path in ("pull_off_force", "lost") and radius > 0 else 0.0
         condition = "" if used else f"for a range of {plan.contact.range:.3g} nm"
-        numbers.append(Number(path, symbol, name, unit, value, {} if withheld else parts, least=0.0, withheld=withheld, condition=condition))
+        numbers.append(Number(path, symbol, name, unit, value, {} if withheld else parts, least=0.0, grain=grain, withheld=withheld,
+                              condition=condition))
     drive, tip, force, segment = _curve(results[""])
     out = segment == 1
     notes = list(plan.notes)
