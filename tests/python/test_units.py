@@ -109,7 +109,7 @@ def test_forces_are_read():
 
 
 # What stands for no key of a scene: what a command does with the result.
-OF_COMMANDS = {"out", "jobs", "progress", "quiet", "json", "help", "channel"}
+OF_COMMANDS = {"out", "jobs", "plan", "progress", "quiet", "json", "help", "channel"}
 
 
 def test_options_and_arguments_have_the_words_of_the_scene():
