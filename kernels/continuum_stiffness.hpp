@@ -24,8 +24,8 @@
 //         ( sinh - X cosh    -X sinh        )
 //         ( X sinh            sinh + X cosh ).
 //
-// Below layers of stiffness S_n, with d the matrix a with the other sign of the coupling and t =
-// r p^-1, a sum without cancellation:
+// The stiffness follows from the top layer downwards by a sum without cancellation, with d the
+// matrix a with the other sign of the coupling and t = r p^-1:
 //
 //     S_1 = a,      S_(n+1) = p^-1 + t^T (S_n^-1 + d^-1)^-1 t.
 //

@@ -34,6 +34,7 @@ std::string force_text(const Case& c, double force) {
 }
 
 std::string levels_text(const Case& c) {
+    if (c.simulation.block.continuum) return "static response, wave by wave";
     if (!c.effects.dynamic) return "static response of the lattice, wave by wave";
     const auto& levels = c.levels;
     const char* strain = c.simulation.block.finite_strain ? "; finite strain" : "";

@@ -34,8 +34,9 @@ enum class Boundary { periodic, free };
 enum class MapMissing { refuse, fill, hole };
 enum class MapCrop { none, middle };
 enum class Resample { none, band_limited };
-/// Resolution of the block on a dynamic path. Quasi-static paths use the exact static response of
-/// the lattice instead.
+/// Model of the block: cells of the lattice, all or coarser with depth on dynamic paths, or on
+/// quasi-static paths over a wall a continuum; automatic stands for one of them
+/// (Scene::block_model()).
 enum class BlockModel { automatic, lattice, multiscale, continuum };
 enum class Strain { linear, finite };
 enum class InterfaceKind { atoms, wall };
@@ -110,7 +111,7 @@ struct Scene {
 
     /// Section [block].
     struct Block {
-        BlockModel model = BlockModel::automatic; ///< as the scene gives it
+        BlockModel model = BlockModel::automatic; ///< value in the scene
         double young = 77.2;                      ///< GPa
         double poisson = 0.42;
         double atom_mass = 197.0; ///< u

@@ -162,9 +162,8 @@ TEST(Scaling, PathsOverWalls) {
 
 TEST(Scaling, RubberUnderALoad) {
     // Pixels of 1 nm, 1 MPa, no adhesion. At 0.03 and 0.1 MPa a solver of the half-space of our own
-    // has 0.207 and 0.541; the lattice is softer for its shortest waves.
-    for (const auto& [load, contact] :
-         {std::pair{0.03, 0.219}, {0.05, 0.336}, {0.1, 0.556}, {0.15, 0.723}}) {
+    // has 0.207 and 0.541; a lattice, softer for its shortest waves, 0.219 and 0.556.
+    for (const auto& [load, contact] : {std::pair{0.03, 0.207}, {0.1, 0.541}}) {
         const test::Written run(fmt::format(
             "[surface]\nsites = 128\nspacing = 10\nrms = 10\nq_max = 16\nseed = 4\n"
             "[block]\nyoung = 0.001\npoisson = 0.49\n[interface]\nkind = \"wall\"\nadhesion = 0\n"
@@ -247,7 +246,8 @@ TEST(Scaling, ASoftPullOffIsThatOfATighterPath) {
     // 5e-7 the work is 2.01727.
     const test::Written run(
         "[surface]\nsites = 16\nspacing = 10\nrms = 8\nseed = 3\n[block]\nyoung = 0.02\n"
-        "poisson = 0.45\nthickness = 16\n[interface]\nkind = \"wall\"\nadhesion = 2\n"
+        "poisson = 0.45\nthickness = 16\nmodel = \"lattice\"\n[interface]\nkind = "
+        "\"wall\"\nadhesion = 2\n"
         "range = 10\n[drive]\nmode = \"quasistatic\"\ncontrol = \"mean-height\"\n"
         "displacement_step = 2\n[output]\nfields = []\n");
     EXPECT_NEAR(run("work_of_drive.pull_off"), 2.01727, 3e-3 * 2.01727);

@@ -194,7 +194,7 @@ class Variations:
                 for label, setting in self.at("interface.cutoff", *cutoffs)]
 
     def spaced(self, factor: float) -> Setting:
-        """Returns the setting of the same surface and block at so many times the spacing."""
+        """Returns the setting of the same surface and block at a multiple of the spacing."""
         own = self.own
         waves = [f"surface.q_max={min(own('surface.q_max'), self.sites // 2):.10g}"] if self.scene.text("surface.kind") == "self-affine" else []
         return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={self.sites / factor:.0f}",
