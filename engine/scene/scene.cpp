@@ -101,7 +101,7 @@ bool Scene::is_dynamic() const {
 BlockModel Scene::block_model() const {
     if (block.model != BlockModel::automatic) return block.model;
     if (is_dynamic()) return BlockModel::multiscale;
-    return interface.kind == InterfaceKind::wall ? BlockModel::continuum : BlockModel::lattice;
+    return interface.has_adhesion() ? BlockModel::continuum : BlockModel::lattice;
 }
 
 io::Schema bind(Scene& scene) {
@@ -250,7 +250,9 @@ io::Schema bind(Scene& scene) {
             "dynamic paths: every atom (lattice), or cells that become coarser with depth "
             "(multiscale); quasi-static paths: the exact static response of the lattice (lattice "
             "or multiscale), or over a wall that of an elastic continuum; auto: multiscale on "
-            "dynamic paths, on quasi-static ones continuum over a wall and lattice over atoms")
+            "dynamic paths, on quasi-static ones continuum over a wall and lattice over atoms, "
+            "smeared "
+            "ones too")
         .needs = {
         needs.refusing(
             {[&scene] { return scene.block.model != BlockModel::continuum || !scene.is_dynamic(); },
