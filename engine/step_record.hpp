@@ -5,6 +5,8 @@
 // selects and names those that a run records.
 #pragma once
 
+#include "engine/energy/energies.hpp"
+
 #include <array>
 
 namespace asperity {
@@ -46,50 +48,15 @@ struct PlaceAndForces {
     }
 };
 
-/// Energies of an observed step or of a point, eV.
-struct Energies {
-    double interface_energy = 0.0; ///< U_LJ
-    double elastic_energy = 0.0;   ///< U_el, with branches and the spring that holds the top plane
-    double kinetic_energy = 0.0;   ///< zero at rest
-    /// Energy of the time step at a temperature, -(dt^2/8) sum of F^2/m. The sum of all energies
-    /// with this one is what the leapfrog conserves over springs (thermostat.hpp).
-    double time_step_energy = 0.0;
-    double branch_energy = 0.0;  ///< part of elastic_energy in a block's branches
-    double machine_energy = 0.0; ///< part of elastic_energy in the spring that holds the top plane
-
-    /// Returns the elastic energy of the block without that of what holds it, eV.
-    double energy_of_block() const { return elastic_energy - machine_energy; }
-    /// Returns the energy of block and interface, eV.
-    double energy() const { return interface_energy + elastic_energy + kinetic_energy; }
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("interface_energy", interface_energy);
-        v("elastic_energy", elastic_energy);
-        v("kinetic_energy", kinetic_energy);
-        v("time_step_energy", time_step_energy);
-        v("branch_energy", branch_energy);
-        v("machine_energy", machine_energy);
-    }
-};
-
-/// Global numbers of a step or point, bitwise identical on every rank. Energies in eV.
+/// Global numbers of a step or point, bitwise identical on every rank. Works and losses count from
+/// the start of the path; the work of the drive and of external forces from rest apart: it includes
+/// the energy of the block at the start, and that of values that a script writes to its fields.
 struct StepRecord : ContactCount, PlaceAndForces, Energies {
     long long step = 0; ///< number of the step, or of the point of a quasi-static path
     double time = 0.0;  ///< fs
     // Numbers of observed steps only, like the contacts and the energies:
     bool observed = false;
-    /// Work of the drive and of external forces on the solids, counted from rest apart: includes
-    /// the energy of the block at the start, and the energy of values that a script writes to its
-    /// fields.
-    double work = 0.0;
-    double dissipated_in_block = 0.0; ///< energy dissipated by the branches since the start
-    /// Energy damped since the start, less the heat of a thermostat's noise; on a quasi-static path
-    /// the energy dissipated at instabilities.
-    double damped = 0.0;
-    double interface_work = 0.0; ///< int F dz of the mean height since the start
-    /// Residual of the energy balance: (work - energy - time_step_energy - damped) over the largest
-    /// of the energies and of the work so far.
+    /// Residual of the energy balance over the largest of the energies and of the work so far.
     double residual = 0.0;
 
     /// Passes the members to a visitor, for checkpoints.
@@ -101,10 +68,6 @@ struct StepRecord : ContactCount, PlaceAndForces, Energies {
         v("observed", observed);
         Energies::visit(v);
         ContactCount::visit(v);
-        v("work", work);
-        v("relaxed", dissipated_in_block);
-        v("damped", damped);
-        v("interface_work", interface_work);
         v("residual", residual);
     }
 };

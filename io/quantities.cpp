@@ -3,6 +3,7 @@
 #include "io/quantities.hpp"
 
 #include <algorithm>
+#include <deque>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,9 +37,8 @@ const std::vector<Topic>& result_topics() {
     static const std::vector<Topic> topics = {
         {"Works, energies and areas",
          {"delta_gamma", "binding_energy", "binding_energy_uncertainty", "pair_binding_energy",
-          "work_of_interface", "work_of_drive", "lost", "kinetic", "dissipated_in_block", "stored",
-          "contact_fraction", "contact_area", "contact_area_uncertainty", "repulsive_fraction",
-          "relaxed"}},
+          "work_of_interface", "work_of_drive", "{loss}", "kinetic", "stored", "contact_fraction",
+          "contact_area", "contact_area_uncertainty", "repulsive_fraction", "relaxed"}},
         {"Forces, spheres and instruments",
          {"approach_force", "pull_off_force", "jkr", "contact_radius", "instrument"}},
         {"Segments, slides and friction", {"segments"}},
@@ -58,8 +58,11 @@ const std::vector<Topic>& run_topics() {
     return topics;
 }
 
+/// Returns the first word of a name: {loss} for the key of a loss.
 std::string_view first_word(std::string_view name) {
-    return name.substr(0, name.find_first_of("./@[*"));
+    const std::string_view word = name.substr(0, name.find_first_of("./@[*"));
+    const auto is_of = [&](const EnergyTerm& term) { return term.is_loss() && term.key == word; };
+    return std::ranges::any_of(energy_terms, is_of) ? "{loss}" : word;
 }
 
 /// Returns a table for each topic. Throws std::logic_error if a quantity belongs to none.
@@ -82,6 +85,34 @@ std::string tables(std::span<const Quantity> quantities, const std::vector<Topic
 
 } // namespace
 
+const std::vector<Quantity>& result_quantities() {
+    static std::deque<std::string> texts; // to which quantities refer
+    static const std::vector<Quantity> quantities = [] {
+        std::vector<Quantity> list;
+        for (const Quantity& row : written_quantities)
+            if (stands_for(row, row.name)) // the one of its name
+                list.push_back(row);
+            else
+                for (const EnergyTerm& term : energy_terms) {
+                    const auto filled = [&](std::string_view text) -> std::string_view {
+                        return texts.emplace_back(fmt::format(
+                            fmt::runtime(text), fmt::arg("loss", term.key),
+                            fmt::arg("last", term.last), fmt::arg("meaning", term.meaning)));
+                    };
+                    if (!term.word(row.name).empty())
+                        list.push_back({filled(row.name), row.unit, row.per, filled(row.meaning)});
+                }
+        return list;
+    }();
+    return quantities;
+}
+
+const Quantity& result_quantity(std::string_view name) {
+    const auto found = std::ranges::find(result_quantities(), name, &Quantity::name);
+    if (found != result_quantities().end()) return *found;
+    throw std::logic_error(fmt::format("no quantity {} in written_quantities", name));
+}
+
 const Quantity* run_quantity(std::string_view path) {
     if (path.starts_with('/')) path.remove_prefix(1);
     for (const Quantity& q : run_quantities)
@@ -99,7 +130,7 @@ std::string result_markdown(std::span<const Quantity> series) {
            "list. `scene` holds the scene with its defaults ([scene.md](scene.md)).\n`units` holds "
            "the unit of every value at the place of the value, for a list once for all\nelements; "
            "`1` marks a pure number, an empty text a value that is no number.\n" +
-           tables(result_quantities, result_topics()) +
+           tables(result_quantities(), result_topics()) +
            "\n## run.h5\n\nEach data set has its `unit` and a `description` as attributes. The "
            "attributes of `/` are the scene as\nTOML (`scene`), and `version` and `git` of the "
            "program. A trajectory is in `/particles`, in the form\nof H5MD. `@` leads to an "

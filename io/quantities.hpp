@@ -9,13 +9,20 @@
 // attributes of run.h5 and docs/reference/result.md (`asperity defaults --results`) follow.
 //
 // Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list. Units: as
-// io/units.hpp reads them; "1" for a pure number, "" if the value is no number.
+// io/units.hpp reads them; "1" for a pure number, "" if the value is no number. A row whose name
+// has {loss} stands for each loss of io/energy_terms.hpp, a row with {last} for each term that has
+// a name in the group "energy".
 #pragma once
 
+#include "io/energy_terms.hpp"
+
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace asperity::io {
 
@@ -33,8 +40,8 @@ inline constexpr std::string_view area = "nominal area", block = "whole block",
                                   contact = "area in contact of a sphere";
 }
 
-/// Quantities of result.json, in the order of the file.
-inline constexpr Quantity result_quantities[] = {
+/// Quantities of result.json as written, in the order of the file.
+inline constexpr Quantity written_quantities[] = {
     {"name", "", "", "name of the scene"},
     {"failure.exit_code", "1", "", "exit code of a command that failed"},
     {"failure.reason", "", "", "error message of the command: problem, reason, remedy"},
@@ -43,7 +50,11 @@ inline constexpr Quantity result_quantities[] = {
      "of the scene; for a substrate of atoms (surface.kind = \"atoms\") that of one layer of the "
      "block's lattice, as a unit of measure"},
     {"binding_energy", "meV/Å^2", per::area,
-     "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
+     "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load). "
+     "From "
+     "rest, without a load, binding_energy = -work_of_drive.approach + losses of the approach + "
+     "kinetic.approach = work_of_drive.pull_off - losses of the pull-off + kinetic.approach - "
+     "kinetic.pull_off, with kinetic = 0 on quasi-static paths"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
      "convergence of the solver, not the error (asperity estimate): energy of residual forces of "
      "the size of drive.tolerance"},
@@ -75,47 +86,29 @@ inline constexpr Quantity result_quantities[] = {
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area,
      "convergence of work_of_drive.pull_off (quasi-static), for the sequence of instabilities on "
      "the path"},
-    {"lost.approach", "meV/Å^2", per::area,
-     "energy lost during the approach: dissipated at instabilities (quasi-static), or damped "
-     "(dynamic, at T = 0). From rest, without a load, binding_energy = -work_of_drive.approach + "
-     "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + kinetic.approach "
-     "- kinetic.pull_off, with kinetic = 0 on quasi-static paths. If the path has several cycles: "
-     "of the last one"},
-    {"lost.pull_off", "meV/Å^2", per::area,
-     "energy lost during the pull-off: dissipated at instabilities (quasi-static), or damped "
-     "(dynamic, at T = 0)"},
-    {"lost.cycle", "meV/Å^2", per::area,
-     "energy lost in a whole cycle, from and to rest beyond the interaction range, including "
-     "kinetic.pull_off; on a path of one approach and one pull-off equal to work_of_drive.approach "
-     "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
+    {"{loss}.approach", "meV/Å^2", per::area,
+     "{meaning}, during the approach; if the path has several cycles: of the last one"},
+    {"{loss}.pull_off", "meV/Å^2", per::area,
+     "{meaning}, during the pull-off, with the recovery of the solids after they have separated"},
+    {"{loss}.cycle", "meV/Å^2", per::area,
+     "{meaning}, in a whole cycle, from and to rest beyond the interaction range; the sum of all "
+     "losses is the work of the drive"},
+    {"{loss}.uncertainty.approach", "meV/Å^2", per::area, "convergence of {loss}.approach"},
+    {"{loss}.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of {loss}.pull_off"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without a "
      "load), above the state at zero load"},
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the pull-off (dynamic, at T = 0), above a "
-     "block at rest beyond the interaction range"},
-    {"dissipated_in_block.approach", "meV/Å^2", per::area,
-     "energy dissipated by a viscoelastic block (block.prony) during the approach, apart from "
-     "lost.approach"},
-    {"dissipated_in_block.pull_off", "meV/Å^2", per::area,
-     "energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off; "
-     "includes the recovery of the stretched block after the solids have separated, without work "
-     "of the drive"},
-    {"dissipated_in_block.cycle", "meV/Å^2", per::area,
-     "energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"},
-    {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of dissipated_in_block.approach"},
-    {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
-     "convergence of dissipated_in_block.pull_off"},
+     "block at rest beyond the interaction range; lost.cycle includes it"},
     {"stored.approach", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) during the approach of a "
-     "quasi-static path: work_of_drive = stored + lost + dissipated_in_block, during the approach, "
-     "the pull-off and each segment; zero over a cycle"},
+     "quasi-static path: work_of_drive = stored + all losses, during the approach, the pull-off "
+     "and "
+     "each segment; zero over a cycle"},
     {"stored.pull_off", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) during the pull-off of a "
      "quasi-static path"},
-    {"lost.uncertainty.approach", "meV/Å^2", per::area, "convergence of lost.approach"},
-    {"lost.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of lost.pull_off"},
     {"contact_fraction", "1", per::sites,
      "sites in contact at zero load: closer to an atom than the inflection of the pair potential; "
      "over a wall closer than the gap of its largest tension, or in touch with laws that begin at "
@@ -166,15 +159,10 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].work_of_interface", "meV/Å^2", per::area,
      "work of the interface, ∫ F dz of the mean height; omitted for a controlled top on "
      "quasi-static paths"},
-    {"segments[].lost", "meV/Å^2", per::area,
-     "energy damped in the segment, or dissipated at instabilities; at a temperature the net heat, "
-     "damped minus that of the thermostat's noise: at rest it fluctuates like the energy without "
-     "growing, and the first segment includes the heating of the block from 0 K"},
-    {"segments[].dissipated_in_block", "meV/Å^2", per::area,
-     "energy dissipated by a viscoelastic block in the segment, apart from lost"},
+    {"segments[].{loss}", "meV/Å^2", per::area, "{meaning}, in the segment"},
     {"segments[].stored", "meV/Å^2", per::area,
-     "change of the energy of interface and block (quasi-static): work_of_drive = stored + lost + "
-     "dissipated_in_block"},
+     "change of the energy of interface and block (quasi-static): work_of_drive = stored + all "
+     "losses"},
     {"segments[].work_of_settling", "meV/Å^2", per::area,
      "part of work_of_drive of a slide until steady: brings a viscoelastic block into the shape in "
      "which it slides steadily, before the first step"},
@@ -182,8 +170,8 @@ inline constexpr Quantity result_quantities[] = {
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
      "path at T = 0, as kinetic.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
-     "of instabilities on the path"},
+     "convergence of work_of_drive and of the losses (quasi-static), for the sequence of "
+     "instabilities on the path"},
     {"segments[].largest_attraction", "eV/Å", per::block, "largest attraction in the segment"},
     {"segments[].friction", "eV/Å", per::block,
      "mean force against a slide: work that moves the block sideways, divided by the distance"},
@@ -210,10 +198,8 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].steady_contact_fraction_error", "1", per::sites,
      "standard error of steady_contact_fraction"},
     {"segments[].steady_mean_height", "Å", "", "average of the mean height of the lowest layer"},
-    {"segments[].steady_dissipated_in_block", "eV/Å", per::block,
-     "part of steady_friction: energy dissipated by a viscoelastic block, divided by the distance"},
-    {"segments[].steady_lost", "eV/Å", per::block,
-     "part of steady_friction: energy dissipated at instabilities, divided by the distance"},
+    {"segments[].steady_{loss}", "eV/Å", per::block,
+     "part of steady_friction: {meaning}, divided by the distance"},
     {"segments[].pressure", "MPa", "",
      "normal force of the substrate on the lowest layer at the end of the segment, divided by the "
      "area of the box; at a temperature the average that ends the segment"},
@@ -328,30 +314,9 @@ inline constexpr Quantity result_quantities[] = {
      "curved)"},
     {"relaxed.residual_force", "eV/Å", "", "largest residual force on a node"},
     {"energy.balance_error", "1", "largest term",
-     "energy balance: energy.work - kinetic - elastic - interface - damped (- time_step at a "
-     "temperature) at the last recorded step, divided by the largest energy or work so far"},
-    {"energy.work", "eV", per::block,
-     "work of the drive on the solids, counted from rest apart: includes the energy of the solids "
-     "at the start of the path"},
-    {"energy.kinetic", "eV", per::block,
-     "kinetic energy at the last recorded step; in equilibrium at a temperature T it is (3/2) N k "
-     "T on average"},
-    {"energy.elastic", "eV", per::block, "elastic energy at the last recorded step"},
-    {"energy.interface", "eV", per::block,
-     "energy of the interface at the last recorded step: of pairs, or of the law of a wall"},
-    {"energy.time_step", "eV", per::block,
-     "at a temperature: -(dt²/8) Σ F²/m at the last recorded step; the sum of the energies with "
-     "this one is conserved by the time step"},
-    {"energy.damped", "eV", per::block,
-     "energy lost since the start: damped on dynamic paths (minus the heat of the thermostat's "
-     "noise), dissipated at instabilities on quasi-static ones"},
-    {"energy.spring", "eV", per::block,
-     "part of energy.elastic in the spring that holds the top plane (drive.stiffness)"},
-    {"energy.branches", "eV", per::block,
-     "part of energy.elastic in the branches of a viscoelastic block"},
-    {"energy.dissipated_in_block", "eV", per::block,
-     "energy dissipated by the branches of a viscoelastic block since the start, apart from "
-     "energy.damped"},
+     "energy balance at the last recorded step: energy.work - kinetic - elastic - interface (- "
+     "time_step at a temperature) - all losses, divided by the largest energy or work so far"},
+    {"energy.{last}", "eV", per::block, "{meaning}; at the last recorded step"},
     {"surface.rms", "Å", "", "rms height of the substrate, without the cap"},
     {"surface.rms_slope", "1", "", "rms slope √⟨(∇h)²⟩, without the cap"},
     {"surface.min", "Å", "", "smallest height of the substrate"},
@@ -405,6 +370,20 @@ inline constexpr Quantity result_quantities[] = {
      "front of the member"},
 };
 
+/// Returns true if a row of written_quantities stands for a quantity of this name.
+constexpr bool stands_for(const Quantity& row, std::string_view name) {
+    const std::size_t open = row.name.find('{'), close = row.name.find('}');
+    if (open == std::string_view::npos) return row.name == name;
+    const std::string_view before = row.name.substr(0, open), after = row.name.substr(close + 1);
+    if (!name.starts_with(before) || !name.ends_with(after)) return false;
+    name = name.substr(before.size(), name.size() - before.size() - after.size());
+    return std::ranges::any_of(energy_terms,
+                               [&](const EnergyTerm& term) { return term.word(row.name) == name; });
+}
+
+/// Returns the quantities of result.json, in the order of the file.
+const std::vector<Quantity>& result_quantities();
+
 /// Data sets of run.h5 except the series (engine/run/series.hpp); "@" leads to an attribute.
 inline constexpr Quantity run_quantities[] = {
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
@@ -446,23 +425,30 @@ inline constexpr Quantity run_quantities[] = {
     {"profile/stress_variance", "GPa^2", "", "T(q), variance of the stress at full contact"},
 };
 
+/// Returns the quantity of result.json of this name. Throws std::logic_error if there is none.
+const Quantity& result_quantity(std::string_view name);
+
 /// The name of a quantity of result.json; a name that is not in the table does not compile.
 struct Key {
-    consteval Key(const char* name) : quantity(&find(name)) {}
+    consteval Key(const char* literal) : name(literal) {
+        if (std::ranges::none_of(written_quantities,
+                                 [&](const Quantity& row) { return stands_for(row, literal); }))
+            throw std::logic_error("no quantity of that name in written_quantities");
+    }
     /// Returns the key of a name that is composed at run time. Throws if the table has none.
-    static Key composed(std::string_view name) { return Key(find(name)); }
-    const Quantity* quantity;
+    static Key composed(std::string_view name) { return Key(result_quantity(name)); }
+    /// Returns the key of a term: its name between two parts of a name of the table. Throws if the
+    /// table has none.
+    static Key of(std::string_view before, const EnergyTerm& term, std::string_view after = {}) {
+        return composed(std::string(before).append(term.key).append(after));
+    }
+    std::string_view name;
 
 private:
-    static constexpr const Quantity& find(std::string_view name) {
-        for (const Quantity& q : result_quantities)
-            if (q.name == name) return q;
-        throw std::logic_error("no quantity of that name in result_quantities");
-    }
-    constexpr explicit Key(const Quantity& q) : quantity(&q) {}
+    explicit Key(const Quantity& quantity) : name(quantity.name) {}
 };
 
-inline std::string_view unit_of(Key key) { return key.quantity->unit; }
+inline std::string_view unit_of(Key key) { return result_quantity(key.name).unit; }
 
 /// Returns the quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);

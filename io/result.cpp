@@ -37,7 +37,7 @@ Json& place(Json& root, std::string_view name, const std::string& member, std::s
 
 Result::Result() : values_(std::make_unique<Json>(Json::object())) {
     // Members appear in the order in which they are made.
-    for (const Quantity& q : result_quantities)
+    for (const Quantity& q : result_quantities())
         (*values_)[std::string(q.name.substr(0, q.name.find('.')))];
     (*values_)["scene"];
     (*values_)["units"];
@@ -52,7 +52,7 @@ Result::~Result() = default;
 Result::Result(Result&&) noexcept = default;
 
 void Result::put(Key key, const std::string& member, std::size_t element, Value&& value) {
-    const Quantity& q = *key.quantity;
+    const Quantity& q = result_quantity(key.name);
     std::visit([&](auto v) { place(*values_, q.name, member, element, false) = std::move(v); },
                std::move(value));
     place((*values_)["units"], q.name, member, element, true) = std::string(q.unit);
@@ -67,9 +67,9 @@ void Result::set(Key key, std::size_t element, Value value) {
 }
 
 void Result::set_list(Key list) {
-    const std::string_view name = list.quantity->name.substr(0, list.quantity->name.size() - 2);
+    const std::string_view name = list.name.substr(0, list.name.size() - 2);
     place(*values_, name, {}, 0, false) = Json::array();
-    for (const Quantity& q : result_quantities)
+    for (const Quantity& q : result_quantities())
         if (q.name.starts_with(name) && q.name.substr(name.size()).starts_with("[]."))
             place((*values_)["units"], q.name, {}, 0, true) = std::string(q.unit);
 }
@@ -80,7 +80,7 @@ void Result::set_scene(Json scene, Json units) {
 }
 
 std::optional<double> Result::number(Key key) const {
-    const Json* value = find(*values_, key.quantity->name);
+    const Json* value = find(*values_, key.name);
     return value && value->is_number() ? std::optional(value->get<double>()) : std::nullopt;
 }
 

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace asperity {
@@ -46,6 +47,13 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
     // clang-format on
+}
+
+bool Effects::has(std::string_view name) const {
+    if (name.empty()) return true;
+    for (const auto& [called, effect] : list())
+        if (called == name) return effect;
+    throw std::logic_error(fmt::format("no effect is called \"{}\"", name));
 }
 
 Effect dynamic_effect(const Case& c) {

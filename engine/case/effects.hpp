@@ -10,6 +10,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,9 @@ struct Effects {
     bool bounded_contact() const { return curvature || free_edges; }
     /// Returns all effects with their names in `asperity plan` and result.json.
     std::vector<std::pair<const char*, Effect>> list() const;
+    /// Returns true if the effect of this name in list() is on; "" is always on. Throws
+    /// std::logic_error if there is none.
+    bool has(std::string_view name) const;
 };
 /// Returns Effects::dynamic. The options of the block need this effect before the others are known.
 Effect dynamic_effect(const Case& c);

@@ -314,7 +314,7 @@ int schema_command(bool results, const Communicator& world) {
     if (!world.root()) return io::exit_code::done;
     io::Json all;
     if (results) {
-        for (const io::Quantity& q : io::result_quantities)
+        for (const io::Quantity& q : io::result_quantities())
             all[std::string(q.name)] = {{"unit", q.unit}, {"per", q.per}, {"meaning", q.meaning}};
     } else {
         Scene defaults;

@@ -177,14 +177,15 @@ void Simulation::enter_in_ledger() {
                     .mean_height = interface_.reference_height() + lowest / (sites * sites),
                     .force = force,
                     .top_force = top_force},
-                   {.interface_energy = interface_energy,
-                    .elastic_energy = elastic,
-                    .kinetic_energy = kinetic,
-                    .time_step_energy = thermostat_ ? of_step : 0.0},
+                   {},
                    top_.machine_force_before(options_.dt, top_force),
                    dissipated + sums_.top.dissipated,
                    top_.machine.z * (dragged + sums_.top.dragged),
                    heat};
+    now[Term::interface] = interface_energy;
+    now[Term::elastic] = elastic;
+    now[Term::kinetic] = kinetic;
+    now[Term::time_step] = thermostat_ ? of_step : 0.0;
     top_.add_energies(options_.dt, sums_.top, now);
     if (slides()) {
         now.slide = interface_.place();

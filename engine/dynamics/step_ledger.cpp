@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/dynamics/step_ledger.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace asperity {
@@ -37,15 +35,12 @@ void StepLedger::enter(const StepTotals& now, StepRecord& record) {
 
 void StepLedger::balance_energies(const StepTotals& now, StepRecord& record) {
     static_cast<Energies&>(record) = now;
-    const double energy = record.energy() + record.time_step_energy;
-    if (!energy_brought_) energy_brought_ = energy + balance_.net_damped() - balance_.work();
-    record.work = balance_.work() + *energy_brought_;
-    record.interface_work = balance_.interface;
-    record.damped = balance_.net_damped();
-    scale_ = std::max({scale_, std::abs(record.interface_energy), record.elastic_energy,
-                       record.kinetic_energy, std::abs(record.work)});
-    const double residual = record.work - energy - record.damped;
-    record.residual = scale_ > 0.0 ? residual / scale_ : 0.0;
+    if (!energy_brought_)
+        energy_brought_ = record.stored() + balance_.net_damped() - balance_.work();
+    record[Term::work] = balance_.work() + *energy_brought_;
+    record[Term::work_of_interface] = balance_.interface;
+    record[Term::lost] = balance_.net_damped();
+    record.residual = energies_.residual(record);
 }
 
 } // namespace asperity

@@ -65,7 +65,7 @@ public:
     void visit(Visitor& v) {
         v("balance", balance_);
         v("energy.brought", energy_brought_);
-        v("energy.scale", scale_);
+        v("energies", energies_);
         v("has_previous", has_previous_);
         v("pending.dissipated", pending_.dissipated);
         v("pending.drag", pending_.drag);
@@ -79,7 +79,7 @@ private:
     EnergyBalance balance_;
     /// Energy at the first observed step, eV, not brought by counted work.
     std::optional<double> energy_brought_;
-    double scale_ = 0.0;        ///< largest energy seen, for the residual, eV
+    Balance energies_;
     bool has_previous_ = false; ///< a step came before: trapezia can be formed
     /// Terms of the step before, eV and eV/Å, to be integrated with those of the next step.
     struct Pending {

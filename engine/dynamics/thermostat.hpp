@@ -16,7 +16,7 @@
 //
 // The mean energies at a step are those of T / (1 - (w dt/2)^2) in the springs and of T in motion,
 // whereas the noise brings k_B T. The leapfrog conserves U + K - dt^2 F^2/8m (exactly for springs),
-// and the energy balance includes the last term (StepRecord::time_step_energy).
+// and the energy balance includes the last term (Term::time_step).
 //
 // xi is drawn from a counter-based generator keyed by seed, step and node (kernels/node_noise.hpp):
 // bitwise identical on any number of ranks and threads, and on a device. A scene at T = 0 has no

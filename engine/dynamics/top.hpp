@@ -85,9 +85,9 @@ public:
     }
     /// Adds the energies of the plane and its spring. of_plane: energies that move() has returned.
     void add_energies(double dt, const TopEnergies& of_plane, Energies& to) const {
-        to.kinetic_energy += of_plane.kinetic;
-        to.machine_energy = 0.5 * pull_before(dt) * (drive_before(dt) - z_before(dt));
-        to.elastic_energy += to.machine_energy;
+        to[Term::kinetic] += of_plane.kinetic;
+        to[Term::spring] = 0.5 * pull_before(dt) * (drive_before(dt) - z_before(dt));
+        to[Term::elastic] += to[Term::spring];
     }
 
     /// Passes the plane to a visitor, for checkpoints.

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/checkpoint.hpp"
 
-#include "engine/path/path.hpp"
-
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
@@ -217,20 +215,6 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
         }
     }
     return numbers;
-}
-
-void Snapshot::take(const Path& path) {
-    fields_.take(path.arrays());
-    CollectNumbers collect;
-    path.collect(collect);
-    numbers_ = std::move(collect.numbers);
-}
-
-void Snapshot::restore(Path& path) const {
-    RestoreNumbers restore(numbers_);
-    path.restore(restore);
-    fields_.restore(path.arrays_to_restore()); // the numbers decide which ones
-    path.restored();
 }
 
 } // namespace asperity

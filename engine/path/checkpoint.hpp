@@ -18,11 +18,10 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace asperity {
-
-class Path;
 
 /// Writes the arrays, each as whole planes, and the numbers. fingerprint: physics of the scene as
 /// text (physics_of()); only a scene with the same fingerprint can resume from the checkpoint.
@@ -52,14 +51,24 @@ std::vector<Array> joined(std::vector<Array> list, const std::vector<Array>& mor
     return list;
 }
 
-/// The last good state, in memory, to be written when a guard stops the run.
+/// A copy of a path's state in memory: of a Path, or of the points of a quasi-static path.
 class Snapshot {
 public:
     /// Copies the arrays and numbers of the path.
-    void take(const Path& path);
+    void take(const auto& path) {
+        fields_.take(path.arrays());
+        CollectNumbers collect;
+        path.collect(collect);
+        numbers_ = std::move(collect.numbers);
+    }
     bool empty() const { return fields_.empty(); }
     /// Puts the path back to the copied state.
-    void restore(Path& path) const;
+    void restore(auto& path) const {
+        RestoreNumbers restore(numbers_);
+        path.restore(restore);
+        fields_.restore(path.arrays_to_restore()); // the numbers decide which ones
+        path.restored();
+    }
 
 private:
     StateCopy fields_;

@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <variant>
 
@@ -23,12 +22,11 @@ std::optional<std::string> violation(const StepRecord& now, double lowest_height
     if (!(std::abs(residual) <= largest_energy_error))
         return fmt::format("the energy balance is off by {} % at {}",
                            io::number(100.0 * residual, 1), place);
-    if (now.observed && -now.time_step_energy > std::max({now.kinetic_energy, now.elastic_energy,
-                                                          std::abs(now.interface_energy)}))
+    if (now.observed && -now[Term::time_step] > now.largest_stored())
         return fmt::format(
             "the time step is too long for the motion at {}: {:.3g} eV of the energy "
             "are of waves that it does not resolve",
-            place, -now.time_step_energy);
+            place, -now[Term::time_step]);
     if (now.mean_height < lowest_height)
         return fmt::format("the block has passed through the substrate at {}: its lowest layer is "
                            "at {:.4g} Å",

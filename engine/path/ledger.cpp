@@ -8,12 +8,8 @@ namespace asperity {
 
 Works Works::operator-(const Works& earlier) const {
     Works between = *this;
-    between.on_solids -= earlier.on_solids;
+    between.flows -= earlier.flows;
     between.lateral -= earlier.lateral;
-    between.dissipated_in_block -= earlier.dissipated_in_block;
-    between.lost -= earlier.lost;
-    if (between.stored) *between.stored -= earlier.stored.value_or(0.0);
-    if (between.interface) *between.interface -= earlier.interface.value_or(0.0);
     return between;
 }
 
@@ -27,28 +23,38 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     SegmentResults ended = results_.ended(number, segment, now, works.lateral,
                                           works.distance.value_or(std::abs(segment.amount)));
     ended.steady = works.steady;
-    ended.work = per_area(works.on_solids);
-    ended.lost = per_area(works.lost);
-    if (case_.effects.branches) ended.dissipated_in_block = per_area(works.dissipated_in_block);
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (is_given(row)) ended.energies[row.term] = per_area(works.flows[row.term]);
     ended.stored = per_area(works.stored);
     ended.settling = per_area(works.settling);
-    ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
-    if (!case_.effects.temperature) ended.kinetic = per_area(kinetic);
+    if (!case_.effects.temperature) ended.energies[Term::kinetic] = per_area(kinetic);
     results_.segments.push_back(ended);
     results_.begin_segment();
 
-    lost_since_apart_ += works.lost;
-    dissipated_in_block_since_apart_ += works.dissipated_in_block;
+    since_apart_ += works.flows;
     if (segment.kind != Segment::pull_off) return;
     const double moving = kinetic.value_or(0.0);
-    // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
-    if (results_.last(Segment::approach) && !case_.effects.temperature)
-        results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);
-    if (results_.last(Segment::approach) && case_.effects.branches)
-        results_.dissipated_in_block_in_cycle = per_area(dissipated_in_block_since_apart_);
-    lost_since_apart_ = dissipated_in_block_since_apart_ = 0.0;
+    // A part of the energy that moved before the cycle is in its losses.
+    since_apart_[Term::lost] = since_apart_[Term::lost] + moving - moved_apart_;
+    if (results_.last(Segment::approach))
+        for (const io::EnergyTerm& row : io::energy_terms)
+            if (row.is_loss() && is_given(row) && !is_heat(row, case_.effects))
+                results_.in_cycle[row.term] = per_area(since_apart_[row.term]);
+    since_apart_ = {};
     moved_apart_ = moving;
+}
+
+/// Returns true if segments of this case have the term.
+bool Ledger::is_given(const io::EnergyTerm& row) const {
+    // A held mean height does not jump at instabilities: its force is that of the interface.
+    const bool held = case_.simulation.drive.control == Control::mean_height;
+    return row.is_flow() &&
+           (case_.effects.has(row.effect) || (row.term == Term::work_of_interface && held));
+}
+
+bool is_heat(const io::EnergyTerm& row, const Effects& effects) {
+    return row.term == Term::lost && effects.temperature;
 }
 
 } // namespace asperity

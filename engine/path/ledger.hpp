@@ -10,7 +10,7 @@
 //
 // A segment of a quasi-static path, wherever it starts and ends, satisfies
 //
-//     work of the drive = stored + lost + dissipated in the block,
+//     work of the drive = stored + all losses,
 //
 // stored: the change of the energy of interface and block. Works are done on the solids; "kinetic"
 // is the kinetic energy, and the energy of vibrations about the state, left at the end.
@@ -27,17 +27,13 @@ namespace asperity {
 
 /// Works and losses between two ends of segments, eV.
 struct Works {
-    double on_solids = 0.0;           ///< work of the drive or holder on the block
-    double lateral = 0.0;             ///< part of on_solids that moves the block sideways
-    double dissipated_in_block = 0.0; ///< energy dissipated in time by a viscoelastic block
-    double lost = 0.0;            ///< energy damped less the heat of a thermostat, or dissipated
-    std::optional<double> stored; ///< change of the energy; quasi-static paths only
-    /// int F dz of the mean height; empty at a controlled top on quasi-static paths, where the mean
-    /// height jumps.
-    std::optional<double> interface;
-    /// Uncertainty of on_solids and lost; quasi-static paths only.
-    std::optional<double> uncertainty;
-    /// Part of on_solids that brought a viscoelastic block into its steady shape; slides until
+    /// Works and losses; the work is that of the drive or holder on the block.
+    Energies flows;
+    double lateral = 0.0;              ///< part of the work that moves the block sideways
+    std::optional<double> stored = {}; ///< change of the energy; quasi-static paths only
+    /// Uncertainty of work and losses; quasi-static paths only.
+    std::optional<double> uncertainty = {};
+    /// Part of the work that brought a viscoelastic block into its steady shape; slides until
     /// steady only.
     std::optional<double> settling = {};
     std::optional<double> distance = {};    ///< distance of a slide over a wall, Å
@@ -49,15 +45,13 @@ struct Works {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("on_solids", on_solids);
+        v("flows", flows);
         v("lateral", lateral);
-        v("relaxed", dissipated_in_block);
-        v("lost", lost);
-        v("stored", stored);
-        v("interface", interface);
-        v("uncertainty", uncertainty);
     }
 };
+
+/// Returns true for a loss that a thermostat gives back as well: it is no loss of a way or cycle.
+bool is_heat(const io::EnergyTerm& row, const Effects& effects);
 
 /// Works and losses of the segments of a path.
 class Ledger {
@@ -74,19 +68,18 @@ public:
     /// Passes the sums to a visitor, for checkpoints.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("lost_since_apart", lost_since_apart_);
-        v("relaxed_since_apart", dissipated_in_block_since_apart_);
+        v("since_apart", since_apart_);
         v("moved_apart", moved_apart_);
     }
 
 private:
     double per_area(double energy) const { return units::milli_per_unit * energy / case_.area(); }
     std::optional<double> per_area(const std::optional<double>& energy) const;
+    bool is_given(const io::EnergyTerm& row) const;
 
     const Case& case_;
     PathResults& results_;
-    /// Energies since the last end of a pull-off, or since the start, eV.
-    double lost_since_apart_ = 0.0, dissipated_in_block_since_apart_ = 0.0;
+    Energies since_apart_; ///< works and losses since the last end of a pull-off, or the start, eV
     double moved_apart_ = 0.0; ///< kinetic and vibrational energy at that time, eV
 };
 

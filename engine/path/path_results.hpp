@@ -25,24 +25,21 @@ struct SegmentResults {
     // Works are done on the solids, meV/Å^2. The first segment counts from solids at rest beyond
     // the interaction range if the path starts there; a pull-off counts until they are at rest
     // beyond the range again.
-    /// Work of the drive or holder of the block: the top plane (on a dynamic path with the damping
-    /// medium, which moves along), or the holder of the mean height.
-    double work = 0.0;
-    /// Work of the interface's force on the mean height of the lowest layer, int F dz. Empty on a
-    /// quasi-static path that controls the top, where the mean height jumps at instabilities.
-    std::optional<double> interface_work;
-    /// Part of work that brought a viscoelastic block into the shape in which it slides steadily.
+    /// Terms that the case has, among them:
+    /// the work of the drive or holder of the block: the top plane (on a dynamic path with the
+    /// damping medium, which moves along), or the holder of the mean height;
+    /// the work of the interface's force on the mean height of the lowest layer, int F dz, but not
+    /// on a quasi-static path that controls the top, where the mean height jumps;
+    /// the kinetic and vibrational energy left at the end, dynamic paths at T = 0: vibrations about
+    /// the state at zero load after an approach (if that state is known), or about the solids at
+    /// rest apart after a pull-off.
+    PerTerm<std::optional<double>> energies;
+    /// Part of the work that brought a viscoelastic block into the shape in which it slides
+    /// steadily.
     std::optional<double> settling;
-    /// Energy dissipated by a viscoelastic block over time, apart from lost.
-    std::optional<double> dissipated_in_block;
-    double lost = 0.0; ///< energy damped (less the heat of a thermostat) or dissipated
     /// Change of the energy of interface and block; quasi-static only.
     std::optional<double> stored;
-    /// Kinetic and vibrational energy left at the end, dynamic paths at T = 0: vibrations about the
-    /// state at zero load after an approach (empty if that state is not known), or about the solids
-    /// at rest apart after a pull-off.
-    std::optional<double> kinetic;
-    std::optional<double> uncertainty;  ///< uncertainty of works and lost; quasi-static only
+    std::optional<double> uncertainty;  ///< uncertainty of works and losses; quasi-static only
     double attraction = 0.0;            ///< largest attraction, eV/Å
     std::optional<double> lateral_mean; ///< mean force against a slide, work over distance, eV/Å
     std::optional<double> lateral_most; ///< largest force against a slide, eV/Å
@@ -57,13 +54,9 @@ struct SegmentResults {
     void visit(Visitor& v) {
         v("number", number);
         v("kind", kind);
-        v("work", work);
-        v("work_of_interface", interface_work);
+        v("energies", energies);
         v("settling", settling);
-        v("relaxed", dissipated_in_block);
-        v("lost", lost);
         v("stored", stored);
-        v("kinetic", kinetic);
         v("uncertainty", uncertainty);
         v("attraction", attraction);
         v("lateral_mean", lateral_mean);
@@ -80,13 +73,11 @@ struct SegmentResults {
 
 /// Results of a path so far.
 struct PathResults {
-    std::optional<ZeroLoad> zero_load;   ///< state after the last approach, or at the path's start
-    std::optional<double> lost_in_cycle; ///< energy lost in the last cycle, meV/Å^2
-    /// Energy dissipated by a viscoelastic block in the last cycle, meV/Å^2.
-    std::optional<double> dissipated_in_block_in_cycle;
-    double strongest = 0.0;              ///< strongest attraction of the path so far, eV/Å
-    std::optional<double> contact_made;  ///< time of the end of the last approach, fs
-    std::optional<double> edge_distance; ///< least distance of a contact from an edge, Å
+    std::optional<ZeroLoad> zero_load; ///< state after the last approach, or at the path's start
+    PerTerm<std::optional<double>> in_cycle; ///< losses of the last cycle, meV/Å^2
+    double strongest = 0.0;                  ///< strongest attraction of the path so far, eV/Å
+    std::optional<double> contact_made;      ///< time of the end of the last approach, fs
+    std::optional<double> edge_distance;     ///< least distance of a contact from an edge, Å
     /// Dissipation of a quasi-static path; the path keeps the numbers for checkpoints.
     std::optional<Dissipation> dissipated;
     std::vector<SegmentResults> segments; ///< segments that have ended
@@ -140,8 +131,7 @@ struct PathResults {
     /// Passes the results to a visitor, for checkpoints; the path passes `dissipated`.
     template <class Visitor>
     void visit(Visitor& v) {
-        v("lost_in_cycle", lost_in_cycle);
-        v("relaxed_in_cycle", dissipated_in_block_in_cycle);
+        v("in_cycle", in_cycle);
         v("strongest", strongest);
         v("contact_made", contact_made);
         v("segments", segments);

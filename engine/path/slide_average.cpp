@@ -58,15 +58,25 @@ void SlideAverage::add(const SlidePoint& point) {
     points_ = std::move(kept);
 }
 
-double SlideAverage::at(double distance, double SlidePoint::*member) const {
+namespace {
+
+/// Returns a function that gives the work or a loss of a point.
+auto flow(Term term) {
+    return [term](const SlidePoint& point) { return point.flows[term]; };
+}
+
+} // namespace
+
+double SlideAverage::at(double distance,
+                        const std::function<double(const SlidePoint&)>& number) const {
     const auto right =
         std::lower_bound(points_.begin(), points_.end(), distance,
                          [](const SlidePoint& p, double d) { return p.distance < d; });
-    if (right == points_.begin()) return points_.front().*member;
-    if (right == points_.end()) return points_.back().*member;
+    if (right == points_.begin()) return number(points_.front());
+    if (right == points_.end()) return number(points_.back());
     const SlidePoint &r = *right, &l = *(right - 1);
-    return l.*member +
-           (r.*member - l.*member) * (distance - l.distance) / (r.distance - l.distance);
+    return number(l) +
+           (number(r) - number(l)) * (distance - l.distance) / (r.distance - l.distance);
 }
 
 double SlideAverage::Lengths::whole_window() const {
@@ -78,8 +88,8 @@ bool SlideAverage::is_steady(const Lengths& lengths) const {
     if (points_.empty() || !(points_.back().distance >= 3.0 * window)) return false;
     const double end = points_.back().distance;
     const auto mean = [&](int i) {
-        return (at(end - i * window, &SlidePoint::work) -
-                at(end - (i + 1) * window, &SlidePoint::work)) /
+        return (at(end - i * window, flow(Term::work)) -
+                at(end - (i + 1) * window, flow(Term::work))) /
                window;
     };
     const double now = mean(0), last = now - mean(1), before = mean(1) - mean(2);
@@ -100,11 +110,11 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const auto bins = static_cast<std::size_t>(std::floor(end / width + 1e-9));
     const double from = end - static_cast<double>(bins) * width;
     /// Means over the bins of what adds up; or of the points' own numbers.
-    const auto rate = [&](double SlidePoint::*member) {
+    const auto rate = [&](Term term) {
         std::vector<double> list;
         for (std::size_t i = 0; i < bins; ++i)
-            list.push_back((at(from + static_cast<double>(i + 1) * width, member) -
-                            at(from + static_cast<double>(i) * width, member)) /
+            list.push_back((at(from + static_cast<double>(i + 1) * width, flow(term)) -
+                            at(from + static_cast<double>(i) * width, flow(term))) /
                            width);
         return list;
     };
@@ -114,14 +124,14 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
         for (std::size_t i = 0; i < bins; ++i) {
             double sum = 0.0;
             for (int k = 0; k < samples; ++k)
-                sum += at(from + (static_cast<double>(i) + (k + 0.5) / samples) * width, member);
+                sum += at(from + (static_cast<double>(i) + (k + 0.5) / samples) * width,
+                          std::mem_fn(member));
             list.push_back(sum / samples);
         }
         return list;
     };
-    const std::vector<double> work = rate(&SlidePoint::work),
-                              in_block = rate(&SlidePoint::dissipated_in_block),
-                              lost = rate(&SlidePoint::lost);
+    const std::vector<double> work = rate(Term::work);
+    std::vector<double> lost(bins, 0.0); // all losses
     std::size_t first = 0;
     double smallest = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i <= bins / 2; ++i)
@@ -139,18 +149,19 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.in_contact_error = error_of_mean(rest(contact));
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
-    s.dissipated_in_block = mean_from(in_block, first);
-    s.lost = mean_from(lost, first);
+    double missing = mean_from(work, first); // work that no loss explains
+    for (const io::EnergyTerm& row : io::energy_terms) {
+        if (!row.is_loss()) continue;
+        const std::vector<double> of_term = rate(row.term);
+        s.losses[row.term] = mean_from(of_term, first);
+        missing -= s.losses[row.term];
+        std::transform(lost.begin(), lost.end(), of_term.begin(), lost.begin(), std::plus());
+    }
     s.steady = is_steady(lengths);
-    std::vector<double> friction = work;
-    if (s.steady && s.dissipated_in_block > 0.0)
-        std::transform(in_block.begin(), in_block.end(), lost.begin(), friction.begin(),
-                       std::plus());
+    const std::vector<double>& friction = s.steady && s.losses.dissipated() > 0.0 ? lost : work;
     s.friction = mean_from(friction, first);
     s.friction_error = error_of_mean(rest(friction));
-    if (s.steady)
-        s.friction_error = std::max(
-            s.friction_error, std::abs(mean_from(work, first) - s.dissipated_in_block - s.lost));
+    if (s.steady) s.friction_error = std::max(s.friction_error, std::abs(missing));
     return s;
 }
 

@@ -21,6 +21,9 @@
 // extrapolated from the last two changes as a geometric series, is below a hundredth as well.
 #pragma once
 
+#include "engine/energy/energies.hpp"
+
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -33,10 +36,8 @@ struct SteadySlide {
     double load = 0.0;                               ///< normal force, eV/Å
     double in_contact = 0.0, in_contact_error = 0.0; ///< number of sites in contact
     double mean_height = 0.0;                        ///< mean height of the lowest layer, Å
-    /// Energy dissipated by a viscoelastic block over the distance, eV/Å.
-    double dissipated_in_block = 0.0;
-    double lost = 0.0;   ///< energy dissipated at instabilities over the distance, eV/Å
-    bool steady = false; ///< the friction no longer drifts
+    Energies losses;                                 ///< losses over the distance, eV/Å
+    bool steady = false;                             ///< the friction no longer drifts
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -47,8 +48,7 @@ struct SteadySlide {
         v("in_contact", in_contact);
         v("in_contact_error", in_contact_error);
         v("mean_height", mean_height);
-        v("relaxed", dissipated_in_block);
-        v("lost", lost);
+        v("losses", losses);
         v("steady", steady);
     }
 };
@@ -56,10 +56,7 @@ struct SteadySlide {
 /// Numbers of a point of a slide.
 struct SlidePoint {
     double distance = 0.0; ///< distance since the slide began, Å
-    // Energies since the slide began, eV:
-    double work = 0.0;                ///< work that moves the block sideways
-    double dissipated_in_block = 0.0; ///< energy dissipated by a viscoelastic block
-    double lost = 0.0;                ///< energy dissipated at instabilities
+    Energies flows; ///< work that moves the block sideways, and losses, since the slide began, eV
     // State at the point:
     double load = 0.0;        ///< normal force, eV/Å
     double in_contact = 0.0;  ///< number of sites in contact
@@ -68,9 +65,7 @@ struct SlidePoint {
     template <class Visitor>
     void visit(Visitor& v) {
         v("distance", distance);
-        v("work", work);
-        v("relaxed", dissipated_in_block);
-        v("lost", lost);
+        v("flows", flows);
         v("load", load);
         v("in_contact", in_contact);
         v("mean_height", mean_height);
@@ -103,8 +98,8 @@ public:
     }
 
 private:
-    /// Returns a member at this distance, interpolated linearly between points.
-    double at(double distance, double SlidePoint::*member) const;
+    /// Returns a number of the points at this distance, interpolated linearly between them.
+    double at(double distance, const std::function<double(const SlidePoint&)>& number) const;
 
     std::vector<SlidePoint> points_;
 };

@@ -56,13 +56,13 @@ std::optional<Path::Status> StaticPath::make_next(const Wish&) {
 
 /// Adds the last point to the means of the slide.
 void StaticPath::record_slide() {
-    results_.slide.add({.distance = points_->way(),
-                        .work = points_->lateral_work(),
-                        .dissipated_in_block = points_->dissipated_in_block(),
-                        .lost = points_->dissipation().in_segment,
-                        .load = now().force,
-                        .in_contact = static_cast<double>(now().in_contact),
-                        .mean_height = now().mean_height});
+    SlidePoint point{.distance = points_->way(),
+                     .flows = points_->in_segment(),
+                     .load = now().force,
+                     .in_contact = static_cast<double>(now().in_contact),
+                     .mean_height = now().mean_height};
+    point.flows[Term::work] = points_->lateral_work();
+    results_.slide.add(point);
 }
 
 void StaticPath::look_at_edges() {
@@ -107,18 +107,14 @@ void StaticPath::conclude() {
     const Segment::Kind kind = segment_to_conclude().kind;
     if (kind == Segment::relax) return;
     const bool slide = kind == Segment::slide;
-    Works works{.on_solids = points_->work(),
+    Works works{.flows = points_->in_segment(),
                 .lateral = slide ? points_->lateral_work() : 0.0,
-                .dissipated_in_block = points_->dissipated_in_block(),
-                .lost = points_->dissipation().in_segment,
                 .stored = points_->stored(),
-                .interface = {},
                 .uncertainty = points_->uncertainty()};
-    // A held mean height does not jump: the holder's force is that of the interface.
-    if (case_.simulation.drive.control == Control::mean_height)
-        works.interface = slide ? points_->lateral_work() - points_->work() : -points_->work();
+    // The force of the holder of a mean height is that of the interface.
+    works.flows[Term::work_of_interface] = works.lateral - points_->work();
     if (slide && interface_.wall()) {
-        if (works.interface) *works.interface += points_->settling_work();
+        works.flows[Term::work_of_interface] += points_->settling_work();
         if (segment_to_conclude().until_steady && case_.effects.branches)
             works.settling = points_->settling_work();
         works.distance = points_->way();
@@ -154,16 +150,16 @@ Path::Remedy StaticPath::remedy() const {
 }
 
 std::vector<StateArray> StaticPath::arrays() const {
-    return points_ ? points_->states() : state_of(block_);
+    return points_ ? points_->arrays() : state_of(block_);
 }
 
 std::vector<RestoredArray> StaticPath::arrays_to_restore() {
-    return points_ ? points_->states_to_restore() : state_to_restore(block_);
+    return points_ ? points_->arrays_to_restore() : state_to_restore(block_);
 }
 
 void StaticPath::restored() {
     if (points_) {
-        points_->resume();
+        points_->restored();
         results_.dissipated = points_->dissipation();
     } else {
         block_.hold(Constraint::top(top_restored_));

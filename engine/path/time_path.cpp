@@ -73,7 +73,7 @@ void TimePath::make_step(const TopMotion& motion, const Wish& wish) {
         // is part of it.
         const bool as_seen = drive_.motion(0.0).z != 0.0 && !case_.effects.temperature;
         kinetic_at_full_speed_ =
-            as_seen ? now.kinetic_energy : 0.5 * simulation_.moving_mass() * v * v;
+            as_seen ? now[Term::kinetic] : 0.5 * simulation_.moving_mass() * v * v;
         // The drive sets it in motion and brings it within the interaction range before the first
         // step.
         segment_start_ = at_rest_apart(so_far(), start_.energy, kinetic_as_top(0.0));
@@ -138,13 +138,14 @@ std::optional<LayerAtRest> TimePath::state_at(const std::array<double, 2>& place
 void TimePath::conclude() {
     const Segment& segment = segment_to_conclude();
     const StepRecord& now = simulation_.now();
-    const double energy = now.energy();
+    const double energy = now.stored();
     Works end = so_far();
     std::optional<double> kinetic;
     if (segment.kind == Segment::pull_off) {
         // The path ends apart: the drive stops the block after the last step.
-        const double bound = now.interface_energy, moving = kinetic_as_top(now.time);
-        end.interface = simulation_.balance().interface; // to where it is bound so much
+        const double bound = now[Term::interface], moving = kinetic_as_top(now.time);
+        end.flows[Term::work_of_interface] =
+            simulation_.balance().interface; // to where it is bound so much
         end = at_rest_apart(end, bound, moving);
         kinetic = energy - bound - moving;
     } else if (segment.kind == Segment::approach && results_.zero_load &&
@@ -161,20 +162,18 @@ void TimePath::conclude() {
 /// Returns the sums of the simulation since the start of the path.
 Works TimePath::so_far() const {
     const EnergyBalance& balance = simulation_.balance();
-    return {.on_solids = balance.drive(),
-            .lateral = balance.lateral,
-            .dissipated_in_block = 0.0,
-            .lost = balance.net_damped(),
-            .stored = {},
-            .interface = interface_work_,
-            .uncertainty = {}};
+    Works works{.flows = {}, .lateral = balance.lateral};
+    works.flows[Term::work] = balance.drive();
+    works.flows[Term::work_of_interface] = interface_work_;
+    works.flows[Term::lost] = balance.net_damped();
+    return works;
 }
 
 /// Returns the works for a block that is then brought to rest and beyond the interaction range as a
 /// rigid body. bound, moving: its energies, eV.
 Works TimePath::at_rest_apart(Works works, double bound, double moving) {
-    works.on_solids -= bound + moving;
-    *works.interface += bound;
+    works.flows[Term::work] -= bound + moving;
+    works.flows[Term::work_of_interface] += bound;
     return works;
 }
 

@@ -57,36 +57,22 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     const SegmentResults *in = results.last(Segment::approach),
                          *out = results.last(Segment::pull_off);
-    const bool warm = c.effects.temperature; // heat goes both ways
-    const auto set = [&](const SegmentResults* s, io::Key drive, io::Key interface, io::Key lost,
-                         io::Key kinetic, io::Key force, io::Key of_drive, io::Key of_interface,
-                         io::Key of_lost) {
+    const auto set = [&](const SegmentResults* s, std::string_view way) {
         if (!s) return;
-        result.set(drive, s->work);
-        result.set(interface, s->interface_work);
-        if (!warm) result.set(lost, s->lost);
-        result.set(kinetic, s->kinetic);
-        result.set(force, s->attraction);
-        result.set(of_drive, s->uncertainty);
-        if (s->interface_work) result.set(of_interface, s->uncertainty);
-        result.set(of_lost, s->uncertainty);
+        for (const io::EnergyTerm& row : io::energy_terms) {
+            if (!s->energies[row.term] || is_heat(row, c.effects)) continue;
+            result.set(io::Key::of("", row, way), s->energies[row.term]);
+            if (s->uncertainty)
+                result.set(io::Key::of("", row, ".uncertainty" + std::string(way)), s->uncertainty);
+        }
+        result.set(io::Key::composed("stored" + std::string(way)), s->stored);
     };
-    set(in, "work_of_drive.approach", "work_of_interface.approach", "lost.approach",
-        "kinetic.approach", "approach_force", "work_of_drive.uncertainty.approach",
-        "work_of_interface.uncertainty.approach", "lost.uncertainty.approach");
-    set(out, "work_of_drive.pull_off", "work_of_interface.pull_off", "lost.pull_off",
-        "kinetic.pull_off", "pull_off_force", "work_of_drive.uncertainty.pull_off",
-        "work_of_interface.uncertainty.pull_off", "lost.uncertainty.pull_off");
-    result.set("lost.cycle", results.lost_in_cycle);
-    if (in) result.set("dissipated_in_block.approach", in->dissipated_in_block);
-    if (out) result.set("dissipated_in_block.pull_off", out->dissipated_in_block);
-    result.set("dissipated_in_block.cycle", results.dissipated_in_block_in_cycle);
-    if (in && in->dissipated_in_block)
-        result.set("dissipated_in_block.uncertainty.approach", in->uncertainty);
-    if (out && out->dissipated_in_block)
-        result.set("dissipated_in_block.uncertainty.pull_off", out->uncertainty);
-    if (in) result.set("stored.approach", in->stored);
-    if (out) result.set("stored.pull_off", out->stored);
+    set(in, ".approach");
+    set(out, ".pull_off");
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.is_loss()) result.set(io::Key::of("", row, ".cycle"), results.in_cycle[row.term]);
+    if (in) result.set("approach_force", in->attraction);
+    if (out) result.set("pull_off_force", out->attraction);
     if (c.in_newtons()) {
         if (in) result.set("instrument.approach_force", in->attraction / units::nanonewton);
         if (out) result.set("instrument.pull_off_force", out->attraction / units::nanonewton);
@@ -133,9 +119,9 @@ void add_steady(const SteadySlide& s, const Case& c, std::size_t i, io::Result& 
     result.set("segments[].steady_contact_fraction", i, s.in_contact / c.sites());
     result.set("segments[].steady_contact_fraction_error", i, s.in_contact_error / c.sites());
     result.set("segments[].steady_mean_height", i, s.mean_height);
-    if (c.effects.branches)
-        result.set("segments[].steady_dissipated_in_block", i, s.dissipated_in_block);
-    result.set("segments[].steady_lost", i, s.lost);
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.is_loss() && c.effects.has(row.effect))
+            result.set(io::Key::of("segments[].steady_", row), i, s.losses[row.term]);
 }
 
 void add_segments(const PathResults& results, const Case& c, io::Result& result) {
@@ -147,13 +133,11 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         };
         result.set("segments[].segment", i, static_cast<long long>(s.number));
         result.set("segments[].name", i, c.path()[s.number].text);
-        result.set("segments[].work_of_drive", i, s.work);
-        given("segments[].work_of_interface", s.interface_work);
-        result.set("segments[].lost", i, s.lost);
-        given("segments[].dissipated_in_block", s.dissipated_in_block);
+        for (const io::EnergyTerm& row : io::energy_terms)
+            if (s.energies[row.term])
+                result.set(io::Key::of("segments[].", row), i, *s.energies[row.term]);
         given("segments[].stored", s.stored);
         given("segments[].work_of_settling", s.settling);
-        given("segments[].kinetic", s.kinetic);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
         given("segments[].friction", s.lateral_mean);
@@ -177,7 +161,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
 
 void add_dissipation(const PathResults& results, const Case& c, io::Result& result) {
     const Dissipation& lost = *results.dissipated;
-    result.set("dissipated.energy", lost.total());
+    result.set("dissipated.energy", lost.total);
     result.set("dissipated.events", lost.events);
     if (c.effects.branches) result.set("dissipated.not_followed", lost.not_followed);
     result.set_list("dissipated.jumps[]");
@@ -244,7 +228,7 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     add_theory(c, surface, result);
     add_sphere(c, result);
     if (c.in_newtons() && results.dissipated)
-        result.set("instrument.energy_lost", results.dissipated->total() / units::attojoule);
+        result.set("instrument.energy_lost", results.dissipated->total / units::attojoule);
     if (results.edge_distance) result.set("instrument.edge_distance", 0.1 * *results.edge_distance);
     const auto& wall = c.simulation.interface.wall;
     const auto has_range = []<class Law>(const Law&) { return ScaledBySite<Law>; };
@@ -287,7 +271,7 @@ void add_steps(const Path& path, const std::optional<StepRecord>& failed, io::Re
     result.set("run.steps", failed ? failed->step : path.steps());
     if (const auto iterations = path.iterations()) result.set("run.iterations", *iterations);
     if (path.steps() > 0 || now.observed) {
-        result.set("energy.kinetic", now.kinetic_energy); // zero at rest
+        result.set("energy.kinetic", now[Term::kinetic]); // zero at rest
         for (const SeriesColumn& column : series_columns())
             if (!column.result.empty() && column.is_in(c.effects))
                 result.set(io::Key::composed(column.result), column.value(path, now));

@@ -2,19 +2,23 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/series.hpp"
 
+#include <fmt/format.h>
+
+#include <deque>
+#include <iterator>
+#include <utility>
+
 namespace asperity {
 
 namespace {
 
-// Runs that have a column: all, those with an effect, quasi-static ones, those in which time
-// passes.
+// Runs that have a column: all, those with an effect, those in which time passes.
 constexpr auto all = [](const Effects&) { return true; };
 template <Effect Effects::*effect>
 constexpr auto with = [](const Effects& effects) { return bool(effects.*effect); };
-constexpr auto at_rest = [](const Effects& effects) { return !effects.dynamic; };
 constexpr auto in_time = [](const Effects& effects) { return effects.dynamic || effects.branches; };
 
-constexpr SeriesColumn columns[] = {
+const SeriesColumn before_energies[] = {
     {all,
      {"series/step", "1", "", "time step; of a quasi-static path: point"},
      [](const Path&, const StepRecord& now) { return static_cast<double>(now.step); }},
@@ -59,59 +63,12 @@ constexpr SeriesColumn columns[] = {
      {"series/lateral_force_y", "eV/Å", io::per::block,
       "force of the substrate on the lowest layer along y (paths that slide)"},
      [](const Path&, const StepRecord& now) { return now.lateral_force[1]; }},
-    {all,
-     {"series/interface_energy", "eV", io::per::block, "energy of the interface"},
-     [](const Path&, const StepRecord& now) { return now.interface_energy; },
-     "energy.interface"},
-    {with<&Effects::branches>,
-     {"series/branch_energy", "eV", io::per::block,
-      "part of elastic_energy in the branches of a viscoelastic block"},
-     [](const Path&, const StepRecord& now) { return now.branch_energy; },
-     "energy.branches"},
-    {with<&Effects::spring>,
-     {"series/spring_energy", "eV", io::per::block,
-      "part of elastic_energy in the spring that holds the top plane"},
-     [](const Path&, const StepRecord& now) { return now.machine_energy; },
-     "energy.spring"},
-    {all,
-     {"series/elastic_energy", "eV", io::per::block, "elastic energy"},
-     [](const Path&, const StepRecord& now) { return now.elastic_energy; },
-     "energy.elastic"},
-    {with<&Effects::dynamic>,
-     {"series/kinetic_energy", "eV", io::per::block, "kinetic energy"},
-     [](const Path&, const StepRecord& now) { return now.kinetic_energy; }},
-    {with<&Effects::temperature>,
-     {"series/time_step_energy", "eV", io::per::block,
-      "at a temperature: -(dt²/8) Σ F²/m, part of the energy balance"},
-     [](const Path&, const StepRecord& now) { return now.time_step_energy; },
-     "energy.time_step"},
-    {all,
-     {"series/work", "eV", io::per::block,
-      "work of the drive on the solids, counted from rest apart, as energy.work"},
-     [](const Path&, const StepRecord& now) { return now.work; },
-     "energy.work"},
-    {with<&Effects::dynamic>,
-     {"series/work_of_interface", "eV", io::per::block,
-      "work of the interface's force on the mean height since the start, ∫ F dz"},
-     [](const Path&, const StepRecord& now) { return now.interface_work; }},
-    {with<&Effects::dynamic>,
-     {"series/damped", "eV", io::per::block,
-      "energy damped since the start, minus the heat of the thermostat's noise"},
-     [](const Path&, const StepRecord& now) { return now.damped; },
-     "energy.damped"},
-    {at_rest,
-     {"series/dissipated", "eV", io::per::block,
-      "energy dissipated at instabilities since the start"},
-     [](const Path&, const StepRecord& now) { return now.damped; },
-     "energy.damped"},
-    {with<&Effects::branches>,
-     {"series/dissipated_in_block", "eV", io::per::block,
-      "energy dissipated by the branches of a viscoelastic block since the start"},
-     [](const Path&, const StepRecord& now) { return now.dissipated_in_block; },
-     "energy.dissipated_in_block"},
+};
+
+const SeriesColumn after_energies[] = {
     {all,
      {"series/balance_error", "1", "largest term",
-      "energy balance: work - energies - loss, divided by the largest energy or work so far"},
+      "energy balance: work - energies - losses, divided by the largest energy or work so far"},
      [](const Path&, const StepRecord& now) { return now.residual; },
      "energy.balance_error"},
     {all,
@@ -129,13 +86,42 @@ constexpr SeriesColumn columns[] = {
      [](const Path&, const StepRecord& now) { return now.closest; }},
 };
 
+/// Adds the column of a term, and that of quasi-static paths if it has another name.
+void add_columns(const io::EnergyTerm& row, std::vector<SeriesColumn>& list) {
+    // A quantity refers to its texts, which last as long as the program.
+    static std::deque<std::string> texts;
+    const auto add = [&](std::string_view name, std::function<bool(const Effects&)> is_in) {
+        const bool since = row.is_loss();
+        list.push_back(
+            {std::move(is_in),
+             {texts.emplace_back(fmt::format("series/{}", name)), "eV", io::per::block,
+              texts.emplace_back(
+                  fmt::format("{}{}", row.meaning, since ? ", since the start" : ""))},
+             [&row](const Path&, const StepRecord& now) { return now[row.term]; },
+             row.last.empty() ? row.last : texts.emplace_back(fmt::format("energy.{}", row.last))});
+    };
+    const auto is_on = [&row](const Effects& effects) { return effects.has(row.effect); };
+    if (row.column_at_rest.empty()) return add(row.column, is_on);
+    add(row.column, [=](const Effects& e) { return e.dynamic && is_on(e); });
+    add(row.column_at_rest, [=](const Effects& e) { return !e.dynamic && is_on(e); });
+}
+
 } // namespace
 
-std::span<const SeriesColumn> series_columns() { return columns; }
+const std::vector<SeriesColumn>& series_columns() {
+    static const std::vector<SeriesColumn> columns = [] {
+        std::vector<SeriesColumn> list(std::begin(before_energies), std::end(before_energies));
+        for (const io::EnergyTerm& row : io::energy_terms)
+            add_columns(row, list);
+        list.insert(list.end(), std::begin(after_energies), std::end(after_energies));
+        return list;
+    }();
+    return columns;
+}
 
 std::vector<io::Quantity> series_quantities() {
     std::vector<io::Quantity> list;
-    for (const SeriesColumn& c : columns)
+    for (const SeriesColumn& c : series_columns())
         list.push_back(c.quantity);
     return list;
 }

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: MIT
 //
 // The observables of a run: one column for each number recorded of an observed step or point, with
-// name, unit, meaning and its function. /series of run.h5, docs/reference/result.md and Python's
-// result.series follow from this table.
+// name, unit, meaning and its function. The energies are the terms of io/energy_terms.hpp. /series
+// of run.h5, docs/reference/result.md and Python's result.series follow from this table.
 #pragma once
 
 #include "engine/path/path.hpp"
 #include "io/quantities.hpp"
 
-#include <span>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,10 +19,10 @@ namespace asperity {
 /// A column of the series.
 struct SeriesColumn {
     /// Returns true if runs with these effects have the column.
-    bool (*is_in)(const Effects& effects);
+    std::function<bool(const Effects& effects)> is_in;
     io::Quantity quantity; ///< the name is that of the data set, "series/force"
     /// Returns the value at a record of the path, the same on all ranks. Collective.
-    double (*value)(const Path& path, const StepRecord& now);
+    std::function<double(const Path& path, const StepRecord& now)> value;
     std::string_view result{}; ///< name in result.json of the value at the last recorded step
     /// The value is computed from path.layer(), which each row then needs.
     bool of_sites = false;
@@ -33,8 +33,8 @@ struct SeriesColumn {
     }
 };
 
-/// Returns all columns, in the order of run.h5.
-std::span<const SeriesColumn> series_columns();
+/// Returns all columns, in the order of run.h5: those of io::energy_terms among them.
+const std::vector<SeriesColumn>& series_columns();
 /// Returns the descriptions of all columns, for the reference.
 std::vector<io::Quantity> series_quantities();
 

@@ -133,7 +133,7 @@ double works_in_cycle(const PathResults& results) {
     bool ended = false;
     for (auto s = results.segments.rbegin(); s != results.segments.rend(); ++s) {
         if (s->kind == Segment::pull_off && std::exchange(ended, true)) break;
-        if (ended) sum += s->work;
+        if (ended) sum += s->energies[Term::work].value_or(0.0);
     }
     return sum;
 }
@@ -146,14 +146,17 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
         io::print_text(to, "  The works of the drive contain heat of the thermostat.\n");
         return;
     }
-    if (const Number relaxed = of("dissipated_in_block.cycle")) {
+    std::string remembered; // losses of memories
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (const Number energy = results.in_cycle[row.term];
+            energy && row.kind == io::EnergyTerm::dissipated)
+            remembered += fmt::format("{} are {}, ", form.with_unit(*energy), row.words());
+    if (!remembered.empty()) {
         const double lost = of("lost.cycle").value_or(0.0);
         io::print_text(to,
                        "  From the approach to the end of the pull-off the works "
-                       "of the drive add up to {}: {} are dissipated in the viscoelastic block, "
-                       "and {} are lost at instabilities.\n",
-                       form.with_unit(works_in_cycle(results)), form.with_unit(*relaxed),
-                       form.with_unit(lost));
+                       "of the drive add up to {}: {}and {} are lost at instabilities.\n",
+                       form.with_unit(works_in_cycle(results)), remembered, form.with_unit(lost));
         const Number unclear = of("dissipated.not_followed");
         if (unclear && *unclear > 0.0)
             io::print_text(
@@ -223,13 +226,13 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
     };
     std::vector<Row> rows;
     rows.push_back({form.named("work of the drive", "segments[].work_of_drive"),
-                    [&](const SegmentResults& s) { return form.energy(s.work); }});
-    rows.push_back({form.named("lost", "segments[].lost"),
-                    [&](const SegmentResults& s) { return form.energy(s.lost); }});
-    if (c.effects.branches)
-        rows.push_back(
-            {form.named("dissipated in the block", "segments[].dissipated_in_block"),
-             [&](const SegmentResults& s) { return form.energy(s.dissipated_in_block); }});
+                    [&](const SegmentResults& s) { return form.energy(s.energies[Term::work]); }});
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.is_loss() && c.effects.has(row.effect))
+            rows.push_back({form.named(row.words(), io::Key::of("segments[].", row)),
+                            [&form, term = row.term](const SegmentResults& s) {
+                                return form.energy(s.energies[term]);
+                            }});
     if (!c.effects.dynamic)
         rows.push_back({form.named("stored", "segments[].stored"),
                         [&](const SegmentResults& s) { return form.energy(s.stored); }});
@@ -404,9 +407,11 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         };
         work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
         work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
-        row("energy lost", "lost.approach", of("lost.approach"), of("lost.pull_off"));
-        row("dissipated in the block", "dissipated_in_block.approach",
-            of("dissipated_in_block.approach"), of("dissipated_in_block.pull_off"));
+        for (const io::EnergyTerm& loss : io::energy_terms)
+            if (loss.is_loss())
+                row((loss.term == Term::lost ? "energy " : "") + loss.words(),
+                    io::Key::of("", loss, ".approach"), of(io::Key::of("", loss, ".approach")),
+                    of(io::Key::of("", loss, ".pull_off")));
         if (c.effects.branches)
             row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
         row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
@@ -468,13 +473,18 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             "a wider box (surface.sites).\n",
             io::cell(*edge));
     if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
-    if (const Number residual = of("energy.balance_error"))
+    if (const Number residual = of("energy.balance_error")) {
+        std::string losses = of("dissipated.energy") ? "dissipated" : "damped";
+        for (const io::EnergyTerm& row : io::energy_terms)
+            if (row.kind == io::EnergyTerm::dissipated && c.effects.has(row.effect))
+                losses += " + energy " + row.words();
         io::print_text(
             to,
             "  Energy balance: work on the solids = kinetic + elastic + interface energy + "
             "energy {}{}, to {:.1e} of the largest so far.\n",
-            of("dissipated.energy") ? "dissipated" : "damped",
-            of("energy.time_step") ? " + energy of the time step" : "", std::abs(*residual));
+            losses, of("energy.time_step") ? " + energy of the time step" : "",
+            std::abs(*residual));
+    }
     if (state || drive_in)
         io::print_text(
             to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "

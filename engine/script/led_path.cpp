@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/script/led_path.hpp"
 
+#include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
-#include "engine/path/state_numbers.hpp"
 #include "engine/path/static_path.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/script/refuse.hpp"
@@ -114,31 +114,13 @@ private:
     std::exception_ptr thrown_;
 };
 
-/// Copy of the last point of a path, to be restored.
-class KeptPoint {
-public:
-    explicit KeptPoint(const QuasistaticPath& points) {
-        fields_.take(points.states());
-        numbers_.members_of(points);
-    }
-    void restore(QuasistaticPath& points) const {
-        fields_.restore(points.states_to_restore());
-        RestoreNumbers restore(numbers_.numbers);
-        points.visit(restore);
-        points.resume();
-    }
-
-private:
-    StateCopy fields_;
-    CollectNumbers numbers_;
-};
-
 } // namespace
 
 LedPath::Point LedPath::relax(const Look& look) {
     begin();
     if (!target_.at && !target_.load && !target_.hold) return now();
-    const KeptPoint from(*points_);
+    Snapshot from;
+    from.take(*points_);
     try { // a target is kept where look throws
         lead_to_goal(look);
     } catch (const io::PhysicsError&) { // the target cannot be reached: the last point is restored
@@ -203,7 +185,7 @@ RestState LedPath::release(const Look& look) {
             find_zero_load(block_, interface_, case_.simulation.drive.load_force, case_, watch_);
         if (!found) looking.rethrow();
         State there = copy();
-        there.branches.clear();
+        there.values.resize(there.displacements());
         place(there);
         return {*found, maps()};
     } catch (...) {
@@ -212,19 +194,21 @@ RestState LedPath::release(const Look& look) {
     }
 }
 
-LedPath::State LedPath::copy() const {
-    State state{case_.simulation.block.grid(), {}, block_.drive()};
-    const auto keep = [](const PlaneView<const double>& plane, std::vector<double>& to) {
+/// Returns the arrays of a state: the displacements, and what the block remembers.
+std::vector<RestoredArray> LedPath::arrays() {
+    std::vector<RestoredArray> list = state_to_restore(block_);
+    for (const std::unique_ptr<Memory>& memory : block_.memories())
+        list = joined(std::move(list), memory->arrays());
+    return list;
+}
+
+LedPath::State LedPath::copy() {
+    State state{case_.simulation.block.grid(), block_.drive(), {}};
+    for (const RestoredArray& array : arrays()) {
+        const PlaneView<const double> plane = std::as_const(*array.field).plane(0);
         for (int y = 0; y < plane.ny; ++y)
-            to.insert(to.end(), plane.line(y), plane.line(y) + plane.nx);
-    };
-    const VectorPlane<const double> layer = block_.lowest_layer();
-    for (const auto& plane : {layer.x, layer.y, layer.z})
-        keep(plane, state.u);
-    if (const auto* memory = block_.memory())
-        for (const SiteField<double>& branch : *memory)
-            for (const Field<double>& component : branch)
-                keep(component.plane(0), state.branches);
+            state.values.insert(state.values.end(), plane.line(y), plane.line(y) + plane.nx);
+    }
     return state;
 }
 
@@ -233,15 +217,12 @@ void LedPath::restore(const State& state) {
     if (state.sites != sites)
         refuse("restore", fmt::format("of a state of {0} x {0} sites", state.sites),
                fmt::format("the scene has {0} x {0}", sites), "give a state of this scene");
-    std::size_t extensions = 0;
-    if (const auto* memory = block_.memory())
-        for (const SiteField<double>& branch : *memory)
-            extensions += branch.size() * state.u.size() / 3;
-    if (!state.branches.empty() && state.branches.size() != extensions)
+    if (state.remembers() &&
+        state.values.size() != arrays().size() * std::size_t(sites) * std::size_t(sites))
         refuse("restore", "of a state with other branches", "the scene has another block.prony",
                "give a state of this scene, or asperity.State(u, top), which has relaxed");
-    if (!std::all_of(state.u.begin(), state.u.end(), [](double u) { return std::isfinite(u); }) ||
-        !std::isfinite(state.top))
+    const auto is_number = [](double value) { return std::isfinite(value); };
+    if (!std::all_of(state.values.begin(), state.values.end(), is_number) || !is_number(state.top))
         refuse("restore", "of displacements that are no numbers", "no state follows from them",
                "write numbers there");
     place(state);
@@ -252,21 +233,20 @@ void LedPath::place(const State& state) {
     before_ = now();
     points_.reset();
     target_ = {};
-    remembers_ = !state.branches.empty();
-    const VectorPlane<double> layer = block_.layer().plane(0);
-    auto from = state.u.begin();
-    for (const auto& plane : {layer.x, layer.y, layer.z})
-        for (int y = 0; y < plane.ny; ++y, from += plane.nx)
-            std::copy_n(from, plane.nx, plane.line(y));
-    auto extension = state.branches.begin();
-    if (auto* memory = block_.memory())
-        for (SiteField<double>& branch : *memory)
-            for (Field<double>& component : branch) {
-                const PlaneView<double> plane = component.plane(0);
-                for (int y = 0; y < plane.ny; ++y)
-                    for (int x = 0; x < plane.nx; ++x)
-                        plane(x, y) = state.branches.empty() ? 0.0 : *extension++;
+    remembers_ = state.remembers();
+    auto from = state.values.begin();
+    for (const RestoredArray& array : arrays()) {
+        const PlaneView<double> plane = array.field->plane(0);
+        const bool given = from != state.values.end();
+        for (int y = 0; y < plane.ny; ++y) {
+            if (!given) {
+                std::fill_n(plane.line(y), plane.nx, 0.0);
+                continue;
             }
+            std::copy_n(from, plane.nx, plane.line(y));
+            from += plane.nx;
+        }
+    }
     block_.hold(Constraint::top(state.top));
 }
 

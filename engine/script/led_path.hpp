@@ -38,13 +38,12 @@ public:
     /// Sets a rest at the present position for a time, ps, of a viscoelastic block.
     void set_hold(double time);
 
-    /// A point in force balance. Work, damped (energy dissipated at instabilities), instabilities
-    /// and step (number of points) count from the beginning of the path: from beyond the
-    /// interaction range, or from the last restore() or release().
+    /// A point in force balance. Works and losses, instabilities and step (number of points) count
+    /// from the beginning of the path: from beyond the interaction range, or from the last
+    /// restore() or release().
     struct Point : StepRecord {
         long long instabilities = 0;
         double contact_fraction = 0.0, repulsive_fraction = 0.0;
-        double energy() const { return interface_energy + elastic_energy; }
     };
     /// Moves the block to the goal, point by point; without a goal relaxes it in place. After an
     /// exception of look, the next call continues. Throws io::PhysicsError if no equilibrium is
@@ -62,15 +61,16 @@ public:
 
     /// All numbers that determine a state.
     struct State {
-        int sites = 0;         ///< number of sites across
-        std::vector<double> u; ///< displacements of the lowest layer, [component][y][x], Å
-        double top = 0.0;      ///< displacement of the top plane, Å
-        /// Extensions of the branches' springs of a viscoelastic block, [branch][moving
-        /// component][y][x], Å; empty: the block has relaxed there.
-        std::vector<double> branches{};
+        int sites = 0;    ///< number of sites across
+        double top = 0.0; ///< displacement of the top plane, Å
+        /// Displacements of the lowest layer, [component][y][x], Å, and the arrays of the block's
+        /// memories, [array][y][x]; without these the block has relaxed there.
+        std::vector<double> values;
+        std::size_t displacements() const { return 3 * std::size_t(sites) * std::size_t(sites); }
+        bool remembers() const { return values.size() > displacements(); }
     };
-    State copy() const; ///< returns the present state
-    /// Sets the sites, a held top plane and the branches to a state. The next relax() begins a new
+    State copy(); ///< returns the present state
+    /// Sets the sites, a held top plane and the memories to a state. The next relax() begins a new
     /// path there, at the state's mean height if the mean height is held. Throws io::SceneError for
     /// another number of sites and for values that are not finite.
     void restore(const State& state);
@@ -82,6 +82,7 @@ private:
     void begin();
     void place(const State& state);
     void lead_to_goal(const Look& look);
+    std::vector<RestoredArray> arrays();
 
     const Case case_;
     const Surface surface_;
@@ -90,7 +91,7 @@ private:
     SpectralBlock block_;
     std::optional<QuasistaticPath> points_; ///< empty until a path begins
     std::optional<Held> held_;
-    /// Start of the next path: true with the memory of the branches, false relaxed in place, empty
+    /// Start of the next path: true with its memories, false relaxed in place, empty
     /// beyond the interaction range.
     std::optional<bool> remembers_;
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.

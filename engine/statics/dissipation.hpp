@@ -12,7 +12,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -51,21 +50,15 @@ struct Instability {
 
 /// Energy dissipated so far, and the instabilities.
 struct Dissipation {
-    double in_segment = 0.0; ///< energy dissipated in the current segment, eV
-    double before = 0.0;     ///< energy dissipated in the earlier segments, eV
+    double total = 0.0; ///< energy dissipated so far, eV
     /// Part of the total in steps too long to be separated from the dissipation of a viscoelastic
     /// block, eV.
     double not_followed = 0.0;
     long long events = 0;           ///< number of points of the path with dissipation
     std::vector<Instability> jumps; ///< the strongest instabilities, in the order of the path
 
-    /// Returns the energy dissipated so far, eV.
-    double total() const { return before + in_segment; }
-    /// Begins a segment: adds in_segment to before and sets it to zero.
-    void begin_segment() { before += std::exchange(in_segment, 0.0); }
-    /// Adds an instability; the list keeps the 20 strongest.
+    /// Adds an instability; the list keeps the 20 strongest. The caller sets the total.
     void add(const Instability& jump) {
-        in_segment += jump.energy;
         ++events;
         jumps.push_back(jump);
         constexpr std::size_t kept = 20;
@@ -78,8 +71,7 @@ struct Dissipation {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("in_segment", in_segment);
-        v("before", before);
+        v("total", total);
         v("not_followed", not_followed);
         v("events", events);
         v("jumps", jumps);

@@ -5,10 +5,7 @@
 #include "decomposition/global_sum.hpp"
 #include "engine/waves/moving_pattern.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <utility>
 
 namespace asperity {
 
@@ -128,33 +125,28 @@ double LastPoint::all_moves() const {
     return global_sum(block_.communicator(), sum);
 }
 
-namespace {
-
-/// Adds the memory of a block's branches to a list of arrays.
-void add_memory(auto& block, auto& list) {
-    const auto add = [&](const char* name, auto* fields) {
-        for (std::size_t k = 0; fields && k < fields->size(); ++k)
-            for (std::size_t c = 0; c < (*fields)[k].size(); ++c)
-                list.push_back(
-                    {fmt::format("/level0/{}{}_{}", name, k, c), 0, &(*fields)[k][c], 1});
-    };
-    add("branch", block.memory());
-    add("history", block.history());
-}
-
-} // namespace
-
-std::vector<StateArray> LastPoint::states() const {
+std::vector<StateArray> LastPoint::arrays() const {
     std::vector<StateArray> list = state_.arrays(state_of(block_));
-    add_memory(std::as_const(block_), list);
+    for (const RestoredArray& array : arrays_of_memories())
+        list.push_back(array);
     return list;
 }
 
-std::vector<RestoredArray> LastPoint::states_to_restore() {
-    const std::vector<StateArray> arrays = state_of(block_);
-    if (state_.empty()) state_.take(arrays);
-    std::vector<RestoredArray> list = state_.arrays_to_restore(arrays);
-    add_memory(block_, list);
+std::vector<RestoredArray> LastPoint::arrays_to_restore() {
+    const std::vector<StateArray> displacements = state_of(block_);
+    if (state_.empty()) state_.take(displacements);
+    std::vector<RestoredArray> list = state_.arrays_to_restore(displacements);
+    for (const RestoredArray& array : arrays_of_memories())
+        list.push_back(array);
+    return list;
+}
+
+std::vector<RestoredArray> LastPoint::arrays_of_memories() const {
+    std::vector<RestoredArray> list;
+    for (const std::unique_ptr<Memory>& memory : block_.memories())
+        for (const std::vector<RestoredArray>& arrays :
+             {memory->arrays(), memory->arrays_of_last_step()})
+            list.insert(list.end(), arrays.begin(), arrays.end());
     return list;
 }
 

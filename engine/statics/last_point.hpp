@@ -102,9 +102,9 @@ public:
         v("last_dt", last_dt_);
     }
     /// Returns the arrays of the last point to be written.
-    std::vector<StateArray> states() const;
+    std::vector<StateArray> arrays() const;
     /// Returns the arrays of the last point to be read; the caller then calls put_back().
-    std::vector<RestoredArray> states_to_restore();
+    std::vector<RestoredArray> arrays_to_restore();
 
 private:
     /// Returns the constraint along z with the coordinate at this value.
@@ -113,6 +113,7 @@ private:
         if (load_) return Constraint::load_without_stretch(*load_);
         return {options_.along, along_ == Along::z ? at : normal_};
     }
+    std::vector<RestoredArray> arrays_of_memories() const;
     void place_block(double at);
     RelaxOptions relax_options(const Report& report) const;
 

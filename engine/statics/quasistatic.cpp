@@ -145,7 +145,7 @@ StepDecision QuasistaticPath::judge(const RelaxedState& state, const Try& t) con
     if (options_.reversible()) return reversible_step(point(), trial, energy_error());
     return decide(point(), trial, trail_,
                   {allowed_missing_in_time(t.way, t.tolerance), allowed_uncertainty(t.tolerance),
-                   t.last, is_short_in_time(t.way), state.branches.error});
+                   t.last, is_short_in_time(t.way), state.error});
 }
 
 /// Returns the outcome of a step that was made.
@@ -179,9 +179,8 @@ QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
     }
     if (!state.converged) refuse_place(state, at());
     const PathPoint before = point();
-    state.branches.dissipated = std::max(before.energy - record_.dissipated_in_block -
-                                             state.interface_energy - state.elastic_energy,
-                                         0.0);
+    state[Term::in_block] = std::max(
+        before.energy - record_.dissipated() - state[Term::interface] - state[Term::elastic], 0.0);
     const PathPoint there = point(state, at());
     accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
     course_.comes_to_rest = false;
@@ -200,10 +199,10 @@ QuasistaticPath::Outcome QuasistaticPath::settle() {
     }
     if (!state.converged) refuse_place(state, at());
     last_.accept(at());
-    const double gained = state.interface_energy + state.elastic_energy - record_.energy();
-    course_.work += gained;
+    const double gained = state.stored() - record_.stored();
+    course_.flows[Term::work] += gained;
     course_.settling = gained + course_.held.value_or(0.0) * (lifted(state) - record_.top);
-    record_.work += gained;
+    record_[Term::work] += gained;
     ++record_.step;
     set_record(state, at());
     trail_.begin(at(), force());
@@ -290,11 +289,16 @@ ForceWindow QuasistaticPath::acceptable_force(double to) const {
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
     // A load works as well.
     const double pressed = -course_.held.value_or(0.0) * (lifted(state) - record_.top);
-    course_.work += step.work + pressed;
+    Energies flows;
+    flows.take_flows(state); // losses of memories in the step
+    flows[Term::work] = step.work + pressed;
+    flows[Term::lost] = step.dissipated;
+    course_.flows += flows;
+    record_ += flows;
+    record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
     if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
     // An extension that is wrong acts on with the larger ones that follow: twice.
-    course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.branches.error);
-    record_.work += step.work + pressed;
+    course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
         course_.errors.add_instability(at, way, step.uncertain,
@@ -305,7 +309,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     if (step.dissipated > 0.0) {
         dissipation_.add(describe(state, step.dissipated));
         if (!is_short_in_time(way)) dissipation_.not_followed += step.dissipated;
-        record_.damped = dissipation_.total();
+        dissipation_.total = record_[Term::lost];
     }
     const double force = point(state, at).force;
     const bool same_branch = step.smooth && step.dissipated == 0.0;
@@ -315,8 +319,6 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         trail_.begin(at, force);
     last_.accept(at);
     ++record_.step;
-    course_.dissipated_in_block += state.branches.dissipated;
-    record_.dissipated_in_block += state.branches.dissipated;
     set_record(state, at);
     strongest_ = std::max(strongest_, -record_.force);
     length_ *= step.growth;

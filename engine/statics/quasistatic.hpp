@@ -67,7 +67,7 @@ namespace asperity {
 /// A quasi-static path of a block over an interface.
 class QuasistaticPath {
 public:
-    /// Keeps references to block and interface. start(), start_here() or resume() must follow.
+    /// Keeps references to block and interface. start(), start_here() or restored() must follow.
     QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options);
 
     /// Starts from the undisplaced block beyond the interaction range. Collective.
@@ -99,9 +99,11 @@ public:
     /// Returns the record of the last point: `step` is the number of the point, `damped` the energy
     /// dissipated at instabilities.
     const StepRecord& now() const { return record_; }
-    /// Returns the work done on the block in the current segment, eV. At a prescribed mean height
-    /// this is minus the work of the interface's force, because the mean height does not jump.
-    double work() const { return course_.work; }
+    /// Returns the work done on the block and the losses in the current segment, eV. At a
+    /// prescribed mean height the work is minus that of the interface's force, because the mean
+    /// height does not jump. Work minus stored() minus all losses is zero within uncertainty().
+    const Energies& in_segment() const { return course_.flows; }
+    double work() const { return course_.flows[Term::work]; }
     /// Returns the distance from the beginning of the current segment, Å.
     double way() const { return std::abs(at() - course_.from); }
     /// Returns the part of work() that moves the block sideways, eV.
@@ -113,12 +115,9 @@ public:
     /// (work_errors.hpp; docs/explanation/relaxation.md states how often the true error is within
     /// it).
     double uncertainty() const { return course_.errors.total(); }
-    /// Returns the energy that a viscoelastic block has dissipated in the current segment, without
-    /// the dissipation at instabilities, eV.
-    double dissipated_in_block() const { return course_.dissipated_in_block; }
     /// Returns the change of the energy of interface and block, branches included, in the current
-    /// segment, eV. work() minus stored() minus all dissipated energy is zero within uncertainty().
-    double stored() const { return record_.energy() - course_.stored_at_start; }
+    /// segment, eV.
+    double stored() const { return record_.stored() - course_.start.stored(); }
     const Dissipation& dissipation() const { return dissipation_; }
     /// Returns the uncertainty of the force of the last point, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -131,12 +130,13 @@ public:
     /// stopped.
     template <class Visitor>
     void visit(Visitor& v);
-    /// Returns the arrays of the last point to be written.
-    std::vector<StateArray> states() const { return last_.states(); }
-    /// Returns the arrays of the last point to be read.
-    std::vector<RestoredArray> states_to_restore() { return last_.states_to_restore(); }
+    // Numbers and arrays of the path, as those of Path.
+    void collect(auto& numbers) const { numbers.members_of(*this); }
+    void restore(auto& numbers) { visit(numbers); }
+    std::vector<StateArray> arrays() const { return last_.arrays(); }
+    std::vector<RestoredArray> arrays_to_restore() { return last_.arrays_to_restore(); }
     /// Restores the block to the last point after numbers and arrays have been read. Collective.
-    void resume();
+    void restored();
 
 private:
     using Along = LastPoint::Along;
@@ -155,12 +155,11 @@ private:
         std::int64_t crept = 0;     ///< consecutive points at the smallest step
         double from = 0.0;          ///< beginning, Å
         std::optional<double> held; ///< load of a slide under load, eV/Å
-        double work = 0.0;          ///< work of the top plane, eV
-        double lateral = 0.0;       ///< part of work that moves the block sideways, eV
+        Energies start;             ///< energies at the beginning, eV
+        Energies flows;             ///< work of the top plane and losses since then, eV
+        double lateral = 0.0;       ///< part of the work that moves the block sideways, eV
         double settling = 0.0;      ///< work that brought the block into its steady shape, eV
-        double dissipated_in_block = 0.0; ///< energy dissipated by a viscoelastic block, eV
-        double stored_at_start = 0.0;     ///< energy of interface and block at the beginning, eV
-        WorkErrors errors;                ///< uncertainty of work and dissipated energy
+        WorkErrors errors;          ///< uncertainty of work and losses
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -176,11 +175,10 @@ private:
             v("crept", crept);
             v("from", from);
             v("held", held);
-            v("work", work);
+            v("start", start);
+            v("flows", flows);
             v("lateral", lateral);
             v("settling", settling);
-            v("relaxed", dissipated_in_block);
-            v("stored_at_start", stored_at_start);
             v("errors", errors);
         }
     };
@@ -199,11 +197,10 @@ private:
     double time_of(double step) const;
     bool is_short_in_time(double step) const;
     std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
-    /// Returns the last point. Its energy includes the energy dissipated by a viscoelastic block.
+    /// Returns the last point. Its energy includes the energy that memories have dissipated.
     PathPoint point() const {
         return {at(), force(),
-                record_.interface_energy + record_.elastic_energy + record_.dissipated_in_block +
-                    course_.held.value_or(0.0) * record_.top};
+                record_.stored() + record_.dissipated() + course_.held.value_or(0.0) * record_.top};
     }
     /// Returns the coordinate on which a load acts, Å: the displacement of the top plane, or the
     /// mean height of the lowest layer.
@@ -275,10 +272,9 @@ private:
     /// becomes unstable, or the force is not smooth enough to exclude an instability.
     std::optional<ForceAt> bracket_;
     Dissipation dissipation_;
-    double strongest_ = 0.0;       ///< strongest attraction so far, eV/Å
-    double energy_at_start_ = 0.0; ///< energy from which works are counted, eV
-    double scale_ = 0.0;           ///< largest energy seen, for the residual, eV
-    double way_ = 0.0;             ///< length of the path so far, Å
+    double strongest_ = 0.0; ///< strongest attraction so far, eV/Å
+    Balance balance_;
+    double way_ = 0.0; ///< length of the path so far, Å
 };
 
 template <class Visitor>
@@ -291,8 +287,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("bracket", bracket_);
     v("dissipation", dissipation_);
     v("strongest", strongest_);
-    v("energy_at_start", energy_at_start_);
-    v("scale", scale_);
+    v("balance", balance_);
     v("way", way_);
 }
 

@@ -81,8 +81,8 @@ PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
                          : course_.along == Along::time ? 0.0
                                                         : lateral_force()[axis()];
     return {at, force,
-            state.interface_energy + state.elastic_energy + record_.dissipated_in_block +
-                state.branches.dissipated + course_.held.value_or(0.0) * lifted(state)};
+            state.stored() + record_.dissipated() + state.dissipated() +
+                course_.held.value_or(0.0) * lifted(state)};
 }
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
@@ -98,19 +98,16 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     record_.force = state.force;
     record_.top_force = state.top_force;
     record_.observed = true;
-    static_cast<Energies&>(record_) = state;
+    Energies now = state;
+    now.take_flows(record_);
+    static_cast<Energies&>(record_) = now;
     static_cast<ContactCount&>(record_) = state;
-    const double gained = state.interface_energy + state.elastic_energy - energy_at_start_;
-    scale_ = std::max(
-        {scale_, std::abs(state.interface_energy), state.elastic_energy, std::abs(record_.work)});
     // The balance says nothing of small energies: those below an eightieth of the work of the scale
     // of forces on the way so far and a step more, or below a twentieth of flat surfaces'. Neither
     // depends on the tolerance.
     double least = options_.scales.force * sites_ * (way_ + options_.step) / 80.0;
     if (options_.binding_energy) least = std::min(least, 0.05 * *options_.binding_energy);
-    const double scale = std::max(scale_, least);
-    const double spent = record_.damped + record_.dissipated_in_block;
-    record_.residual = scale > 0.0 ? (record_.work - gained - spent) / scale : 0.0;
+    record_.residual = balance_.residual(record_, least);
 }
 
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {

@@ -95,15 +95,14 @@ void QuasistaticPath::first_point(double top, Here here) {
                                "a larger drive.tolerance, or a height further from the substrate");
     last_.accept(top);
     record_.step = 0;
-    const double energy = state.interface_energy + state.elastic_energy;
-    record_.work = here.from_apart ? energy : 0.0;
-    energy_at_start_ = energy - record_.work;
+    record_[Term::work] = here.from_apart ? state.stored() : 0.0;
+    balance_.begin(state.stored() - record_[Term::work]);
     set_record(state, top);
     trail_.begin(top, state.top_force);
     if (!here.from_apart) turn();
 }
 
-void QuasistaticPath::resume() {
+void QuasistaticPath::restored() {
     put_back();
     record_.observed = true;
 }
@@ -194,9 +193,9 @@ void QuasistaticPath::begin(Along along, double direction) {
     course_.comes_to_rest = course_.settles = false;
     course_.crept = 0;
     course_.from = at();
-    course_.work = course_.lateral = course_.settling = course_.dissipated_in_block = 0.0;
-    course_.stored_at_start = record_.energy();
-    dissipation_.begin_segment();
+    course_.lateral = course_.settling = 0.0;
+    course_.start = record_;
+    course_.flows = {};
 }
 
 } // namespace asperity

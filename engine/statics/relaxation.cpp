@@ -243,10 +243,8 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     }
     const InterfaceSums& sums = minimiser.sums();
     const auto values = global_sums(block.communicator(), std::array{sums.energy, sums.force_z});
-    const BlockEnergies of_block = block.energies();
-    static_cast<Energies&>(state) = of_block;
-    state.branches = of_block.branches;
-    state.interface_energy = values[0];
+    static_cast<StepEnergies&>(state) = block.energies();
+    state[Term::interface] = values[0];
     state.force = values[1];
     // Largest values pass over what is not a number; sums do not.
     state.converged = state.converged && std::isfinite(values[0]) && std::isfinite(values[1]);

@@ -127,16 +127,15 @@ struct RelaxationConstants {
 };
 
 /// Result of a relaxation.
-struct RelaxedState : ContactCount, Energies {
+struct RelaxedState : ContactCount, StepEnergies {
     bool converged = false;
     bool interrupted = false; ///< report() stopped the relaxation
     bool jumped = false;      ///< abandoned: the force has left ForceWindow
     bool balanced = true;     ///< the total force is the prescribed one
     long long iterations = 0;
-    double residual = 0.0;     ///< largest residual force on a site, eV/Å
-    double rounding = 0.0;     ///< estimate of the residual left by rounding, eV/Å
-    BranchEnergies branches{}; ///< energy of branches, and their dissipation in the step
-    double force = 0.0;        ///< total normal force on the lowest layer, eV/Å
+    double residual = 0.0; ///< largest residual force on a site, eV/Å
+    double rounding = 0.0; ///< estimate of the residual left by rounding, eV/Å
+    double force = 0.0;    ///< total normal force on the lowest layer, eV/Å
     /// Elastic force on the top plane along z, eV/Å. If the mean height is prescribed, the force
     /// that holds the mean height, which equals `force`.
     double top_force = 0.0;

@@ -5,24 +5,12 @@
 // checkpoints.
 #pragma once
 
-#include "decomposition/field.hpp"
+#include "engine/energy/memory.hpp"
 #include "engine/waves/spectral_block.hpp"
 
-#include <string>
 #include <vector>
 
 namespace asperity {
-
-/// One component of a field of a level, of which the first `planes` planes belong to the state.
-template <class Values>
-struct ArrayOf {
-    std::string name; ///< name of its data set in a checkpoint
-    int level = 0;
-    Values* field = nullptr;
-    int planes = 0;
-};
-using StateArray = ArrayOf<const Field<double>>; ///< array to be copied or written to a checkpoint
-using RestoredArray = ArrayOf<Field<double>>;    ///< array to be restored
 
 /// Adds the components of a field of a level to a list, in the order x, y, z, named
 /// "/level2/<what>_x".
@@ -32,7 +20,7 @@ void add_arrays(int level, const char* what, VectorField<double>& field, int pla
                 std::vector<RestoredArray>& list);
 
 /// Returns the displacements of the lowest layer, which are the whole state of a block at rest,
-/// without its branches.
+/// without its memories.
 std::vector<StateArray> state_of(const SpectralBlock& block);
 /// Returns the displacements of the lowest layer to be overwritten; the caller then calls
 /// apply_constraint().

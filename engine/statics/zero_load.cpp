@@ -67,9 +67,9 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
                          : "look at run.h5 whether the surfaces touch at all");
     const double area = c.area();
     ZeroLoad z;
-    const double elastic = s.energy_of_block();
-    z.binding_energy = -units::milli_per_unit * (s.interface_energy + elastic) / area;
-    z.pairwise = -units::milli_per_unit * s.interface_energy / area;
+    const double elastic = s.elastic_of_block();
+    z.binding_energy = -units::milli_per_unit * (s[Term::interface] + elastic) / area;
+    z.pairwise = -units::milli_per_unit * s[Term::interface] / area;
     z.elastic = units::milli_per_unit * elastic / area;
     z.contact_fraction = c.fraction(s.in_contact);
     if (interface.wall())

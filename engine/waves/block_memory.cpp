@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/waves/block_memory.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -115,29 +117,52 @@ void combine(double a, const SiteField<double>& x, double b, const SiteField<dou
 } // namespace
 
 BlockMemory::BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components,
-                         Workspace& workspace)
+                         Workspace& workspace, BranchedBlock block)
     : branches_(branches), slab_(slab), components_(components), workspace_(workspace),
-      w_(new_field()) {
+      block_(std::move(block)), w_(new_field()) {
     for (std::size_t k = 0; k < branches.size(); ++k)
         h_.push_back(new_field());
     for (int i = 0; i < 2; ++i)
         history_.push_back(new_field());
 }
 
-void BlockMemory::begin(SiteField<double> w, double dt, double last) {
-    w_ = std::move(w);
-    dt_ = dt;
-    last_ = std::isinf(dt) ? units::forever : last;
+namespace {
+
+/// Returns the components of fields as arrays "/level0/<what><number>_<component>".
+std::vector<RestoredArray> arrays_of(const char* what, std::vector<SiteField<double>>& fields) {
+    std::vector<RestoredArray> list;
+    for (std::size_t k = 0; k < fields.size(); ++k)
+        for (std::size_t c = 0; c < fields[k].size(); ++c)
+            list.push_back({fmt::format("/level0/{}{}_{}", what, k, c), 0, &fields[k][c], 1});
+    return list;
+}
+
+} // namespace
+
+std::vector<RestoredArray> BlockMemory::arrays() { return arrays_of("branch", h_); }
+std::vector<RestoredArray> BlockMemory::arrays_of_last_step() {
+    return arrays_of("history", history_);
+}
+
+void BlockMemory::forget_last_step() {
+    for (SiteField<double>& field : history_)
+        field = new_field();
+}
+
+void BlockMemory::begin(const TimeStep& step) {
+    w_ = block_.shape();
+    step_ = step;
+    if (std::isinf(step.dt)) step_.last = units::forever;
 }
 
 double BlockMemory::weight() const {
-    return std::isinf(last_) ? 0.0 : 2.0 * ratio() / (1.0 + ratio());
+    return std::isinf(step_.last) ? 0.0 : 2.0 * ratio() / (1.0 + ratio());
 }
 
 double BlockMemory::stiffening() const {
     double sum = 0.0;
     for (const Branch& branch : branches_) {
-        const Decay decay(dt_ / branch.time);
+        const Decay decay(step_.dt / branch.time);
         sum += branch.ratio * (decay.b + weight() * decay.g);
     }
     return sum;
@@ -148,7 +173,7 @@ SiteField<double> BlockMemory::known_force() const {
     combine(-stiffening(), w_, 0.0, w_, sum);
     double of_last = 0.0;
     for (std::size_t k = 0; k < branches_.size(); ++k) {
-        const Decay decay(dt_ / branches_[k].time);
+        const Decay decay(step_.dt / branches_[k].time);
         combine(branches_[k].ratio * decay.e, h_[k], 1.0, sum, sum);
         if (weight() > 0.0) of_last -= branches_[k].ratio * weight() * ratio() * decay.g;
     }
@@ -162,11 +187,11 @@ SiteField<double> BlockMemory::second_difference(const SiteField<double>& d) con
     return c;
 }
 
-BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& square,
-                                     const Product& product) const {
-    BranchEnergies energies;
+StepEnergies BlockMemory::energies() const {
+    const auto& [shape, square, product] = block_;
+    StepEnergies energies;
     SiteField<double> d = new_field(), field = new_field();
-    combine(1.0, to, -1.0, w_, d);
+    combine(1.0, shape(), -1.0, w_, d);
     const SiteField<double> c = second_difference(d);
     const bool bent = weight() > 0.0;
     const double of_c = bent ? square(c) : 0.0;
@@ -179,12 +204,12 @@ BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& 
     const double of_d = bent ? 0.0 : square(d);
     for (std::size_t k = 0; k < branches_.size(); ++k) {
         const auto& [ratio, time] = branches_[k];
-        const Decay decay(dt_ / time);
-        const Loss loss(dt_ / time);
+        const Decay decay(step_.dt / time);
+        const Loss loss(step_.dt / time);
         combine(decay.e, h_[k], decay.b, d, field);
         if (bent) combine(decay.g, c, 1.0, field, field);
         const double of_h = square(field);
-        energies.stored += 0.5 * ratio * of_h;
+        energies[Term::branches] += 0.5 * ratio * of_h;
         if (bent)
             energies.error += ratio * std::abs(decay.g) *
                               (product(change, field) + 0.5 * std::abs(decay.g) * of_change);
@@ -197,16 +222,17 @@ BranchEnergies BlockMemory::energies(const SiteField<double>& to, const Square& 
         } else {
             lost += loss.l11 * loss.l11 * of_d;
         }
-        energies.dissipated += ratio * lost;
+        energies[Term::in_block] += ratio * lost;
     }
     return energies;
 }
 
-void BlockMemory::end(SiteField<double> to) {
+void BlockMemory::accept() {
+    SiteField<double> to = block_.shape();
     combine(1.0, to, -1.0, w_, w_); // the step
     history_[1] = second_difference(w_);
     for (std::size_t k = 0; k < branches_.size(); ++k) {
-        const Decay decay(dt_ / branches_[k].time);
+        const Decay decay(step_.dt / branches_[k].time);
         combine(decay.e, h_[k], decay.b, w_, h_[k]);
         if (weight() > 0.0) combine(decay.g, history_[1], 1.0, h_[k], h_[k]);
     }

@@ -30,55 +30,47 @@
 #pragma once
 
 #include "decomposition/surface_transform.hpp"
+#include "engine/energy/memory.hpp"
 #include "engine/options/block_options.hpp"
-#include "engine/units.hpp"
 
 #include <functional>
 #include <vector>
 
 namespace asperity {
 
-/// Energies of the branches, eV.
-struct BranchEnergies {
-    double stored = 0.0;     ///< energy stored in the branches' springs
-    double dissipated = 0.0; ///< energy dissipated in the current step
-    double error = 0.0;      ///< error of the time step
+/// Functions of their block that the branches call.
+struct BranchedBlock {
+    std::function<SiteField<double>()> shape; ///< returns the displacements w, Å
+    /// Returns u.(S u) of a field u, S the relaxed stiffness.
+    std::function<double(const SiteField<double>&)> square;
+    /// Returns the sum over the sites of |a.(S b)| of two fields a and b.
+    std::function<double(const SiteField<double>&, const SiteField<double>&)> product;
 };
 
 /// Extensions of the branches of a viscoelastic block, and their time step.
-class BlockMemory {
+class BlockMemory : public Memory {
 public:
     /// Makes relaxed branches. components: number of moving components of the displacement. Keeps a
     /// reference to the workspace.
     BlockMemory(const std::vector<Branch>& branches, const Slab& slab, int components,
-                Workspace& workspace);
+                Workspace& workspace, BranchedBlock block);
 
-    /// Begins a time step dt, fs, from the displacements w, Å. In an infinite step the branches
-    /// relax completely. last: length of the step that this one continues, fs; infinite if it
-    /// continues none.
-    void begin(SiteField<double> w, double dt, double last);
+    std::vector<RestoredArray> arrays() override;
+    std::vector<RestoredArray> arrays_of_last_step() override;
+    void begin(const TimeStep& step) override;
+    void accept() override;
+    StepEnergies energies() const override;
+    std::size_t bytes() const override;
+
     /// Returns the relative increase of the stiffness in the step, sum r (b + p g).
     double stiffening() const;
     /// Returns the displacement field whose elastic force is the known force: sum r (e h - (b + p
     /// g) w - p rho g d0), Å.
     SiteField<double> known_force() const;
-    /// Function that returns u.(S u) of a field u, S the relaxed stiffness.
-    using Square = std::function<double(const SiteField<double>&)>;
-    /// Function that returns the sum over the sites of |a.(S b)| of two fields a and b.
-    using Product = std::function<double(const SiteField<double>&, const SiteField<double>&)>;
-    /// Returns the energies of the branches if the step ends at w' = `to`, Å.
-    BranchEnergies energies(const SiteField<double>& to, const Square& square,
-                            const Product& product) const;
-    /// Ends the step at w' = `to`, Å.
-    void end(SiteField<double> to);
-
-    /// Returns the extensions h of each branch, Å.
-    std::vector<SiteField<double>>& extensions() { return h_; }
-    const std::vector<SiteField<double>>& extensions() const { return h_; }
-    /// Returns d0 and c0 of the last step, Å, which the next step needs with the extensions.
-    std::vector<SiteField<double>>& history() { return history_; }
-    const std::vector<SiteField<double>>& history() const { return history_; }
-    std::size_t bytes() const; ///< returns the memory of the fields, bytes
+    /// Returns the extension h of a branch, Å, for writing.
+    SiteField<double>& extension(std::size_t branch) { return h_[branch]; }
+    /// Sets d0 and c0 to zero.
+    void forget_last_step();
 
 private:
     SiteField<double> new_field() const {
@@ -87,7 +79,7 @@ private:
     /// Returns the weight p; 0 for a step that continues no other.
     double weight() const;
     /// Returns rho, the length of this step over that of the last.
-    double ratio() const { return dt_ / last_; }
+    double ratio() const { return step_.dt / step_.last; }
     /// Computes the second difference c of a step by d.
     SiteField<double> second_difference(const SiteField<double>& d) const;
 
@@ -95,11 +87,11 @@ private:
     Slab slab_;
     int components_;
     Workspace& workspace_;
-    std::vector<SiteField<double>> h_;
+    BranchedBlock block_;
+    std::vector<SiteField<double>> h_;       ///< extension of each branch, Å
     std::vector<SiteField<double>> history_; ///< d0, c0
     SiteField<double> w_;
-    double dt_ = units::forever;
-    double last_ = units::forever; ///< dt0, fs
+    TimeStep step_; ///< dt and dt0
 };
 
 } // namespace asperity

@@ -20,7 +20,15 @@ Response::Response(const BlockOptions& options, const Communicator& communicator
       table_(options, slab_, frictionless), layer_(tile(), 1, 0), force_(tile(), 1, 0),
       waves_(slab_, components_), transform_(slab_, components_), single_(slab_, components_) {
     if (options.branches.empty()) return;
-    memory_.emplace(options.branches, slab_, components_, *workspace_);
+    auto branches = std::make_unique<BlockMemory>(
+        options.branches, slab_, components_, *workspace_,
+        BranchedBlock{[this] { return from_top(); },
+                      [this](const SiteField<double>& u) { return twice_energy(u); },
+                      [this](const SiteField<double>& a, const SiteField<double>& b) {
+                          return local_products(a, b);
+                      }});
+    branches_ = branches.get();
+    memories_.push_back(std::move(branches));
     memory_force_.emplace(slab_, components_);
 }
 
@@ -227,7 +235,7 @@ double Response::top_force() const {
     return sites * sites * holder()(mean_height());
 }
 
-BlockEnergies Response::energies() const {
+StepEnergies Response::energies() const {
     // Half u.(S u), u measured from a held top plane, and what a load stretches the block by.
     const double from = constraint_.is_top() ? top() : 0.0;
     Waves<double> su = new_waves<double>();
@@ -237,21 +245,16 @@ BlockEnergies Response::energies() const {
     double twice = dot(waves_, su);
     if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
-    BlockEnergies energies;
-    energies.elastic_energy = 0.5 * (twice + load * load / spring());
+    StepEnergies energies;
+    energies[Term::elastic] = 0.5 * (twice + load * load / spring());
     if (options_.top_spring) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
-        energies.machine_energy = 0.5 * force * force / options_.top_spring.stiffness;
+        energies[Term::spring] = 0.5 * force * force / options_.top_spring.stiffness;
     }
-    if (memory_)
-        energies.branches = memory_->energies(
-            from_top(), [&](const SiteField<double>& u) { return twice_energy(u); },
-            [&](const SiteField<double>& a, const SiteField<double>& b) {
-                return local_products(a, b);
-            });
-    energies.branch_energy = energies.branches.stored;
-    energies.elastic_energy =
-        energies.elastic_energy + energies.machine_energy + energies.branch_energy;
+    for (const std::unique_ptr<Memory>& memory : memories_)
+        energies += memory->energies();
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.kind == io::EnergyTerm::part) energies[Term::elastic] += energies[row.term];
     return energies;
 }
 

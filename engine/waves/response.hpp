@@ -38,7 +38,6 @@
 #include "decomposition/communicator.hpp"
 #include "decomposition/field.hpp"
 #include "decomposition/surface_transform.hpp"
-#include "engine/step_record.hpp"
 #include "engine/waves/block_memory.hpp"
 #include "engine/waves/constraint.hpp"
 #include "engine/waves/moving_pattern.hpp"
@@ -60,11 +59,6 @@ struct Holder {
     double force = 0.0;     ///< part of a load or of branches, eV/Å per site
     /// Returns the elastic force per site against this mean height, eV/Å.
     double operator()(double mean_height) const { return stiffness * (mean_height - at) + force; }
-};
-
-/// Energies of the block at rest, eV, including the stretch under a load.
-struct BlockEnergies : Energies {
-    BranchEnergies branches{};
 };
 
 /// The block at rest, as minimisers use it.
@@ -151,8 +145,11 @@ public:
     double mean_height_of_box() const;
     /// Returns the elastic force on the top plane along z, eV/Å; a load presses down. Collective.
     double top_force() const;
-    /// Returns the energies of the block at its present displacements. Collective.
-    BlockEnergies energies() const;
+    /// Returns the energies of the block at its present displacements, with those of its memories
+    /// and of the stretch under a load, eV. Collective.
+    StepEnergies energies() const;
+    /// Returns what the block remembers beside its displacements.
+    const std::vector<std::unique_ptr<Memory>>& memories() const { return memories_; }
 
     /// Adds t d to the displacement. d: the same field as waves and at the sites, Å.
     void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);
@@ -210,7 +207,8 @@ protected:
     Constraint constraint_;
     VectorField<double> layer_, force_;
     Waves<double> waves_;
-    std::optional<BlockMemory> memory_; ///< memory of the branches; empty: an elastic block
+    std::vector<std::unique_ptr<Memory>> memories_;
+    BlockMemory* branches_ = nullptr; ///< memory of the branches; nullptr: an elastic block
     /// Force of the branches at the start of the step, with reversed sign, eV/Å; empty if none
     /// acts.
     std::optional<Waves<double>> memory_force_;

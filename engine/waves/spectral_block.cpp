@@ -17,14 +17,15 @@ void SpectralBlock::set_uniform(double z) {
 }
 
 void SpectralBlock::begin_step(double dt, double last) {
-    if (!memory_) return;
+    for (const std::unique_ptr<Memory>& memory : memories_)
+        memory->begin({dt, last});
+    if (!branches_) return;
     pattern_.reset();
-    memory_->begin(from_top(), dt, last);
     const double sites = slab_.sites;
-    to_waves(memory_->known_force(), transform<double>(), *memory_force_);
+    to_waves(branches_->known_force(), transform<double>(), *memory_force_);
     combine(0.0, *memory_force_, 1.0 / (sites * sites), *memory_force_);
     stiffen_relaxed(*memory_force_);
-    factor_ = 1.0 + memory_->stiffening();
+    factor_ = 1.0 + branches_->stiffening();
 }
 
 double SpectralBlock::follow(const MovingPattern& pattern) {
@@ -50,16 +51,16 @@ void SpectralBlock::settle_branches() {
 #pragma omp parallel for schedule(static)
         for (int b = 0; b < waves.blocks(); ++b)
             scale_waves(b, pattern_->axis(), pattern_->of_branch(k), waves.block(b));
-        to_sites(waves, transform<double>(), memory_->extensions()[k]);
+        to_sites(waves, transform<double>(), branches_->extension(k));
     }
-    for (SiteField<double>& field : memory_->history())
-        field = new_field<double>();
+    branches_->forget_last_step();
 }
 
 std::size_t SpectralBlock::bytes() const {
     std::size_t sum = table_bytes() + layer_.bytes() + force_.bytes() + waves_.bytes();
-    if (memory_) sum += memory_->bytes() + memory_force_->bytes();
-    return sum;
+    for (const std::unique_ptr<Memory>& memory : memories_)
+        sum += memory->bytes();
+    return memory_force_ ? sum + memory_force_->bytes() : sum;
 }
 
 } // namespace asperity

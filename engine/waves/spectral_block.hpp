@@ -8,7 +8,7 @@
 #include "engine/units.hpp"
 #include "engine/waves/response.hpp"
 
-#include <vector>
+#include <memory>
 
 namespace asperity {
 
@@ -35,10 +35,9 @@ public:
         apply_constraint();
     }
 
-    /// Begins a time step dt, fs, of a viscoelastic block from the present displacements and
-    /// constraint; an infinite step relaxes the branches and erases their memory. last: length of
-    /// the step that this one continues, fs; infinite if it continues none. Does nothing without
-    /// branches. Collective.
+    /// Begins a step of the memories from the present displacements and constraint (TimeStep); an
+    /// infinite step relaxes the branches of a viscoelastic block and erases their memory.
+    /// Collective.
     void begin_step(double dt, double last = units::forever);
     /// Begins an iteration (turn) towards the steady shape of a moving pattern (moving_pattern.hpp)
     /// from the present shape; begin_step() ends the iterations. Returns the root mean square of
@@ -48,20 +47,10 @@ public:
     /// Sets the extensions of the branches to those of the present shape as a moving pattern, with
     /// the moduli of the last turn. Collective.
     void settle_branches();
-    /// Ends the step of the branches at the current displacements.
+    /// Ends the step of the memories at the current displacements.
     void end_step() {
-        if (memory_) memory_->end(from_top());
-    }
-    /// Returns the extensions of the branches, Å, for checkpoints; nullptr without branches.
-    std::vector<SiteField<double>>* memory() { return memory_ ? &memory_->extensions() : nullptr; }
-    const std::vector<SiteField<double>>* memory() const {
-        return memory_ ? &memory_->extensions() : nullptr;
-    }
-    /// Returns the fields of the last time step that the next one needs, Å, for checkpoints;
-    /// nullptr without branches.
-    std::vector<SiteField<double>>* history() { return memory_ ? &memory_->history() : nullptr; }
-    const std::vector<SiteField<double>>* history() const {
-        return memory_ ? &memory_->history() : nullptr;
+        for (const std::unique_ptr<Memory>& memory : memories_)
+            memory->accept();
     }
 
     /// Returns the memory of the stiffness table, bytes; each rank has the whole table.

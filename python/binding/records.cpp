@@ -14,20 +14,28 @@ py::array copied(const InterfaceMaps& maps, const std::vector<T>& values) {
     return py::array_t<T>({maps.ny, maps.nx}, values.data());
 }
 
+/// Returns a term of a record.
+template <Term term, class Record>
+double of(const Record& record) {
+    return record[term];
+}
+
 } // namespace
 
 void bind_records(py::module_& m) {
     py::class_<StepRecord>(m, "Energies", "Energies in eV, since the start of the path.")
-        .def_readonly("elastic", &StepRecord::elastic_energy, "elastic energy of the block, eV")
-        .def_readonly("interface", &StepRecord::interface_energy,
-                      "energy of the interface, eV; negative if it binds")
-        .def_readonly("kinetic", &StepRecord::kinetic_energy, "kinetic energy of the block, eV")
-        .def_readonly(
-            "work", &StepRecord::work,
+        .def_property_readonly("elastic", of<Term::elastic, StepRecord>,
+                               "elastic energy of the block, eV")
+        .def_property_readonly("interface", of<Term::interface, StepRecord>,
+                               "energy of the interface, eV; negative if it binds")
+        .def_property_readonly("kinetic", of<Term::kinetic, StepRecord>,
+                               "kinetic energy of the block, eV")
+        .def_property_readonly(
+            "work", of<Term::work, StepRecord>,
             "work done on the solids since they were at rest apart, eV: by the top plane, "
             "the damping medium, an external field, and values written to u and v")
-        .def_readonly("damped", &StepRecord::damped,
-                      "energy lost to the damping medium, less the heat of the noise, eV")
+        .def_property_readonly("damped", of<Term::lost, StepRecord>,
+                               "energy lost to the damping medium, less the heat of the noise, eV")
         .def_readonly("balance_error", &StepRecord::residual,
                       "work - energies - damped, over the largest energy or work so far")
         .def("__repr__", shown);
@@ -83,17 +91,28 @@ void bind_records(py::module_& m) {
         .def_readonly(
             "force", &Point::force,
             "total normal force of the substrate on the lowest layer, eV/Å; repulsion is positive")
-        .def_property_readonly("energy", &Point::energy, "energy of block and interface, eV")
-        .def_readonly("elastic_energy", &Point::elastic_energy, "elastic energy, eV")
-        .def_readonly("interface_energy", &Point::interface_energy, "energy of the interface, eV")
-        .def_readonly("work", &Point::work,
-                      "work of the holder of the block since the path began, eV")
-        .def_readonly("dissipated", &Point::damped,
-                      "energy dissipated at instabilities, since the path began, eV")
-        .def_readonly("dissipated_in_block", &Point::dissipated_in_block,
-                      "energy dissipated by a viscoelastic block, apart from dissipated, eV")
-        .def_readonly("branch_energy", &Point::branch_energy,
-                      "part of elastic_energy in the branches of a viscoelastic block, eV")
+        .def_property_readonly("energy", &Point::stored, "energy of block and interface, eV")
+        .def_property_readonly("elastic_energy", of<Term::elastic, Point>, "elastic energy, eV")
+        .def_property_readonly("interface_energy", of<Term::interface, Point>,
+                               "energy of the interface, eV")
+        .def_property_readonly("work", of<Term::work, Point>,
+                               "work of the holder of the block since the path began, eV")
+        .def_property_readonly("dissipated", of<Term::lost, Point>,
+                               "energy dissipated at instabilities, since the path began, eV")
+        .def_property_readonly(
+            "dissipated_in_block", of<Term::in_block, Point>,
+            "energy dissipated by a viscoelastic block, apart from dissipated, eV")
+        .def_property_readonly(
+            "losses",
+            [](const Point& p) {
+                py::dict losses;
+                for (const io::EnergyTerm& row : io::energy_terms)
+                    if (row.is_loss()) losses[py::str(std::string(row.key))] = p[row.term];
+                return losses;
+            },
+            "all losses since the path began, by their names in result.json, eV")
+        .def_property_readonly("branch_energy", of<Term::branches, Point>,
+                               "part of elastic_energy in the branches of a viscoelastic block, eV")
         .def_property_readonly(
             "time", [](const Point& p) { return p.time / units::picosecond; },
             "time of the path, for a viscoelastic block, ps")

@@ -102,8 +102,9 @@ void bind_numbers(Class& simulation) {
         .def_property_readonly(
             "work_of_interface",
             [](const Sim& sim) {
-                return both_ways(sim.results(),
-                                 [](const SegmentResults& s) { return s.interface_work; });
+                return both_ways(sim.results(), [](const SegmentResults& s) {
+                    return s.energies[Term::work_of_interface];
+                });
             },
             "work of the interface's force on the mean height, ∫ F dz, meV/Å²: .approach, "
             ".pull_off")
@@ -111,11 +112,11 @@ void bind_numbers(Class& simulation) {
             "work_of_drive",
             [](const Sim& sim) {
                 return both_ways(sim.results(),
-                                 [](const SegmentResults& s) { return std::optional(s.work); });
+                                 [](const SegmentResults& s) { return s.energies[Term::work]; });
             },
             "work of the drive on the solids, meV/Å²: .approach, .pull_off")
         .def_property_readonly(
-            "lost_in_cycle", [](const Sim& sim) { return sim.results().lost_in_cycle; },
+            "lost_in_cycle", [](const Sim& sim) { return sim.results().in_cycle[Term::lost]; },
             "energy lost over approach and pull-off, with the kinetic energy left at the end, "
             "meV/Å²; None until then");
 }
@@ -170,6 +171,15 @@ void bind_inner(Class& simulation) {
         .def_property_readonly("_substrate_edge",
                                [](const Sim& sim) { return sim.surface().length; })
         .def_property_readonly("_segment_number", &Sim::segment_number)
+        .def_property_readonly("_energies",
+                               [](const Sim& sim) { // by their columns in the series
+                                   py::dict energies;
+                                   for (const io::EnergyTerm& row : io::energy_terms)
+                                       if (sim.scene_case().effects.has(row.effect))
+                                           energies[py::str(std::string(row.column))] =
+                                               sim.now()[row.term];
+                                   return energies;
+                               })
         .def_property_readonly("_top_then", [](const Sim& sim) { return sim.now().top; })
         .def_property("_top_position", &Sim::top_position,
                       [](Sim& sim, const py::object& z) {

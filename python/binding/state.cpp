@@ -18,9 +18,10 @@ void bind_state(py::module_& m) {
                      throw io::SceneError({"State", "is given another shape",
                                            "it is three components on a square of sites",
                                            "give an array [3, y, x]"});
-                 State state{static_cast<int>(u.shape(1)), {u.data(), u.data() + u.size()}, top};
+                 State state{static_cast<int>(u.shape(1)), top, {u.data(), u.data() + u.size()}};
                  if (branches)
-                     state.branches = {branches->data(), branches->data() + branches->size()};
+                     state.values.insert(state.values.end(), branches->data(),
+                                         branches->data() + branches->size());
                  return state;
              }),
              py::arg("u"), py::arg("top") = 0.0, py::arg("branches") = py::none())
@@ -28,7 +29,7 @@ void bind_state(py::module_& m) {
             "u",
             [](const py::object& self) {
                 State& s = self.cast<State&>();
-                return py::array_t<double>({3, s.sites, s.sites}, s.u.data(), self);
+                return py::array_t<double>({3, s.sites, s.sites}, s.values.data(), self);
             },
             "displacements of the lowest layer, Å, a writable array [component, y, x]")
         .def_readwrite("top", &State::top, "displacement of the top plane, Å")
@@ -36,11 +37,11 @@ void bind_state(py::module_& m) {
             "branches",
             [](const py::object& self) -> py::object {
                 State& s = self.cast<State&>();
-                const std::size_t sites = static_cast<std::size_t>(s.sites) * s.sites;
-                if (s.branches.empty()) return py::none();
+                const auto sites = static_cast<std::size_t>(s.sites), first = s.displacements();
+                if (!s.remembers()) return py::none();
                 return py::array_t<double>(
-                    {s.branches.size() / sites, std::size_t(s.sites), std::size_t(s.sites)},
-                    s.branches.data(), self);
+                    {(s.values.size() - first) / (sites * sites), sites, sites},
+                    s.values.data() + first, self);
             },
             "extensions of the springs of block.prony, Å, a writable array [branch and component, "
             "y, "

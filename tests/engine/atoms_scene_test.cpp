@@ -71,7 +71,7 @@ std::vector<double> path_over(const Case& c, const Surface& surface) {
         s.drive().observe({now.time, now.force, 0.0, false});
         numbers.insert(numbers.end(), {now.force, now.mean_height});
         if (now.observed)
-            numbers.insert(numbers.end(), {now.interface_energy, now.elastic_energy,
+            numbers.insert(numbers.end(), {now[Term::interface], now[Term::elastic],
                                            static_cast<double>(now.in_contact)});
     }
     return numbers;

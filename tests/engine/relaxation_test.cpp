@@ -110,8 +110,8 @@ TEST(Relaxation, ReportsForcesAndEnergiesOfDoublePrecision) {
         if (stopped) o.report = [](long long, double) { return true; };
         const RelaxedState state = relax(block, interface, {}, o, phases);
         ASSERT_EQ(state.converged, !stopped);
-        EXPECT_EQ(state.interface_energy, energy(false));
-        EXPECT_NE(state.interface_energy, energy(true))
+        EXPECT_EQ(state[Term::interface], energy(false));
+        EXPECT_NE(state[Term::interface], energy(true))
             << "the two must differ, or nothing is tested";
     }
 }

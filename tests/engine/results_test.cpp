@@ -241,8 +241,8 @@ double force_of_sites(const Path& path, const StepRecord&) {
 
 TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
     constexpr auto all = [](const Effects&) { return true; };
-    constexpr SeriesColumn sites = {all, {"series/f", "eV/Å", "", ""}, force_of_sites, "", true};
-    constexpr SeriesColumn step = {all,
+    const SeriesColumn sites = {all, {"series/f", "eV/Å", "", ""}, force_of_sites, "", true};
+    const SeriesColumn step = {all,
                                    {"series/g", "eV/Å", "", ""},
                                    [](const Path&, const StepRecord& now) { return now.force; }};
     for (const char* mode : {"dynamic", "quasistatic"}) {

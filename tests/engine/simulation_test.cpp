@@ -130,10 +130,10 @@ TEST(Simulation, TheForceAndHeightOfARigidBlockAreThoseOfTheFlatSum) {
         const StepRecord& now = simulation.step(true);
         const PairSum site = flat_pair_sum(options.interface, 2.6, 8, 8, gap);
         EXPECT_NEAR(now.force, 64 * site.force[2], 1e-12 * (1.0 + std::abs(now.force)));
-        EXPECT_NEAR(now.interface_energy, 64 * site.energy,
-                    1e-12 * (1.0 + std::abs(now.interface_energy)));
+        EXPECT_NEAR(now[Term::interface], 64 * site.energy,
+                    1e-12 * (1.0 + std::abs(now[Term::interface])));
         EXPECT_EQ(now.mean_height, gap);
-        EXPECT_EQ(now.elastic_energy, 0.0);
+        EXPECT_EQ(now[Term::elastic], 0.0);
         EXPECT_EQ(now.step, 0);
     }
 }
@@ -165,7 +165,7 @@ TEST(Simulation, ASecondStartLeavesNothingOfTheFirst) {
     for (test::Driven* simulation : {&again, &once})
         steps(*simulation, 50);
     EXPECT_EQ(numbers(again), numbers(once));
-    EXPECT_NE(once.now().work, 0.0);
+    EXPECT_NE(once.now()[Term::work], 0.0);
 }
 
 TEST(Simulation, NothingHappensOutOfReach) {
@@ -180,7 +180,7 @@ TEST(Simulation, NothingHappensOutOfReach) {
     const StepRecord& now = simulation.now();
     EXPECT_EQ(now.force, 0.0);
     EXPECT_NEAR(now.mean_height, 20.0 - 999 * 10.0 * 5e-5, 1e-12);
-    EXPECT_NEAR(now.elastic_energy, 0.0, 1e-20);
+    EXPECT_NEAR(now[Term::elastic], 0.0, 1e-20);
     EXPECT_NEAR(simulation.balance().damped, 0.0, 1e-20);
     EXPECT_EQ(simulation.drive().now().kind, Segment::approach);
 }

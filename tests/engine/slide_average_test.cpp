@@ -14,17 +14,24 @@ using namespace asperity;
 
 namespace {
 
+/// Works and losses of a point.
+Energies flows(double work, double in_block, double lost) {
+    Energies all;
+    all[Term::work] = work;
+    all[Term::in_block] = in_block;
+    all[Term::lost] = lost;
+    return all;
+}
+
 /// A slide of this length in steps of 0.5 whose friction is a function of the distance.
 SlideAverage slide(double length, const std::function<double(double)>& friction) {
     SlideAverage average;
     double work = 0.0;
-    average.add({.load = 10.0});
+    average.add({.flows = {}, .load = 10.0});
     for (double at = 0.5; at <= length; at += 0.5) {
         work += 0.5 * friction(at - 0.25);
         average.add({.distance = at,
-                     .work = work,
-                     .dissipated_in_block = 0.75 * work,
-                     .lost = 0.25 * work,
+                     .flows = flows(work, 0.75 * work, 0.25 * work),
                      .load = 10.0,
                      .in_contact = 100.0,
                      .mean_height = 2.0});
@@ -46,8 +53,8 @@ TEST(SlideAverage, LeavesTheRunningInOut) {
     EXPECT_TRUE(means->steady);
     EXPECT_DOUBLE_EQ(means->load, 10.0);
     EXPECT_DOUBLE_EQ(means->in_contact, 100.0);
-    EXPECT_NEAR(means->dissipated_in_block, 0.75 * means->friction, 1e-9);
-    EXPECT_NEAR(means->lost, 0.25 * means->friction, 1e-9);
+    EXPECT_NEAR(means->losses[Term::in_block], 0.75 * means->friction, 1e-9);
+    EXPECT_NEAR(means->losses[Term::lost], 0.25 * means->friction, 1e-9);
     EXPECT_FALSE(slide(30.0, friction).is_steady(lengths)) << "less than three windows";
     EXPECT_FALSE(slide(400.0, [](double s) { return 3.0 + 0.002 * s; }).is_steady(lengths));
     EXPECT_FALSE(
@@ -59,8 +66,7 @@ TEST(SlideAverage, LeavesTheRunningInOut) {
 TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
     SlideAverage average;
     for (double at = 0.0; at <= 400.0; at += 0.5)
-        average.add(
-            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 2.5 * at, .lost = 0.3 * at});
+        average.add({.distance = at, .flows = flows(3.0 * at, 2.5 * at, 0.3 * at)});
     const auto means = average.means(lengths);
     ASSERT_TRUE(means && means->steady);
     EXPECT_NEAR(means->friction_error, 0.2, 1e-9);
@@ -69,10 +75,8 @@ TEST(SlideAverage, FrictionThatIsNotDissipatedIsItsError) {
 TEST(SlideAverage, FrictionOfAViscoelasticBlockIsWhatItDissipates) {
     SlideAverage dissipates, elastic;
     for (double at = 0.0; at <= 200.0; at += 0.5) {
-        dissipates.add(
-            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 2.5 * at, .lost = 0.3 * at});
-        elastic.add(
-            {.distance = at, .work = 3.0 * at, .dissipated_in_block = 0.0, .lost = 2.8 * at});
+        dissipates.add({.distance = at, .flows = flows(3.0 * at, 2.5 * at, 0.3 * at)});
+        elastic.add({.distance = at, .flows = flows(3.0 * at, 0.0, 2.8 * at)});
     }
     EXPECT_NEAR(dissipates.means(lengths)->friction, 2.8, 1e-9);
     EXPECT_NEAR(elastic.means(lengths)->friction, 3.0, 1e-9);

@@ -70,7 +70,7 @@ TEST(Quantities, HaveUnitsThatCanBeReadAndNoNameTwice) {
         EXPECT_FALSE(q.meaning.empty()) << q.name;
         EXPECT_TRUE(q.unit.empty() || q.unit == "1" || parse_unit(q.unit)) << q.unit;
     };
-    for (const Quantity& q : result_quantities)
+    for (const Quantity& q : result_quantities())
         check(q);
     names.clear();
     for (const Quantity& q : run_quantities)

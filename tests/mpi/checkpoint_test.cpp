@@ -140,7 +140,7 @@ void goes_on(const SimulationOptions& o, const char* name) {
     test::read_checkpoint(scratch.file, after, "scene A");
     advance(before, second_part);
     advance(after, second_part);
-    EXPECT_GT(before.now().elastic_energy, 0.0);
+    EXPECT_GT(before.now()[Term::elastic], 0.0);
     EXPECT_EQ(trace(after), trace(before));
 }
 

@@ -114,14 +114,14 @@ struct Contact {
     void write(const std::string& file, const Communicator& ranks) {
         CollectNumbers collect;
         collect("path", path);
-        write_checkpoint(file, ranks, grid, path.states(), collect.numbers, "it");
+        write_checkpoint(file, ranks, grid, path.arrays(), collect.numbers, "it");
     }
     void read(const std::string& file, const Communicator& ranks) {
         const StateNumbers numbers = read_checkpoint(
-            file, ranks, grid, [&](const auto&) { return path.states_to_restore(); }, "it");
+            file, ranks, grid, [&](const auto&) { return path.arrays_to_restore(); }, "it");
         RestoreNumbers restore(numbers);
         restore("path", path);
-        path.resume();
+        path.restored();
     }
 };
 

@@ -268,10 +268,10 @@ TEST(SpectralBlock, RelaxesLikeOneRank) {
             };
             const State shared = on(test::world()), alone = on(Communicator());
             ASSERT_TRUE(shared.relaxed.converged && alone.relaxed.converged);
-            ASSERT_GT(std::abs(alone.relaxed.interface_energy) + alone.relaxed.elastic_energy, 0.1);
+            ASSERT_GT(std::abs(alone.relaxed[Term::interface]) + alone.relaxed[Term::elastic], 0.1);
             const auto numbers = [](const State& s) {
                 const RelaxedState& r = s.relaxed;
-                return std::tuple(r.iterations, r.interface_energy, r.elastic_energy, r.mean_height,
+                return std::tuple(r.iterations, r[Term::interface], r[Term::elastic], r.mean_height,
                                   r.force, r.in_contact, r.repulsive, s.top, r.top_force);
             };
             EXPECT_EQ(numbers(shared), numbers(alone));

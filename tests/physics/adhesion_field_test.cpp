@@ -101,7 +101,7 @@ TEST(AdhesionField, UniformIsTheScalar) {
         std::vector<std::array<double, 5>> rows;
         for (const Segment::Kind kind : {Segment::approach, Segment::pull_off})
             for (const StepRecord& r : test::follow(path, kind))
-                rows.push_back({r.top, r.force, r.interface_energy, r.elastic_energy, r.residual});
+                rows.push_back({r.top, r.force, r[Term::interface], r[Term::elastic], r.residual});
         return rows;
     };
     EXPECT_EQ(cycle(one), cycle(field));

@@ -64,7 +64,7 @@ TEST(ApproachStart, TheBlockWouldHaveYieldedByNoMoreThanItsShare) {
         Phases phases;
         const RelaxedState state = relax(block, c.interface, Constraint::top(0.0), options, phases);
         ASSERT_TRUE(state.converged);
-        const double gained = start.energy - state.interface_energy - state.elastic_energy;
+        const double gained = start.energy - state[Term::interface] - state[Term::elastic];
         EXPECT_GT(gained, 0.0);
         EXPECT_LE(gained, -share_at_start * deepest);
         // and the start is not much further out than it must be

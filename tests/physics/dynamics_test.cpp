@@ -29,7 +29,7 @@ test::Driven released(const SimulationOptions& options, double height = 4.5) {
 /// Energy at the whole step, eV.
 double energy_of_step(test::Driven& s) {
     const StepRecord& now = s.step(true);
-    return now.interface_energy + now.elastic_energy + now.kinetic_energy;
+    return now[Term::interface] + now[Term::elastic] + now[Term::kinetic];
 }
 
 /// Least and greatest energy over a stretch of time.
@@ -226,8 +226,8 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
         double squares = 0.0;
         layer([&](double& v, double) { squares += v * v; });
         at_step.push_back(squares * levels[0].mass(0) / (3.0 * 64.0 * kt));
-        kinetic.push_back(now.kinetic_energy / (0.5 * kt * n));
-        elastic.push_back(now.elastic_energy / (0.5 * kt * n));
+        kinetic.push_back(now[Term::kinetic] / (0.5 * kt * n));
+        elastic.push_back(now[Term::elastic] / (0.5 * kt * n));
         if (step % 5) continue;
         std::vector<double> sums(levels.size());
         test::each_node(simulation.block(), [&](const Block::Level& l, int x, int y, int z) {
@@ -249,7 +249,7 @@ TEST(Temperature, EquipartitionInEveryLevelAndInTheSprings) {
     // what is left of them, which does not grow.
     EXPECT_NEAR(simulation.balance().heat, simulation.balance().damped,
                 0.02 * simulation.balance().damped);
-    EXPECT_LT(std::abs(simulation.now().damped), 2.0 * kt * n);
+    EXPECT_LT(std::abs(simulation.now()[Term::lost]), 2.0 * kt * n);
     EXPECT_GT(simulation.balance().damped, 1000.0 * kt * n);
     EXPECT_LT(std::abs(simulation.now().residual), 1e-8);
     // The lowest layer's velocities, as a trajectory has them.
@@ -298,7 +298,7 @@ TEST(Temperature, TheBalanceOfSpringsIsExactFromTheFirstStep) {
                     s.start(30.0);
                     EXPECT_LT(largest_error(s, 200), 1e-10)
                         << dt << " fs, " << damping << " / fs from " << from;
-                    EXPECT_GT(s.now().kinetic_energy, 0.0);
+                    EXPECT_GT(s.now()[Term::kinetic], 0.0);
                 }
 }
 
@@ -432,7 +432,7 @@ Approach approach_slowly(int layers, const Surface& surface) {
     test::lead(s, [](const StepRecord&, std::size_t, bool) {});
     const double area = std::pow(options.block.sites * options.block.spacing, 2);
     Approach result;
-    result.there = -1e3 * (s.now().interface_energy + s.now().elastic_energy) / area;
+    result.there = -1e3 * (s.now()[Term::interface] + s.now()[Term::elastic]) / area;
     result.work = 1e3 * s.balance().interface / area;
     const LayerAtRest rest =
         test::bring_to_rest(s.block(), surface, s.interface().reference_height(), options, 1e-6);

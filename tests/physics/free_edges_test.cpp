@@ -227,7 +227,7 @@ TEST(FreeEdges, OfHertz) {
         const RelaxedState s = c.relax(Constraint::load(F), 1e-5 * F / (38 * 38), Start::anywhere);
         EXPECT_NEAR(c.radius_of(s), a, 0.005 * a) << sites;
         EXPECT_NEAR(-s.top, depth, 0.005 * depth) << sites;
-        EXPECT_NEAR(s.elastic_energy, 0.4 * F * depth, 0.005 * 0.4 * F * depth) << sites;
+        EXPECT_NEAR(s[Term::elastic], 0.4 * F * depth, 0.005 * 0.4 * F * depth) << sites;
         depths[wide - 1] = -s.top;
     }
     EXPECT_NEAR(depths[0], depths[1], 1e-3 * depth);

@@ -185,7 +185,7 @@ TEST(SurfaceStress, AddsItsEnergyToAWaveThatIsFlattened) {
             for (int x = 0; x < sites; ++x)
                 z(x, y) = h * std::cos(2.0 * pi * x / sites);
         block.apply_constraint();
-        return block.energies().elastic_energy;
+        return block.energies()[Term::elastic];
     };
     const BlockOptions o = test::paper_block(sites, 200, 0);
     const double area = std::pow(sites * o.spacing, 2), q = 2.0 * pi / (sites * o.spacing);

@@ -98,7 +98,7 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
             const auto out = follow(path, Segment::pull_off);
             // Where pairs of a flat layer leave the cutoff together F jumps, and what a polynomial
             // misses there may be taken for a fall.
-            EXPECT_LT(path.dissipation().total(), 0.1 * tolerance * c.sites() * way);
+            EXPECT_LT(path.dissipation().total, 0.1 * tolerance * c.sites() * way);
             EXPECT_NEAR(-path.work(Segment::approach), state, tolerance * c.sites() * way);
             EXPECT_NEAR(path.work(Segment::pull_off), state, tolerance * c.sites() * way);
             int unstable = 0;
@@ -106,9 +106,9 @@ TEST(MeanHeight, FlatOnFlatIsTheWallThroughTheWholeWell) {
                 for (const StepRecord& r : *branch) {
                     const double jump = one.jump(r.mean_height);
                     EXPECT_NEAR(r.force, one.force(r.mean_height), 1e-9 * c.sites() + jump);
-                    EXPECT_NEAR(r.interface_energy, one.potential(r.mean_height),
+                    EXPECT_NEAR(r[Term::interface], one.potential(r.mean_height),
                                 1e-9 * c.sites() + 1e-3 * jump);
-                    EXPECT_NEAR(r.elastic_energy, 0.0, 1e-9 * c.sites());
+                    EXPECT_NEAR(r[Term::elastic], 0.0, 1e-9 * c.sites());
                     EXPECT_EQ(r.top_force, r.force);
                     constexpr double h = 1e-4;
                     unstable += one.force(r.mean_height + h) - one.force(r.mean_height - h) >
@@ -153,7 +153,7 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     const auto out = follow(path, Segment::pull_off);
     const double bound = -energy(state);
     const double allowed = tolerance * c.sites() * (in.front().top - in.back().top);
-    EXPECT_EQ(path.dissipation().total(), 0.0);
+    EXPECT_EQ(path.dissipation().total, 0.0);
     EXPECT_NEAR(-path.work(Segment::approach), bound, allowed);
     EXPECT_NEAR(path.work(Segment::pull_off), bound, allowed);
 
@@ -162,7 +162,7 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     falling.start();
     follow(falling, Segment::approach);
     const RelaxedState same = d.relax({}, 1e-6);
-    EXPECT_GT(falling.dissipation().total(), 0.1 * bound);
+    EXPECT_GT(falling.dissipation().total, 0.1 * bound);
     EXPECT_NEAR(energy(state), energy(same), 1e-6 * bound);
     EXPECT_NEAR(state.mean_height, same.mean_height, 1e-4);
     EXPECT_EQ(state.in_contact, same.in_contact);
@@ -218,7 +218,7 @@ TEST(MeanHeight, SameInstabilitiesWithAnotherStep) {
                  test::Friction::without);
         test::KeptPath path = c.approached(tolerance, step, 0.0, Constraint::Of::mean_height);
         lost.push_back(path.dissipation());
-        EXPECT_NEAR(-path.work(Segment::approach) + path.dissipation().total(), -energy(path.now()),
+        EXPECT_NEAR(-path.work(Segment::approach) + path.dissipation().total, -energy(path.now()),
                     path.uncertainty(Segment::approach));
         for (const Instability& fall : path.dissipation().jumps)
             EXPECT_GT(fall.energy, 0.0);
@@ -325,7 +325,7 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
     const double bound = -energy(path.now());
     const auto out = follow(path, Segment::pull_off);
-    EXPECT_EQ(path.dissipation().total(), 0.0);
+    EXPECT_EQ(path.dissipation().total, 0.0);
     EXPECT_NEAR(path.work(Segment::pull_off), bound,
                 1e-4 * c.sites() * (out.back().top - out.front().top));
 }

@@ -35,8 +35,8 @@ TEST(PathEnd, NothingIsLeftOfTheContact) {
             EXPECT_GT(strongest, 30.0);
             EXPECT_EQ(end.in_contact, 0);
             EXPECT_LE(std::abs(end.force), 1e-6 * strongest);
-            EXPECT_LE(std::abs(end.interface_energy), 1e-6 * bound);
-            EXPECT_LE(end.elastic_energy, 1e-6 * bound);
+            EXPECT_LE(std::abs(end[Term::interface]), 1e-6 * bound);
+            EXPECT_LE(end[Term::elastic], 1e-6 * bound);
             EXPECT_GE(end.mean_height, c.interface.start_height() - 1e-3);
         }
 }
@@ -71,7 +71,7 @@ TEST(PathErrors, CoverTheBalance) {
         EXPECT_EQ(path.uncertainty(Segment::approach), in) << "the other kind's";
         // The gaps in the balance of all steps add up to that of the cycle.
         const double lacks =
-            path.now().work - (energy(path.now()) - start) - path.dissipation().total();
+            path.now()[Term::work] - (energy(path.now()) - start) - path.dissipation().total;
         EXPECT_LE(std::abs(lacks),
                   path.uncertainty(Segment::approach) + path.uncertainty(Segment::pull_off) + 1e-9);
     }

@@ -84,10 +84,10 @@ TEST_P(Balance, WorkIsEnergyPlusLoss) {
     const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
     const double allowed = std::min(1e-4, cycle.tolerance) * c.sites();
     if (cycle.pressure != 0.0) {
-        EXPECT_EQ(lost.total(), 0.0);
-        ASSERT_GT(in.back().elastic_energy, 20.0 * allowed * way) << "the case must tell it";
+        EXPECT_EQ(lost.total, 0.0);
+        ASSERT_GT(in.back()[Term::elastic], 20.0 * allowed * way) << "the case must tell it";
     }
-    EXPECT_GE(lost.total(), cycle.lost * state);
+    EXPECT_GE(lost.total, cycle.lost * state);
     const bool snaps = cycle.lost > 0.05;
     if (snaps) {
         ASSERT_GT(path.lost(Segment::approach), 1.0);
@@ -97,7 +97,7 @@ TEST_P(Balance, WorkIsEnergyPlusLoss) {
                 allowed * (way + 1.0));
     EXPECT_NEAR(path.work(Segment::pull_off) - path.lost(Segment::pull_off), state,
                 allowed * (back + 1.0));
-    EXPECT_NEAR(path.work(Segment::approach) + path.work(Segment::pull_off), lost.total(),
+    EXPECT_NEAR(path.work(Segment::approach) + path.work(Segment::pull_off), lost.total,
                 allowed * (way + back + 2.0));
     EXPECT_NEAR(energy(path.now()), 0.0, 1e-3 * state + 1e-3);
     // The loop of F over the mean height encloses what was lost: by trapezia of the points,
@@ -107,16 +107,16 @@ TEST_P(Balance, WorkIsEnergyPlusLoss) {
         for (std::size_t i = 1; i < branch->size(); ++i)
             loop -= 0.5 * ((*branch)[i].force + (*branch)[i - 1].force) *
                     ((*branch)[i].mean_height - (*branch)[i - 1].mean_height);
-    EXPECT_NEAR(loop, lost.total(), 0.02 * (snaps ? lost.total() : state));
+    EXPECT_NEAR(loop, lost.total, 0.02 * (snaps ? lost.total : state));
     EXPECT_LT(std::abs(path.now().residual) * state, allowed * (way + back));
     // Each branch only loses, and no step gains more energy than its work brings, but for what
     // the work of the longest may be wrong by.
     double before = 0.0, books = 0.0;
     for (const auto* branch : {&in, &out})
         for (const StepRecord& r : *branch) {
-            EXPECT_GE(r.damped, before);
-            before = r.damped;
-            const double unearned = energy(r) + r.damped - r.work;
+            EXPECT_GE(r[Term::lost], before);
+            before = r[Term::lost];
+            const double unearned = energy(r) + r[Term::lost] - r[Term::work];
             EXPECT_LT(unearned - books, cycle.tolerance * c.sites() * cycle.step) << r.step;
             books = unearned;
         }
@@ -163,7 +163,7 @@ TEST(Quasistatic, SnapsWhereTheInterfaceGetsStifferThanTheBlock) {
         // Two falls that count: where d F/dz = k, and as deep as it says.
         std::vector<Instability> falls;
         for (const Instability& jump : path.dissipation().jumps)
-            if (jump.energy > 1e-3 * path.dissipation().total()) falls.push_back(jump);
+            if (jump.energy > 1e-3 * path.dissipation().total) falls.push_back(jump);
         ASSERT_EQ(falls.size(), 2u);
         const double peak = 3.62; // Å: between the turning points, near the largest tension
         const double outer = one.turning_point(peak, 9.0, 1.0);
@@ -242,7 +242,7 @@ TEST(Quasistatic, AgainTheSameCycle) {
         in[n] = -path.work(Segment::approach);
         follow(path, Segment::pull_off);
         out[n] = -path.work(Segment::pull_off);
-        lost[n] = path.dissipation().total();
+        lost[n] = path.dissipation().total;
         lost_in[n] = path.lost(Segment::approach);
     }
     const double allowed = 1e-5 * c.sites() * 12.0;
@@ -286,7 +286,7 @@ TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {
         lost.add(jump);
         sum += jump.energy;
     }
-    EXPECT_EQ(lost.total(), sum);
+    EXPECT_EQ(lost.total, sum);
     EXPECT_EQ(lost.events, 30);
     ASSERT_EQ(lost.jumps.size(), 20u);
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {

@@ -120,8 +120,7 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
         const double scale = i % 2 ? 1.0 : 1e-3;
         block.begin_step(dt);
         block.set_uniform(scale * next);
-        const BlockEnergies energies = block.energies();
-        const BranchEnergies& branches = energies.branches;
+        const StepEnergies energies = block.energies();
         const double rate = (scale * next - w) / dt;
         double work = 0.5 * spring * (scale * scale * next * next - w * w), energy = 0.0;
         for (std::size_t k = 0; k < two.size(); ++k) {
@@ -132,10 +131,10 @@ TEST(Rate, WorkIsStoredOrDissipatedInEveryStep) {
             h[k] = static_cast<double>(h[k] * (1 - left) + rate * tau * left);
             energy += 0.5 * spring * r * h[k] * h[k];
         }
-        EXPECT_NEAR(branches.stored, energy, 1e-12 * (1.0 + energy));
-        EXPECT_GE(branches.dissipated, 0.0);
-        const double now = energies.elastic_energy;
-        EXPECT_NEAR(now - stored + branches.dissipated, work, 1e-11 * (1.0 + std::abs(work)))
+        EXPECT_NEAR(energies[Term::branches], energy, 1e-12 * (1.0 + energy));
+        EXPECT_GE(energies[Term::in_block], 0.0);
+        const double now = energies[Term::elastic];
+        EXPECT_NEAR(now - stored + energies[Term::in_block], work, 1e-11 * (1.0 + std::abs(work)))
             << "dt " << dt;
         stored = now;
         w = scale * next;
@@ -165,7 +164,7 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
         const auto rate = [&](double s) { return d / dt + curvature * (s - 0.5 * dt); };
         block.begin_step(dt, first);
         block.set_uniform(d0 + d);
-        const BranchEnergies branches = block.energies().branches;
+        const StepEnergies energies = block.energies();
         double stored = 0.0, dissipated = 0.0, force = spring * (d0 + d);
         for (const auto& [r, tau] : two) {
             const double h0 = d0 * tau / first * -std::expm1(-first / tau);
@@ -185,8 +184,8 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
             force += spring * r * h(dt);
         }
         EXPECT_NEAR(block.top_force(), force, 1e-9 * (1.0 + std::abs(force))) << dt;
-        EXPECT_NEAR(branches.stored, stored, 1e-9 * (1.0 + stored)) << dt;
-        EXPECT_NEAR(branches.dissipated, dissipated, 1e-9 * (1.0 + dissipated)) << dt;
+        EXPECT_NEAR(energies[Term::branches], stored, 1e-9 * (1.0 + stored)) << dt;
+        EXPECT_NEAR(energies[Term::in_block], dissipated, 1e-9 * (1.0 + dissipated)) << dt;
         block.end_step();
     }
 }
@@ -208,15 +207,16 @@ TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
             block.begin_step(std::numeric_limits<double>::infinity());
             block.end_step();
             double error = 0.0;
-            BranchEnergies branches;
+            StepEnergies energies;
             for (int i = 1; i <= n; ++i) {
                 block.begin_step(span / n, i == 1 ? HUGE_VAL : span / n);
                 block.set_uniform(std::pow(static_cast<double>(i) / n, 3));
-                branches = block.energies().branches;
-                error += branches.error;
+                energies = block.energies();
+                error += energies.error;
                 block.end_step();
             }
-            const double there = std::sqrt(branches.stored / spring); // ratio 2: 1/2 S r h^2
+            const double there =
+                std::sqrt(energies[Term::branches] / spring); // ratio 2: 1/2 S r h^2
             wrong.push_back(2.0 * spring * h * std::abs(there - h));
             judged.push_back(error);
             EXPECT_LT(wrong.back(), 2.0 * judged.back()) << span << " " << n;
@@ -319,11 +319,10 @@ TEST(Rate, SlowAndFastPathsAreElasticOnes) {
                 }
                 EXPECT_NEAR(path.now().force, law.now().force, 2e-3 * std::abs(law.now().force))
                     << wall << fast;
-                EXPECT_NEAR(path.now().elastic_energy, law.now().elastic_energy,
-                            2e-3 * law.now().elastic_energy)
+                EXPECT_NEAR(path.now()[Term::elastic], law.now()[Term::elastic],
+                            2e-3 * law.now()[Term::elastic])
                     << wall << fast;
-                EXPECT_LT(path.now().dissipated_in_block,
-                          1e-3 * std::abs(path.now().interface_energy));
+                EXPECT_LT(path.now()[Term::in_block], 1e-3 * std::abs(path.now()[Term::interface]));
             }
         }
 }
@@ -347,15 +346,15 @@ TEST(Rate, WorkIsEnergyPlusWhatTheBlockTook) {
             points.push_back(r);
         uncertainty += path.uncertainty();
         for (std::size_t i = 1; i < points.size(); ++i)
-            EXPECT_GE(points[i].dissipated_in_block, points[i - 1].dissipated_in_block);
+            EXPECT_GE(points[i][Term::in_block], points[i - 1][Term::in_block]);
         const StepRecord& end = points.back();
         EXPECT_EQ(path.dissipation().events, 0);
-        EXPECT_GT(end.dissipated_in_block, 0.1 * std::abs(end.work));
-        const double gap = end.work - test::energy(end) - end.dissipated_in_block;
+        EXPECT_GT(end[Term::in_block], 0.1 * std::abs(end[Term::work]));
+        const double gap = end[Term::work] - test::energy(end) - end[Term::in_block];
         EXPECT_LT(std::abs(gap), tolerance * c.sites() * 40.0);
         EXPECT_LT(std::abs(gap), uncertainty);
-        EXPECT_LT(std::abs(gap), 5e-3 * end.dissipated_in_block);
-        stated.push_back(uncertainty / end.dissipated_in_block);
+        EXPECT_LT(std::abs(gap), 5e-3 * end[Term::in_block]);
+        stated.push_back(uncertainty / end[Term::in_block]);
     }
     EXPECT_LT(stated[1], 0.75 * stated[0]);
     EXPECT_LT(stated[2], 0.75 * stated[1]);
@@ -376,7 +375,7 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         double before = 0.0;
         const int cycles = 2 + static_cast<int>(std::ceil(5.0 * two.back().time / period));
         for (int i = 0; i < cycles; ++i) {
-            before = path.now().dissipated_in_block;
+            before = path.now()[Term::in_block];
             lead(path, pressed + u0);
             lead(path, pressed - u0);
         }
@@ -390,7 +389,7 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
             const double a = 8.0 * u0 / (pi * pi * n * n);
             expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period
         }
-        EXPECT_NEAR(path.now().dissipated_in_block - before, expected, 2e-3 * expected) << period;
+        EXPECT_NEAR(path.now()[Term::in_block] - before, expected, 2e-3 * expected) << period;
     }
 }
 
@@ -411,7 +410,7 @@ TEST(Rate, LossesInStepsThatAreLongInTimeAreNotFollowed) {
         const Dissipation& lost = path.dissipation();
         ASSERT_GT(lost.events, 0) << velocity;
         if (velocity < 1e-10)
-            EXPECT_NEAR(lost.not_followed, lost.total(), 1e-12 * lost.total());
+            EXPECT_NEAR(lost.not_followed, lost.total, 1e-12 * lost.total);
         else
             EXPECT_EQ(lost.not_followed, 0.0);
     }
@@ -424,8 +423,7 @@ TEST(Rate, LossesInStepsThatAreLongInTimeAreNotFollowed) {
 /// instability in the same number of steps however slowly it is led.
 TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
     struct Sums {
-        double work = 0.0, dissipated_in_block = 0.0, lost = 0.0, uncertainty = 0.0, gap = 0.0,
-               scale = 0.0;
+        double work = 0.0, losses = 0.0, uncertainty = 0.0, gap = 0.0, scale = 0.0;
         long long points = 0;
     };
     const std::vector<Branch> branches = {{3.0, 1000.0}, {1.0, 10000.0}};
@@ -444,12 +442,10 @@ TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
                       Segment{Segment::pull_off}}) {
                     path.begin(segment);
                     sums.points += static_cast<long long>(points_of(path).size()) - 1;
-                    const double lost = path.dissipation().in_segment;
-                    const double gap =
-                        path.work() - path.stored() - path.dissipated_in_block() - lost;
+                    const double losses = path.in_segment().losses();
+                    const double gap = path.work() - path.stored() - losses;
                     sums.work += path.work();
-                    sums.dissipated_in_block += path.dissipated_in_block();
-                    sums.lost += lost;
+                    sums.losses += losses;
                     sums.uncertainty += path.uncertainty();
                     sums.gap = std::max(sums.gap, std::abs(gap) - path.uncertainty());
                     sums.scale = std::max(sums.scale, std::abs(path.work()));
@@ -460,9 +456,7 @@ TEST(Rate, WorksAreKnownToTheirUncertaintyAtAnyVelocity) {
                 const Sums usual = cycle(velocity, 1e-3), close = cycle(velocity, 1e-5);
                 const double may = usual.uncertainty + close.uncertainty;
                 EXPECT_NEAR(usual.work, close.work, may) << velocity << rough;
-                EXPECT_NEAR(usual.dissipated_in_block + usual.lost,
-                            close.dissipated_in_block + close.lost, may)
-                    << velocity << rough;
+                EXPECT_NEAR(usual.losses, close.losses, may) << velocity << rough;
                 EXPECT_LT(usual.gap, 1e-9 * usual.scale) << velocity << rough;
                 EXPECT_LT(usual.points, rough ? 3000 : 600) << velocity;
             }

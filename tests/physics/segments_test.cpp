@@ -128,7 +128,7 @@ TEST(Slides, WorkIsStoredOrLostAndForceIsTheGradient) {
         int compared = 0;
         for (std::size_t i = 3; i + 1 < points.size(); ++i) {
             const StepRecord &l = points[i - 1], &r = points[i];
-            if (r.damped != points[i - 3].damped) continue;
+            if (r[Term::lost] != points[i - 3][Term::lost]) continue;
             ForceTrail trail;
             trail.begin(points[i - 3].slide[0], points[i - 3].lateral_force[0]);
             trail.add(points[i - 2].slide[0], points[i - 2].lateral_force[0]);
@@ -158,7 +158,7 @@ TEST(Slides, ThereAndBackIsNothingWhereNothingSnaps) {
     EXPECT_EQ(path.dissipation().events, events);
     EXPECT_EQ(path.now().slide, (std::array{0.0, 0.0}));
     EXPECT_NEAR(energy(path.now()), energy(before), 1e-6 * c.sites());
-    EXPECT_NEAR(path.now().work, before.work, 1e-5 * c.sites());
+    EXPECT_NEAR(path.now()[Term::work], before[Term::work], 1e-5 * c.sites());
 }
 
 TEST(Slides, OverAPeriodOfACrystalDoNoWorkButWhatIsLost) {

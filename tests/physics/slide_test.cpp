@@ -118,12 +118,13 @@ TEST(SlideOverWall, FrictionOfOneWaveIsThatOfTheLossModulus) {
             c.block.begin_step(HUGE_VAL);
             c.block.end_step();
             const double turning = along > 0.0 ? 1.0 : -1.0;
+            const std::vector<RestoredArray> extensions = c.block.memories().front()->arrays();
             for (std::size_t k = 0; k < branches.size(); ++k) {
                 const double x = omega * branches[k].time, loss = x / (1.0 + x * x);
                 for (int j = 0; j < sites; ++j)
                     for (int i = 0; i < sites; ++i) {
                         const double phase = 2.0 * pi * (kx * i + ky * j) / sites;
-                        (*c.block.memory())[k][0].plane(0)(i, j) =
+                        extensions[k].field->plane(0)(i, j) =
                             h * loss * (x * std::cos(phase) - turning * std::sin(phase));
                     }
             }
@@ -138,7 +139,7 @@ TEST(SlideOverWall, FrictionOfOneWaveIsThatOfTheLossModulus) {
             const double area = c.edge() * c.edge();
             EXPECT_NEAR(path.lateral_work() / c.edge(), sigma * area, 1e-3 * sigma * area)
                 << kx << " " << ky << " along " << axis << ", 10^" << decade;
-            EXPECT_NEAR(path.dissipated_in_block(), path.lateral_work(),
+            EXPECT_NEAR(path.in_segment()[Term::in_block], path.lateral_work(),
                         1e-3 * path.lateral_work());
             for (const StepRecord& p : points)
                 ASSERT_NEAR(p.force, pressure * area, 1e-6 * pressure * area);
@@ -197,11 +198,11 @@ TEST(SlideOverWall, UntilSteadyItBeginsWithTheFrictionOfTheClosedForm) {
                 ASSERT_NEAR(points[i].lateral_force[static_cast<std::size_t>(axis)], force,
                             2e-3 * std::abs(force))
                     << axis << ", " << omega * tau << ", point " << i;
-            EXPECT_NEAR(path.lateral_work(), path.dissipated_in_block(),
+            EXPECT_NEAR(path.lateral_work(), path.in_segment()[Term::in_block],
                         2e-3 * path.lateral_work());
             EXPECT_NEAR(path.work() - path.lateral_work(), path.settling_work(),
                         1e-12 * std::abs(path.settling_work()));
-            EXPECT_NEAR(path.work(), path.stored() + path.dissipated_in_block(),
+            EXPECT_NEAR(path.work(), path.stored() + path.in_segment()[Term::in_block],
                         2e-3 * path.lateral_work());
         }
 }
@@ -238,7 +239,7 @@ TEST(SlideOverWall, UntilSteadyItBeginsWhereALongSlideComes) {
             friction[settled] = path.lateral_work() / s.amount;
             contact[settled] = static_cast<double>(points.back().in_contact);
             EXPECT_NEAR(path.work(),
-                        path.stored() + path.dissipated_in_block() + path.dissipation().in_segment,
+                        path.stored() + path.in_segment().losses(),
                         1e-3 * std::abs(path.lateral_work()) + path.uncertainty());
             EXPECT_EQ(path.settling_work() != 0.0, settled);
         }
@@ -266,7 +267,8 @@ TEST(SlideOverWall, WorkIsWhatTheBlockAndInstabilitiesLose) {
                 path.begin(slide(axis, 8.0, loaded ? std::optional(load) : std::nullopt));
                 const auto points = points_of(path);
                 const double work = path.work(), lateral = path.lateral_work();
-                const double spent = path.dissipated_in_block() + path.dissipation().in_segment;
+                const double spent =
+                    path.in_segment().losses();
                 ASSERT_GT(lateral, 0.0);
                 EXPECT_NEAR(work, path.stored() + spent, 1e-3 * lateral)
                     << adhesion << " " << loaded << " " << axis << " of " << lateral << " in "
@@ -276,7 +278,7 @@ TEST(SlideOverWall, WorkIsWhatTheBlockAndInstabilitiesLose) {
                         ASSERT_NEAR(points[i].force, load, 1e-3 * load);
                 else
                     EXPECT_EQ(work, lateral);
-                EXPECT_GT(path.dissipated_in_block(), 0.2 * lateral);
+                EXPECT_GT(path.in_segment()[Term::in_block], 0.2 * lateral);
             }
 }
 
@@ -321,7 +323,7 @@ TEST(SlideOverWall, ForceIsTheDerivativeOfTheEnergy) {
             points_of(path);
             const StepRecord to = path.now();
             const double mean = -0.5 * (from.lateral_force[a] + to.lateral_force[a]);
-            EXPECT_NEAR(to.energy() - from.energy(), mean * by, 2e-4 * std::abs(mean) * by + 1e-9);
+            EXPECT_NEAR(to.stored() - from.stored(), mean * by, 2e-4 * std::abs(mean) * by + 1e-9);
             path.begin(slide(axis, 0.83));
             points_of(path);
         }

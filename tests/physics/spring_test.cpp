@@ -46,9 +46,9 @@ TEST(Spring, IsInSeriesWithTheBlock) {
         b.hold(Constraint::top(drive));
         EXPECT_NEAR(b.top_force(), -k * drive, 1e-12 * k);
         EXPECT_NEAR(spring * (drive - b.top()), -b.top_force(), 1e-10 * k) << "balance of the top";
-        const BlockEnergies e = b.energies();
-        EXPECT_NEAR(e.machine_energy, 0.5 * k * k / spring * drive * drive, 1e-12 * k);
-        EXPECT_NEAR(e.elastic_energy, 0.5 * k * drive * drive, 1e-12 * k);
+        const StepEnergies e = b.energies();
+        EXPECT_NEAR(e[Term::spring], 0.5 * k * k / spring * drive * drive, 1e-12 * k);
+        EXPECT_NEAR(e[Term::elastic], 0.5 * k * drive * drive, 1e-12 * k);
         EXPECT_EQ(b.drive(), drive);
         const double load = 0.1 * block; // by which both are compressed
         b.hold(Constraint::load(load));
@@ -65,7 +65,7 @@ TEST(Spring, ThatIsRigidIsNone) {
     }
     EXPECT_NEAR(none.block.top_force(), rigid.block.top_force(), 1e-7);
     EXPECT_EQ(none.block.top(), -0.4);
-    EXPECT_EQ(none.block.energies().machine_energy, 0.0);
+    EXPECT_EQ(none.block.energies()[Term::spring], 0.0);
 }
 
 TEST(Spring, LetsTheBlockJumpInAtItsStiffnessTimesTheRange) {
@@ -107,7 +107,7 @@ TEST(Spring, LosesMoreTheSofterItIs) {
         // What the drive puts in is lost: at the end the spring is relaxed.
         EXPECT_NEAR(path.work(Segment::approach) + path.work(Segment::pull_off), lost,
                     path.uncertainty(Segment::approach) + path.uncertainty(Segment::pull_off));
-        EXPECT_NEAR(out.back().machine_energy, 0.0, 1e-6 * (lost + 1.0));
+        EXPECT_NEAR(out.back()[Term::spring], 0.0, 1e-6 * (lost + 1.0));
         // The largest attraction is that of the law, whatever holds the block.
         EXPECT_NEAR(test::strongest_of(out), held.sites() * adhesion / range,
                     0.01 * held.sites() * adhesion / range);
@@ -129,6 +129,6 @@ TEST(Spring, InAStablePathOnlyMovesTheDrive) {
         stiff.block.set_uniform(0.0);
         const RelaxedState rigid = stiff.relax(Constraint::top(point.top), 1e-6);
         EXPECT_NEAR(rigid.force, point.force, 1e-4);
-        EXPECT_NEAR(rigid.elastic_energy, point.elastic_energy - point.machine_energy, 1e-4);
+        EXPECT_NEAR(rigid[Term::elastic], point[Term::elastic] - point[Term::spring], 1e-4);
     }
 }

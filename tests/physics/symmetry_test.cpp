@@ -91,8 +91,8 @@ std::vector<double> path(const Block16& block, const InterfaceOptions& interface
     std::vector<double> series;
     for (int n = 0; n < 160; ++n) {
         const StepRecord& now = s.step(true);
-        series.insert(series.end(), {now.force, now.interface_energy, now.elastic_energy,
-                                     now.kinetic_energy, static_cast<double>(now.in_contact)});
+        series.insert(series.end(), {now.force, now[Term::interface], now[Term::elastic],
+                                     now[Term::kinetic], static_cast<double>(now.in_contact)});
     }
     return series;
 }
@@ -164,7 +164,7 @@ TEST(Gradient, TheSpectralBlockAndInterfaceHaveOneEnergy) {
                     }
                     auto g = block.new_waves<double>();
                     const auto energy = [&] {
-                        return block.energies().elastic_energy +
+                        return block.energies()[Term::elastic] +
                                interface
                                    .sweep(block.lowest_layer(), block.interface_force(),
                                           {.observe = true, .height = 3.7})

@@ -345,7 +345,7 @@ TEST(Wall, OneStateUnderThreeConstraints) {
         const RelaxedState held = at.relax(Constraint::mean_height(pressed.mean_height));
         EXPECT_NEAR(held.top_force, load, 1e-3 * load);
         EXPECT_NEAR(held.mean_height, pressed.mean_height, 1e-9);
-        EXPECT_NEAR(held.interface_energy, pressed.interface_energy, 1e-4 * at.sites() * 1e-2);
+        EXPECT_NEAR(held[Term::interface], pressed[Term::interface], 1e-4 * at.sites() * 1e-2);
         EXPECT_EQ(held.in_contact, pressed.in_contact);
         // Force is the slope of the energy along the held height.
         const double d = 1e-3;

@@ -78,7 +78,7 @@ TEST(ZeroLoad, FlatOnFlatBindsAsTheTableSays) {
             ASSERT_TRUE(relaxed.state.converged);
             EXPECT_NEAR(relaxed.binding_energy, flat.binding, 2e-7) << flat.cutoff;
             EXPECT_NEAR(relaxed.mean_height, flat.separation, 1e-6);
-            EXPECT_NEAR(relaxed.state.elastic_energy, 0.0, 1e-10);
+            EXPECT_NEAR(relaxed.state[Term::elastic], 0.0, 1e-10);
             EXPECT_EQ(relaxed.state.in_contact, 64);
         }
         // What gamma_eff is divided by is the same number.
@@ -105,7 +105,7 @@ TEST_P(ReferenceCase, LatticeAndSpectral) {
             << why_not_converged(r.state, 1e-6) << " after " << r.state.iterations;
         EXPECT_NEAR(r.binding_energy, c.binding, c.binding_tolerance * c.binding);
         EXPECT_NEAR(r.pairwise, c.pairwise, first_order * c.pairwise);
-        EXPECT_NEAR(r.state.elastic_energy, c.elastic, 2.0 * first_order * c.elastic);
+        EXPECT_NEAR(r.state[Term::elastic], c.elastic, 2.0 * first_order * c.elastic);
         EXPECT_NEAR(r.mean_height, c.mean_height, first_order);
         EXPECT_EQ(r.state.in_contact, c.contact);
         EXPECT_EQ(r.state.repulsive, c.repulsive);

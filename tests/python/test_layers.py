@@ -13,7 +13,7 @@ import asperity
 SUBPACKAGES = {
     "errors": (), "units": (), "arguments": (), "terminal": (),
     "files": ("store",),
-    "results": ("values", "frames", "result"),
+    "results": ("values", "frames", "losses", "result"),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "master_curve", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),

@@ -4,15 +4,17 @@
 cycle, and every place that shows one loss shows the others."""
 
 import json
+import shutil
 
+import matplotlib.pyplot as plt
 import pytest
 
 import asperity
 from asperity.plots import sweep as sweep_plots
 from asperity.reports import run as report, sentences
-from asperity.running import program
+from asperity.results.losses import losses
 from asperity.studies import quantities, tables
-from conftest import command
+from conftest import command, unsealed
 
 ATOMS = {"surface": {"sites": 12, "rms": 0.4}, "block": {"young": 20.0, "poisson": 0.3, "thickness": 30},
          "drive": {"mode": "quasistatic", "velocity": 1.0}}
@@ -65,29 +67,44 @@ def test_the_books_of_a_path_close(place, kind, relaxes, control, path):
                 assert run.number(f"{key}.{way}") == line[key]
 
 
-def companions(place, names):
-    """What stands beside names of losses: each `lost` has the other terms."""
-    for name in [n for n in names if "lost" in n.split(".")]:
-        for other in ("dissipated_in_block", "stored"):
-            # Over a cycle nothing is stored, and a plot of losses has no energies.
-            if other != "stored" or not ("uncertainty" in name or "cycle" in name or "plot" in place):
-                yield name, name.replace("lost", other)
+def with_another_loss(place, run):
+    """A copy of a run whose engine has one loss more, of the sites: its names are those of the loss of the block."""
+    file, renamed = run.directory / "result.json", ("dissipated_in_block", "dissipated_in_sites")
+    def more(node):
+        if not isinstance(node, dict):
+            return [more(one) for one in node] if isinstance(node, list) else node
+        new = {key: more(value) for key, value in node.items()}
+        return new | {renamed[1]: new[renamed[0]]} if renamed[0] in new else new
+    shutil.copytree(run.directory, place)
+    (place / "result.json").write_text(json.dumps(more({k: v for k, v in json.loads(file.read_text()).items() if k != "digest"})))
+    with unsealed(place / "run.h5") as run_h5:
+        run_h5["series"].copy(renamed[0], run_h5["series"], renamed[1])
+    return asperity.load(place)
 
 
-def test_wherever_a_loss_is_named_its_companions_are():
-    places = {
-        "results": list(program.quantities()),
-        "estimate": [q.path for q in quantities.FLAT],
-        "estimate of a sphere": [q.path for q in quantities.CURVED],
-        "table of a sweep": [name for _, name, _ in tables.OF_SIMULATION],
-        "segments in a report": list(report.SEGMENT_COLUMNS),
-    }
-    for name, (_, _, traces) in sweep_plots.SIMULATED.items():
-        places[f"plot of a sweep: {name}"] = [t.column for t in traces] + [t.uncertainty for t in traces]
-    assert sum("lost" in name for names in places.values() for name in names) > 8
-    for place, names in places.items():
-        for name, other in companions(place, names):
-            assert other in names, f"{place}: {name} without {other}"
+def test_a_further_loss_is_wherever_losses_are(rubber, tmp_path):
+    place, scene = rubber
+    run = with_another_loss(tmp_path / "run", asperity.run(scene, out=tmp_path / "one"))
+    assert losses(run) == losses(run.series) == {"block": "dissipated_in_block", "sites": "dissipated_in_sites"}
+    assert {q.path for q in quantities.quantities_of(run, False)} >= {name + ".cycle" for name in losses(run).values()}
+    words = " ".join(sentences.results(run))
+    shown = {number.name for number in sentences.key_numbers(run)}
+    page = report.write_run_page(run, ())
+    assert page is not None
+    html = (run.directory / "report.html").read_text()
+    _, axes = plt.subplots()
+    assert run.plot.energy(axes)
+    drawn = {text.get_text() for text in axes.get_legend().get_texts()}
+    point = {"set": {"drive.velocity": 1.0}, "theory": {}, "status": tables.DONE, "result": tables.columns_of(run)}
+    table = tables.Table(["drive.velocity"], [point], True)
+    heads, traces = tables.text_of(table)[0], sweep_plots.losses_of([table])
+    for where in losses(run):
+        assert f"The {where} dissipates" in words
+        assert f"dissipated in the {where} in a cycle" in shown
+        assert f"dissipated in the {where}" in html and f" + dissipated in the {where}" in html
+        assert f"dissipated in the {where}" in drawn
+        assert f"in the {where}{tables.BOTH}" in heads
+        assert f"in the {where}, cycle" in {trace.label for trace in traces}
 
 
 @pytest.fixture(scope="module")

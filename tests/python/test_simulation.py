@@ -52,7 +52,7 @@ def test_numbers_are_those_of_a_run(path_run, device):
     assert (path_run.series["balance_error"][of_run] == series.pop("error")).all()
     for name, values in series.items():
         assert (path_run.series[name][of_run] == values).all(), name
-        assert path_run.series.unit(name) == asperity.running.engine.SERIES[name][0], name
+        assert path_run.series.unit(name) == sim._units[name], name
     for way in ("approach", "pull_off"):
         assert getattr(sim.work_of_interface, way) == getattr(path_run.work_of_interface, way)
         assert getattr(sim.work_of_drive, way) == getattr(path_run.work_of_drive, way)

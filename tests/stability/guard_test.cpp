@@ -55,10 +55,10 @@ TEST(Guard, SeesWhatIsNoPhysics) {
     EXPECT_TRUE(has(violation(good, -2.0, "point 3").value_or(""), "passed through"));
     // Waves beyond the stability limit have more energy of the time step than any other.
     StepRecord warm = good;
-    warm.kinetic_energy = 3.0, warm.elastic_energy = 2.0, warm.interface_energy = -1.0;
-    warm.time_step_energy = -2.9;
+    warm[Term::kinetic] = 3.0, warm[Term::elastic] = 2.0, warm[Term::interface] = -1.0;
+    warm[Term::time_step] = -2.9;
     EXPECT_FALSE(violation(warm, -4.0, "step 7"));
-    warm.time_step_energy = -3.1;
+    warm[Term::time_step] = -3.1;
     EXPECT_TRUE(has(violation(warm, -4.0, "step 7").value_or(""), "too long for the motion"));
 }
 

@@ -92,8 +92,8 @@ TEST(TimeStep, TheLimitIsSharp) {
             const StepRecord& now = s.step(n < 500 || n >= 3500);
             if (!now.observed) continue;
             double& most = n < 500 ? early : late;
-            most = std::max(most, now.elastic_energy);
-            if (!std::isfinite(now.elastic_energy)) return double{INFINITY};
+            most = std::max(most, now[Term::elastic]);
+            if (!std::isfinite(now[Term::elastic])) return double{INFINITY};
         }
         return late / early;
     };
@@ -139,9 +139,9 @@ Drift drift_over(int steps, bool mixed) {
     double least = 1e300, most = -1e300, kinetic = 0.0;
     for (int n = 0; n < steps; ++n) {
         const StepRecord& now = s.step(true);
-        const double energy = now.interface_energy + now.elastic_energy + now.kinetic_energy;
+        const double energy = now[Term::interface] + now[Term::elastic] + now[Term::kinetic];
         least = std::min(least, energy), most = std::max(most, energy);
-        kinetic = std::max(kinetic, now.kinetic_energy);
+        kinetic = std::max(kinetic, now[Term::kinetic]);
         mean[static_cast<std::size_t>(n / (steps / 10))] += 10.0 * energy / steps;
     }
     const auto [low, high] = std::minmax_element(mean.begin(), mean.end());

@@ -127,8 +127,8 @@ Relaxed numbers_of(const RelaxedState& state, const BlockOptions& options,
     Relaxed relaxed;
     relaxed.state = state;
     const double area = std::pow(options.sites * options.spacing, 2);
-    relaxed.binding_energy = -1e3 * (state.interface_energy + state.elastic_energy) / area;
-    relaxed.pairwise = -1e3 * state.interface_energy / area;
+    relaxed.binding_energy = -1e3 * (state[Term::interface] + state[Term::elastic]) / area;
+    relaxed.pairwise = -1e3 * state[Term::interface] / area;
     relaxed.mean_height = reference_height + state.mean_height;
     return relaxed;
 }
@@ -189,9 +189,10 @@ std::uint64_t mix(std::uint64_t hash, const StepRecord& r) {
                          r.lateral_force[0], r.lateral_force[1]})
         hash = mix(hash, value);
     if (!r.observed) return hash;
-    for (double value : {r.interface_energy, r.elastic_energy, r.kinetic_energy, r.closest,
-                         static_cast<double>(r.in_contact), static_cast<double>(r.repulsive),
-                         r.work, r.damped, r.interface_work, r.residual, r.time_step_energy})
+    for (double value :
+         {r[Term::interface], r[Term::elastic], r[Term::kinetic], r.closest,
+          static_cast<double>(r.in_contact), static_cast<double>(r.repulsive), r[Term::work],
+          r[Term::lost], r[Term::work_of_interface], r.residual, r[Term::time_step]})
         hash = mix(hash, value);
     return hash;
 }

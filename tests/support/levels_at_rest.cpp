@@ -68,8 +68,8 @@ Relaxed relax_levels(const BlockOptions& options, const InterfaceOptions& interf
     state.converged = state.residual <= tolerance;
     ExactSum lowest;
     block.add_lowest_z(lowest);
-    state.elastic_energy = lattice.energy();
-    state.interface_energy = sums.energy.value();
+    state[Term::elastic] = lattice.energy();
+    state[Term::interface] = sums.energy.value();
     state.force = sums.force_z.value();
     state.top_force = lattice.top_force()[2];
     state.mean_height = lowest.value() / sites;

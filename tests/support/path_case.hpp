@@ -56,7 +56,7 @@ private:
         double work = 0.0, uncertainty = 0.0, lost = 0.0;
     };
     Numbers here() const {
-        return {QuasistaticPath::work(), QuasistaticPath::uncertainty(), dissipation().in_segment};
+        return {QuasistaticPath::work(), QuasistaticPath::uncertainty(), in_segment()[Term::lost]};
     }
     Numbers of(Segment::Kind kind) const {
         return begun_ && kind == kind_ ? here() : ended_[static_cast<std::size_t>(kind)];
@@ -168,7 +168,7 @@ inline double strongest_of(const std::vector<StepRecord>& points) {
 }
 
 /// Of a record or a relaxed state.
-inline double energy(const auto& r) { return r.interface_energy + r.elastic_energy; }
+inline double energy(const auto& r) { return r[Term::interface] + r[Term::elastic]; }
 
 /// Flat on flat as one coordinate: N^2 sites at gap z on the spring of the block.
 struct OneDimension {

@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 
 from ..arguments import checks_call, checks_calls
 from ..errors import UnknownName
+from ..results.losses import losses
 from ..results.result import Result, State
 from ..theories import combined
 from ..units import ATTOJOULE, GIGAPASCAL, MILLIJOULE, NANONEWTON
@@ -262,7 +263,8 @@ def energy(run: Result, ax: Axes) -> bool:
             ("kinetic_energy", "kinetic", GREEN, DASHES[3]), ("work", "work of the drive", GREY, DASHES[2]),
             ("damped", "damped", PINK, DASHES[4]),
             ("dissipated", "dissipated", PINK, DASHES[4]),
-            ("dissipated_in_block", "dissipated in the block", GREEN, DASHES[3])):
+            *((name, f"dissipated in the {place}", colour, DASHES[3])
+              for (place, name), colour in zip(losses(run.series).items(), OTHERS))):
         if name in run.series:
             curve(ax, x, run.series[name] * unit, words, colour=colour, line=line)
     if not run.in_newtons:

@@ -20,6 +20,7 @@ from matplotlib.axes import Axes
 
 from ..errors import UnknownName
 from ..files import store
+from ..results.losses import losses
 from ..results.result import Values, load_words
 from ..running import program
 from ..studies.grid import in_decades, shown
@@ -141,16 +142,33 @@ SIMULATED: dict[str, Spec] = {
     "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),
-        Trace("cycle", "lost.cycle", PINK, "", "D"),
-        Trace("in the block, approach", "dissipated_in_block.approach", SKY, "", "<",
-              uncertainty="dissipated_in_block.uncertainty.approach"),
-        Trace("in the block, pull-off", "dissipated_in_block.pull_off", YELLOW, "", ">", False,
-              uncertainty="dissipated_in_block.uncertainty.pull_off"),
-        Trace("in the block, cycle", "dissipated_in_block.cycle", GREEN, "", "^")])}
+        Trace("cycle", "lost.cycle", PINK, "", "D")])}
 OF_THEORY: dict[str, Spec] = {
     "gamma": (GAMMA, [THEORY, RENORMALISED, FULL], []), "area": (CONTACT, AREA, []),
     "full-contact": (GAMMA, [THEORY, FULL], []),
     "friction": (COEFFICIENT, FRICTION, []), "sliding-area": (CONTACT, SLIDING_AREA, [])}
+
+
+def losses_of(tables: Sequence[Table]) -> list[Trace]:
+    """Returns the traces of the losses beside `lost`.
+
+    Parameters
+    ----------
+    tables : Sequence[Table]
+        Tables of sweeps.
+
+    Returns
+    -------
+    list[Trace]
+        Traces of approach, pull-off and cycle for each loss that a table has.
+    """
+    traces = []
+    for place, name in losses(column for table in tables for column in table).items():
+        traces += [Trace(f"in the {place}, approach", f"{name}.approach", SKY, "", "<", uncertainty=f"{name}.uncertainty.approach"),
+                   Trace(f"in the {place}, pull-off", f"{name}.pull_off", YELLOW, "", ">", False,
+                         uncertainty=f"{name}.uncertainty.pull_off"),
+                   Trace(f"in the {place}, cycle", f"{name}.cycle", GREEN, "", "^")]
+    return traces
 
 
 def _label_of(key: str) -> str:
@@ -291,6 +309,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
     if not shared:
         return False
     y, lines, points = (SIMULATED if shared[0].simulated else OF_THEORY)[name]
+    points = points + losses_of([sweep.table for sweep in shared]) * (name == "hysteresis")
     if name == "works" and not any(np.isfinite(points[0].values(s.table)).any() for s in shared):
         return False  # of paths
     simulated = False

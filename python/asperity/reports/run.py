@@ -15,6 +15,7 @@ from types import MappingProxyType
 from .. import terminal
 from ..plots import run as plots
 from ..plots.style import KINDS
+from ..results.losses import losses
 from ..results.result import Result, State, Values
 from ..running import program, scene
 from ..studies.tables import AREA, BOTH
@@ -65,7 +66,7 @@ DISTRIBUTIONS = (
      "beyond the interaction range are left out: the integral is the fraction of the others."),
     ("gaps", "Distribution of gaps", "Probability density of the gaps of all sites; the integral is one."))
 SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOTH, "lost": "lost" + BOTH,
-                   "dissipated_in_block": "dissipated in the block" + BOTH, "stored": "stored" + BOTH,
+                   "stored": "stored" + BOTH,
                    "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
                    "friction": "friction, eV/Å"}
 
@@ -81,14 +82,16 @@ def _words(run: Result) -> dict[str, str]:
     if not run.curved:
         path += ("Straight lines across are jumps, on which the solids are not in force balance." if static and not held else
                  "The integral of a curve along its path is the work of the interface’s force on that segment.")
-    relaxes = " + dissipated in the block" * ("dissipated_in_block" in run.series)
+    places = losses(run.series)
+    others = "".join(f" + dissipated in the {place}" for place in places)
     return {"path": path, "contact": contact,
-            "energy": "Work of the drive = interface + elastic + dissipated" + relaxes + ". Steps of the curves are "
+            "energy": "Work of the drive = interface + elastic + dissipated" + others + ". Steps of the curves are "
                       "instabilities." if static else
                       "Work of the drive = interface + elastic + kinetic + damped" +
                       " + the energy of the time step" * ("time_step_energy" in run.series) + ". The drive is the top plane, and the "
                       "medium of the damping that moves with it.",
-            "loading": "The area between approach and pull-off is the energy lost and dissipated in the block in a cycle." if relaxes else
+            "loading": f"The area between approach and pull-off is the energy lost and dissipated in the {' and the '.join(places)} in a "
+                       "cycle." if places else
                        "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
                        "the damping does is not in it.", "at": run.load_words[0],
@@ -159,14 +162,19 @@ def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
     page.table([*heads.values()], [[cell(line, *head) for head in heads.items()] for line in lines])
 
 
-def _segment_columns(run: Result) -> tuple[dict[str, str], dict[str, float]]:
+def _segment_columns(run: Result, lines: list[Values]) -> tuple[dict[str, str], dict[str, float]]:
     """Returns the heads of the columns of segments and the divisors of their numbers."""
+    heads: dict[str, str] = {}
+    for name, head in SEGMENT_COLUMNS.items():
+        heads[name] = head
+        if name == "lost":
+            heads |= {other: f"dissipated in the {place}" + BOTH for place, other in losses(n for line in lines for n in line).items()}
     if not run.in_newtons:
-        return SEGMENT_COLUMNS, {}
+        return heads, {}
     others = {"pressure": ("force", "ends at, nN", 1.0), "mean_height": ("mean_height", "mean height, nm", 10.0),
               "friction": ("friction", "friction, nN", NANONEWTON)}
     columns = [others.get(name, (name, head.replace(BOTH, ", aJ"), 1e3 * ATTOJOULE / run.edge**2 if head.endswith(BOTH) else 1.0))
-               for name, head in SEGMENT_COLUMNS.items()]
+               for name, head in heads.items()]
     return {name: head for name, head, _ in columns}, {name: unit for name, _, unit in columns}
 
 
@@ -176,7 +184,7 @@ def _segments(page: Page, run: Result) -> None:
         return
     lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")
-    heads, units = _segment_columns(run)
+    heads, units = _segment_columns(run, lines)
     _table(page, {n: head for n, head in heads.items() if any(n in line for line in lines)}, lines, 5, units)
 
 

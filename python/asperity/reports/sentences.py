@@ -9,6 +9,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..results.losses import losses
 from ..results.result import Result, Values, finite
 from ..terminal import duration, millijoules, minus, number
 from ..units import ATTOJOULE, GIGAPASCAL, NANONEWTON
@@ -242,10 +243,11 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off", f"{force / NANONEWTON:.4g} nN in all")
-    relaxes = run.number("dissipated_in_block.cycle") is not None
+    others = _cycle_losses(run)
     for key, name, note in (
-            ("lost.cycle", "lost at instabilities in a cycle" if relaxes else "lost in a cycle (hysteresis)", _loss(run)),
-            ("dissipated_in_block.cycle", "dissipated in the block in a cycle", "as the block is viscoelastic (block.prony)")):
+            ("lost.cycle", "lost at instabilities in a cycle" if others else "lost in a cycle (hysteresis)", _loss(run)),
+            *((loss + ".cycle", f"dissipated in the {place} in a cycle", f"by the {place}, with time")
+              for place, loss in others.items())):
         if (value := run.number(key)) is not None:
             if run.in_newtons:
                 energy_lost, unit = whole(run, value).split()
@@ -298,10 +300,15 @@ def _loss(run: Result) -> str:
     return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
 
 
+def _cycle_losses(run: Result) -> dict[str, str]:
+    """Returns the losses of a cycle beside `lost`: {"block": "dissipated_in_block"}."""
+    return {place: name for place, name in losses(run).items() if run.number(name + ".cycle") is not None}
+
+
 def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
-    """Tells the energy that a viscoelastic block dissipates in a cycle, beside the loss; "" if the block is elastic."""
-    relaxed = run.number("dissipated_in_block.cycle")
-    return "" if relaxed is None else f" The viscoelastic block dissipates {energy(relaxed)}."
+    """Tells the energies that are dissipated in a cycle beside the loss; "" if the solids are elastic."""
+    return "".join(f" The {place} dissipates {energy(run.number(name + '.cycle', 0.0))}."
+                   for place, name in _cycle_losses(run).items())
 
 
 def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:

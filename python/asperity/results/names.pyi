@@ -44,27 +44,6 @@ class WorkOfDrive(Values):
     """meV/Å^2: work of the drive on the solids during the pull-off, until they are at rest beyond the interaction range"""
     uncertainty: WorkOfDriveUncertainty
 
-class LostUncertainty(Values):
-    approach: float
-    """meV/Å^2: convergence of lost.approach"""
-    pull_off: float
-    """meV/Å^2: convergence of lost.pull_off"""
-
-class Lost(Values):
-    approach: float
-    """meV/Å^2: energy lost during the approach"""
-    pull_off: float
-    """meV/Å^2: energy lost during the pull-off"""
-    cycle: float
-    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off"""
-    uncertainty: LostUncertainty
-
-class Kinetic(Values):
-    approach: float
-    """meV/Å^2: kinetic and vibrational energy left at the end of the approach"""
-    pull_off: float
-    """meV/Å^2: kinetic and vibrational energy left at the end of the pull-off"""
-
 class DissipatedInBlockUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of dissipated_in_block.approach"""
@@ -73,12 +52,33 @@ class DissipatedInBlockUncertainty(Values):
 
 class DissipatedInBlock(Values):
     approach: float
-    """meV/Å^2: energy dissipated by a viscoelastic block"""
+    """meV/Å^2: energy dissipated by a viscoelastic block, during the approach"""
     pull_off: float
-    """meV/Å^2: energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off"""
+    """meV/Å^2: energy dissipated by a viscoelastic block, during the pull-off, with the recovery of the solids after they ..."""
     cycle: float
-    """meV/Å^2: energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"""
+    """meV/Å^2: energy dissipated by a viscoelastic block, in a whole cycle, from and to rest beyond the interaction range"""
     uncertainty: DissipatedInBlockUncertainty
+
+class LostUncertainty(Values):
+    approach: float
+    """meV/Å^2: convergence of lost.approach"""
+    pull_off: float
+    """meV/Å^2: convergence of lost.pull_off"""
+
+class Lost(Values):
+    approach: float
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, during the ..."""
+    pull_off: float
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, during the ..."""
+    cycle: float
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, in a whole ..."""
+    uncertainty: LostUncertainty
+
+class Kinetic(Values):
+    approach: float
+    """meV/Å^2: kinetic and vibrational energy left at the end of the approach"""
+    pull_off: float
+    """meV/Å^2: kinetic and vibrational energy left at the end of the pull-off"""
 
 class Stored(Values):
     approach: float
@@ -127,10 +127,10 @@ class Segment(Values):
     """meV/Å^2: work of the drive on the solids, including work sideways"""
     work_of_interface: float
     """meV/Å^2: work of the interface, ∫ F dz of the mean height"""
-    lost: float
-    """meV/Å^2: energy damped in the segment, or dissipated at instabilities"""
     dissipated_in_block: float
-    """meV/Å^2: energy dissipated by a viscoelastic block in the segment, apart from lost"""
+    """meV/Å^2: energy dissipated by a viscoelastic block, in the segment"""
+    lost: float
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, in the segment"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
@@ -138,7 +138,7 @@ class Segment(Values):
     kinetic: float
     """meV/Å^2: kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic path at T = 0, as ..."""
     uncertainty: float
-    """meV/Å^2: convergence of work_of_drive, lost and dissipated_in_block"""
+    """meV/Å^2: convergence of work_of_drive and of the losses"""
     largest_attraction: float
     """eV/Å: largest attraction in the segment"""
     friction: float
@@ -330,25 +330,25 @@ class Relaxed(Values):
 
 class Energy(Values):
     balance_error: float
-    """energy balance"""
+    """energy balance at the last recorded step"""
+    interface: float
+    """eV: energy of the interface, of pairs or of the law of a wall"""
+    spring: float
+    """eV: part of the elastic energy in the spring that holds the top plane"""
+    branches: float
+    """eV: part of the elastic energy in the branches of a viscoelastic block"""
+    elastic: float
+    """eV: elastic energy"""
+    kinetic: float
+    """eV: kinetic energy"""
+    time_step: float
+    """eV: energy of the time step at a temperature, -"""
     work: float
     """eV: work of the drive on the solids, counted from rest apart"""
-    kinetic: float
-    """eV: kinetic energy at the last recorded step"""
-    elastic: float
-    """eV: elastic energy at the last recorded step"""
-    interface: float
-    """eV: energy of the interface at the last recorded step"""
-    time_step: float
-    """eV: at a temperature"""
-    damped: float
-    """eV: energy lost since the start"""
-    spring: float
-    """eV: part of energy.elastic in the spring that holds the top plane"""
-    branches: float
-    """eV: part of energy.elastic in the branches of a viscoelastic block"""
     dissipated_in_block: float
-    """eV: energy dissipated by the branches of a viscoelastic block since the start, apart from energy.damped"""
+    """eV: energy dissipated by a viscoelastic block"""
+    damped: float
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
 
 class Surface(Values):
     rms: float
@@ -446,9 +446,9 @@ class Numbers:
     pair_binding_energy: float
     """meV/Å^2: -U_LJ of the relaxed state"""
     work_of_drive: WorkOfDrive
+    dissipated_in_block: DissipatedInBlock
     lost: Lost
     kinetic: Kinetic
-    dissipated_in_block: DissipatedInBlock
     stored: Stored
     contact_fraction: float
     """sites in contact at zero load"""
@@ -685,27 +685,27 @@ class SeriesArrays:
     lateral_force_y: np.ndarray
     """eV/Å: force of the substrate on the lowest layer along y"""
     interface_energy: np.ndarray
-    """eV: energy of the interface"""
-    branch_energy: np.ndarray
-    """eV: part of elastic_energy in the branches of a viscoelastic block"""
+    """eV: energy of the interface, of pairs or of the law of a wall"""
     spring_energy: np.ndarray
-    """eV: part of elastic_energy in the spring that holds the top plane"""
+    """eV: part of the elastic energy in the spring that holds the top plane"""
+    branch_energy: np.ndarray
+    """eV: part of the elastic energy in the branches of a viscoelastic block"""
     elastic_energy: np.ndarray
     """eV: elastic energy"""
     kinetic_energy: np.ndarray
     """eV: kinetic energy"""
     time_step_energy: np.ndarray
-    """eV: at a temperature"""
+    """eV: energy of the time step at a temperature, -"""
     work: np.ndarray
-    """eV: work of the drive on the solids, counted from rest apart, as energy.work"""
+    """eV: work of the drive on the solids, counted from rest apart"""
     work_of_interface: np.ndarray
     """eV: work of the interface's force on the mean height since the start, ∫ F dz"""
-    damped: np.ndarray
-    """eV: energy damped since the start, minus the heat of the thermostat's noise"""
-    dissipated: np.ndarray
-    """eV: energy dissipated at instabilities since the start"""
     dissipated_in_block: np.ndarray
-    """eV: energy dissipated by the branches of a viscoelastic block since the start"""
+    """eV: energy dissipated by a viscoelastic block, since the start"""
+    damped: np.ndarray
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, since the start"""
+    dissipated: np.ndarray
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, since the start"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray

@@ -145,10 +145,9 @@ SERIES: dict[str, tuple[str, Callable[[Simulation], float]]] = {
     "segment": ("1", lambda s: s._segment_number), "top_displacement": ("Å", lambda s: s._top_then), "force": ("eV/Å", lambda s: s.force),
     "top_force": ("eV/Å", lambda s: s.top_force), "mean_height": ("Å", lambda s: s.mean_height),
     "contact_fraction": ("1", lambda s: s.contact), "repulsive_fraction": ("1", lambda s: s.repulsive_fraction),
-    "interface_energy": ("eV", lambda s: s.energy.interface), "elastic_energy": ("eV", lambda s: s.energy.elastic),
-    "kinetic_energy": ("eV", lambda s: s.energy.kinetic), "work": ("eV", lambda s: s.energy.work),
-    "damped": ("eV", lambda s: s.energy.damped), "balance_error": ("1", lambda s: s.energy.balance_error)}
-"""Columns of the engine in Simulation.series, as in run.h5: unit, value. segment: -1 while the top is led by hand."""
+    "balance_error": ("1", lambda s: s.energy.balance_error)}
+"""Columns of the engine in Simulation.series beside the energies, as in run.h5: unit, value. segment: -1 while the top is led by
+hand."""
 
 
 @contextlib.contextmanager
@@ -382,9 +381,9 @@ class Simulation(_engine.Simulation):
         if found is None:
             return
         if not self._rows or self._rows[-1]["step"] != self.steps - 1:
-            self._rows.append({column: float(value(self)) for column, (_, value) in SERIES.items()})
+            self._rows.append({column: float(value(self)) for column, (_, value) in SERIES.items()} | self._energies)
         for column, value in (found if isinstance(found, Mapping) else {name: found}).items():
-            if column in SERIES:
+            if column in self._units:
                 raise SceneError("every", f"an observer returned a column {column}", "the engine has one of that name",
                                  "give it another name: every(n, observer, name)")
             try:
@@ -395,10 +394,15 @@ class Simulation(_engine.Simulation):
                                  ) from None
 
     @property
+    def _units(self) -> dict[str, str]:
+        """Units of the engine's columns in series, by name."""
+        return {name: unit for name, (unit, _) in SERIES.items()} | dict.fromkeys(self._energies, "eV")
+
+    @property
     def series(self) -> dict[str, numpy.ndarray]:
         """Columns by name: the values of observers, with one row for each step at which an observer returned a value, and the
         engine's columns (step, time, force, ..., with names and units of run.h5). NaN: no value at this step."""
-        names = dict.fromkeys([*SERIES, *(name for row in self._rows for name in row)])
+        names = dict.fromkeys([*self._units, *(name for row in self._rows for name in row)])
         return NamedArrays((name, numpy.array([row.get(name, numpy.nan) for row in self._rows])) for name in names)
 
     def write(self, directory: str | os.PathLike) -> Path:
@@ -441,7 +445,7 @@ class Simulation(_engine.Simulation):
 
     def _write(self, directory: str | os.PathLike, maps: dict[str, numpy.ndarray]) -> Path:
         place = store.chosen(os.fspath(directory), "")
-        units = {name: unit for name, (unit, _) in SERIES.items()}
+        units = self._units
         with lock.in_use(place):
             if (place / "result.json").exists():
                 raise SceneError(str(place), "already holds a result, result.json", "results are not written over",

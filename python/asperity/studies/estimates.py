@@ -29,7 +29,7 @@ from ..running.scene import Overrides, SceneLike, assignments, file_beside, inpu
 from ..terminal import duration
 from ..units import GIGAPASCAL
 from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
-from .quantities import CURVED, FLAT, number_of
+from .quantities import number_of, quantities_of
 from .stated_number import Found, Number
 from .variations import Setting, Study, Variation, Variations
 
@@ -323,7 +323,7 @@ def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
     stated."""
     base = plan.scene.outcome.result
     found: dict[str, Number] = {}
-    for q in CURVED if curved else FLAT:
+    for q in quantities_of(base, curved):
         value = number_of(base, q.path)
         if math.isnan(value):
             continue

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from ..results.losses import losses
 from ..results.result import Values
 from ..units import GIGAPASCAL
 
@@ -30,10 +31,28 @@ FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("work_of_drive.approach", "w_in", "work of the drive on the solids on the approach (negative: they pull it)", 2),
         Quantity("work_of_drive.pull_off", "w_out", "work of the drive on the solids on the pull-off", 2),
         Quantity("lost.cycle", "w_lost", "energy lost in a cycle", 1),
-        Quantity("dissipated_in_block.cycle", "w_block", "energy dissipated in the block in a cycle", 1),
         Quantity("pull_off_stress", "σ_off", "pull-off stress: the largest attraction over the area", 1))
 CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
+
+
+def quantities_of(result: Values, curved: bool) -> tuple[Quantity, ...]:
+    """Returns the quantities that are stated.
+
+    Parameters
+    ----------
+    result : Values
+        Contents of result.json.
+    curved : bool
+        The substrate is a sphere.
+
+    Returns
+    -------
+    tuple[Quantity, ...]
+        The quantities; each loss beside `lost` is one.
+    """
+    return CURVED if curved else FLAT + tuple(
+        Quantity(name + ".cycle", f"w_{place}", f"energy dissipated in the {place} in a cycle", 1) for place, name in losses(result).items())
 
 
 def number_of(result: Values, path: str) -> float:

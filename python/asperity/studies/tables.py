@@ -15,6 +15,7 @@ import numpy as np
 from ..arguments import checks_calls
 from ..errors import Named, UnknownName
 from ..results.frames import data_frame, data_set
+from ..results.losses import losses
 from ..results.result import Values, finite
 from ..running import program
 from ..running.pool import DONE
@@ -208,7 +209,6 @@ OF_SIMULATION = (("state", "binding_energy_ratio", 4), ("interface, in", "work_o
                  ("±", "slide.friction_coefficient_error", 4), ("sliding A/A0", "slide.steady_contact_fraction", 4),
                  ("theory μ", "theory.sliding.friction_coefficient", 4), ("theory A/A0", "theory.sliding.contact_fraction", 4),
                  ("lost" + BOTH, "lost.cycle", 4),
-                 ("in the block" + BOTH, "dissipated_in_block.cycle", 4),
                  ("theory", "theory.persson.gamma_eff_ratio", 4), ("theory, contact", "theory.persson.contact_fraction", 4),
                  ("renormalised", "theory.renormalised.gamma_eff_ratio", 4))
 OF_THEORY = tuple((head, "theory." + name, digits) for head, name, digits in (
@@ -244,8 +244,11 @@ def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
     """
     axes = [key for key in table.axes if not is_seed(key)]
     slides = np.isfinite(table.column("theory.sliding.friction_coefficient")).any()  # in place of theories of adhesion
+    shown_columns = OF_SIMULATION if table.simulated else OF_THEORY
+    at = [name for _, name, _ in OF_SIMULATION].index("lost.cycle") + 1
+    others = [(f"in the {place}" + BOTH, name + ".cycle", 4) for place, name in losses(table).items()]
     cells = [(head, table.average(column), digits)
-             for head, name, digits in (OF_SIMULATION if table.simulated else OF_THEORY)
+             for head, name, digits in (*shown_columns[:at], *others, *shown_columns[at:])
              if np.isfinite(column := table.column(name)).any() and not (slides and name.startswith(OF_ADHESION))]
     rows = []
     for group, (values, places) in enumerate(table.groups):
