@@ -8,6 +8,7 @@
 #include "engine/energy/energies.hpp"
 
 #include <array>
+#include <numbers>
 
 namespace asperity {
 
@@ -23,6 +24,14 @@ struct ContactCount {
         v("closest", closest);
     }
 };
+
+/// Returns the contact area over a wall in sites: the number of sites in contact less what the
+/// sites at the edges of contacts count too much, (pi - 1 + ln 2)/24 of a site for each of
+/// Interface::contact_edges() (Yastrebov, Anciaux and Molinari, Int. J. Solids Struct. 110 (2017),
+/// arXiv:1701.02727).
+inline double contact_sites(double in_contact, double edges) {
+    return in_contact - (std::numbers::pi - 1.0 + std::numbers::ln2) / 24.0 * edges;
+}
 
 /// Place of the block at a step or point, and the forces on it.
 struct PlaceAndForces {

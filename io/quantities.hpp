@@ -186,17 +186,25 @@ inline constexpr Quantity written_quantities[] = {
      "mean force against the slide; for a steady slide of a viscoelastic block the dissipated "
      "energy divided by the distance, which is more accurate"},
     {"segments[].steady_friction_error", "eV/Å", per::block,
-     "standard error of steady_friction, by blocking, as for the following values; for a steady "
-     "slide at least the difference between dissipated energy and work, divided by the distance"},
+     "error of steady_friction: the standard error, by blocking, as for the following values, at "
+     "least the difference between the dissipated energy or the work and the work of the forces, "
+     "divided by the distance; over a self-affine map of a continuum with the part of the spacing"},
     {"segments[].friction_stress", "MPa", "", "steady_friction divided by the area of the box"},
     {"segments[].friction_coefficient", "1", "",
      "steady_friction divided by the normal force; omitted under tension"},
-    {"segments[].friction_coefficient_error", "1", "", "standard error of friction_coefficient"},
+    {"segments[].friction_coefficient_error", "1", "",
+     "error of friction_coefficient, as steady_friction_error"},
     {"segments[].steady_pressure", "MPa", "",
      "mean normal force of the substrate on the lowest layer, divided by the area of the box"},
     {"segments[].steady_contact_fraction", "1", per::sites, "mean contact fraction"},
     {"segments[].steady_contact_fraction_error", "1", per::sites,
      "standard error of steady_contact_fraction"},
+    {"segments[].steady_contact_area", "1", per::area,
+     "mean area in contact with the wall, as contact_area"},
+    {"segments[].steady_contact_area_uncertainty", "1", per::area,
+     "error of steady_contact_area: that of the spacing, as of contact_area, and the standard "
+     "error "
+     "of the mean"},
     {"segments[].steady_mean_height", "Å", "", "average of the mean height of the lowest layer"},
     {"segments[].steady_{loss}", "eV/Å", per::block,
      "part of steady_friction: {meaning}, divided by the distance"},

@@ -26,7 +26,6 @@
 
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -111,13 +110,6 @@ struct Case {
     bool jumps_as_a_whole() const;
     /// Returns a number of sites divided by the number of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
-    /// Returns the share of the area in contact with a wall, from the number of sites in contact
-    /// and of contact_edges(): a site at the edge of a contact is counted whole, and the edge takes
-    /// (pi - 1 + ln 2)/24 of a site from it for each neighbour that is not in contact (Yastrebov,
-    /// Anciaux and Molinari, Int. J. Solids Struct. 110 (2017), arXiv:1701.02727).
-    double contact_area(double in_contact, double edges) const {
-        return (in_contact - (std::numbers::pi - 1.0 + std::numbers::ln2) / 24.0 * edges) / sites();
-    }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.
     int substrate() const { return surface.sites; }
     /// Returns the cut of the box: slabs of rows on quasi-static paths, tiles on dynamic ones.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/slide_average.hpp"
 
+#include "engine/step_record.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -110,11 +112,11 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const auto bins = static_cast<std::size_t>(std::floor(end / width + 1e-9));
     const double from = end - static_cast<double>(bins) * width;
     /// Means over the bins of what adds up; or of the points' own numbers.
-    const auto rate = [&](Term term) {
+    const auto rate = [&](const std::function<double(const SlidePoint&)>& number) {
         std::vector<double> list;
         for (std::size_t i = 0; i < bins; ++i)
-            list.push_back((at(from + static_cast<double>(i + 1) * width, flow(term)) -
-                            at(from + static_cast<double>(i) * width, flow(term))) /
+            list.push_back((at(from + static_cast<double>(i + 1) * width, number) -
+                            at(from + static_cast<double>(i) * width, number)) /
                            width);
         return list;
     };
@@ -130,7 +132,7 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
         }
         return list;
     };
-    const std::vector<double> work = rate(Term::work);
+    const std::vector<double> work = rate(flow(Term::work));
     std::vector<double> lost(bins, 0.0); // all losses
     std::size_t first = 0;
     double smallest = std::numeric_limits<double>::infinity();
@@ -147,12 +149,15 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const std::vector<double> contact = value(&SlidePoint::in_contact);
     s.in_contact = mean_from(contact, first);
     s.in_contact_error = error_of_mean(rest(contact));
+    s.area = contact_sites(s.in_contact, mean_from(value(&SlidePoint::contact_edges), first));
+    s.area_error = std::hypot(0.5 * (s.in_contact - s.area), s.in_contact_error);
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
-    double missing = mean_from(work, first); // work that no loss explains
+    const double left_out = mean_from(rate(std::mem_fn(&SlidePoint::work_left_out)), first);
+    double missing = mean_from(work, first) + left_out; // work of forces that no loss explains
     for (const io::EnergyTerm& row : io::energy_terms) {
         if (!row.is_loss()) continue;
-        const std::vector<double> of_term = rate(row.term);
+        const std::vector<double> of_term = rate(flow(row.term));
         s.losses[row.term] = mean_from(of_term, first);
         missing -= s.losses[row.term];
         std::transform(lost.begin(), lost.end(), of_term.begin(), lost.begin(), std::plus());
@@ -161,7 +166,13 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const std::vector<double>& friction = s.steady && s.losses.dissipated() > 0.0 ? lost : work;
     s.friction = mean_from(friction, first);
     s.friction_error = error_of_mean(rest(friction));
-    if (s.steady) s.friction_error = std::max(s.friction_error, std::abs(missing));
+    s.friction_error = std::max(s.friction_error, std::abs(s.steady ? missing : left_out));
+    if (lengths.shortest_wave > 0.0 && s.area > 0.0) {
+        const double a_over_wave = lengths.spacing / lengths.shortest_wave;
+        const double mesh = 0.2 * std::hypot(a_over_wave * a_over_wave, s.in_contact / s.area - 1.0);
+        s.friction_error = std::hypot(s.friction_error, mesh * s.friction);
+        s.has_mesh_error = true;
+    }
     return s;
 }
 

@@ -10,11 +10,16 @@
 // of the mean is the largest of the errors from blocks of one, two, four, ... bins (Flyvbjerg and
 // Petersen, J. Chem. Phys. 91, 461 (1989)).
 //
-// The friction of a steady slide is also the dissipated energy over the distance. For a
-// viscoelastic block the dissipation is the more accurate of the two and is used: forces at the
-// ends of steps use rates of the steps before, which are (q d)^2/3 too large for waves q in steps d
-// that are long compared with the relaxation times. The error is then the larger of the standard
-// error and the difference of the two frictions.
+// The friction of a steady slide is what is dissipated over the distance. The work over the
+// distance is the same in a steady slide, and is the friction of another one. Of a viscoelastic
+// block the works of long steps are those of energies and dissipation; the forces at the ends of
+// steps give another work, which is (q d)^2/3 too large for waves q in steps d that are long
+// compared with the relaxation times. The error is the larger of the standard error and the
+// difference of the ways.
+//
+// The spacing a changes the friction of a map whose shortest wave is n a long; part of the error is
+// 0.2 of the friction times the root of the sum of squares of 1/n^2 and of what a count of sites in
+// contact exceeds their area by (docs/howto/rubber-friction.md).
 //
 // A slide is steady if the mean friction over a correlation length of the map differs by less than
 // a hundredth from the mean over the correlation length before, and if the remaining change,
@@ -35,9 +40,11 @@ struct SteadySlide {
     double friction = 0.0, friction_error = 0.0;     ///< force against the slide, eV/Å
     double load = 0.0;                               ///< normal force, eV/Å
     double in_contact = 0.0, in_contact_error = 0.0; ///< number of sites in contact
-    double mean_height = 0.0;                        ///< mean height of the lowest layer, Å
-    Energies losses;                                 ///< losses over the distance, eV/Å
-    bool steady = false;                             ///< the friction no longer drifts
+    double area = 0.0, area_error = 0.0; ///< contact_sites(), with the error of the spacing
+    double mean_height = 0.0;            ///< mean height of the lowest layer, Å
+    Energies losses;                     ///< losses over the distance, eV/Å
+    bool steady = false;                 ///< the friction no longer drifts
+    bool has_mesh_error = false;         ///< friction_error includes the error of the spacing
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -47,9 +54,12 @@ struct SteadySlide {
         v("load", load);
         v("in_contact", in_contact);
         v("in_contact_error", in_contact_error);
+        v("area", area);
+        v("area_error", area_error);
         v("mean_height", mean_height);
         v("losses", losses);
         v("steady", steady);
+        v("has_mesh_error", has_mesh_error);
     }
 };
 
@@ -58,9 +68,13 @@ struct SlidePoint {
     double distance = 0.0; ///< distance since the slide began, Å
     Energies flows; ///< work that moves the block sideways, and losses, since the slide began, eV
     // State at the point:
-    double load = 0.0;        ///< normal force, eV/Å
-    double in_contact = 0.0;  ///< number of sites in contact
-    double mean_height = 0.0; ///< mean height of the lowest layer, Å
+    double load = 0.0;          ///< normal force, eV/Å
+    double in_contact = 0.0;    ///< number of sites in contact
+    double contact_edges = 0.0; ///< Interface::contact_edges()
+    double mean_height = 0.0;   ///< mean height of the lowest layer, Å
+    /// Work of the forces less that of flows since the slide began, eV
+    /// (QuasistaticPath::work_left_out()).
+    double work_left_out = 0.0;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -68,7 +82,9 @@ struct SlidePoint {
         v("flows", flows);
         v("load", load);
         v("in_contact", in_contact);
+        v("contact_edges", contact_edges);
         v("mean_height", mean_height);
+        v("work_left_out", work_left_out);
     }
 };
 
@@ -84,6 +100,8 @@ public:
         double window = 0.0; ///< correlation length of the map
         /// Spacing of the sites, the period of lateral forces; bins are multiples.
         double spacing = 0.0;
+        /// Shortest wave of a map under a continuum; 0: not known, or another block.
+        double shortest_wave = 0.0;
         /// Returns the window rounded to a multiple of the spacing, Å.
         double whole_window() const;
     };

@@ -60,7 +60,10 @@ void StaticPath::record_slide() {
                      .flows = points_->in_segment(),
                      .load = now().force,
                      .in_contact = static_cast<double>(now().in_contact),
-                     .mean_height = now().mean_height};
+                     .contact_edges =
+                         static_cast<double>(interface_.contact_edges(layer(), communicator())),
+                     .mean_height = now().mean_height,
+                     .work_left_out = points_->work_left_out()};
     point.flows[Term::work] = points_->lateral_work();
     results_.slide.add(point);
 }

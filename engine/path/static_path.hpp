@@ -9,6 +9,7 @@
 #include "engine/path/path.hpp"
 #include "engine/statics/quasistatic.hpp"
 
+#include <algorithm>
 #include <optional>
 
 namespace asperity {
@@ -65,7 +66,11 @@ private:
     void make_points();
     void record_slide();
     SlideAverage::Lengths lengths() const {
-        return {correlation_length(surface_), block_.options().spacing};
+        const SurfaceOptions& map = case_.surface;
+        const bool known = case_.simulation.block.continuum &&
+                           case_.scene.surface.kind == SurfaceKind::self_affine;
+        return {correlation_length(surface_), block_.options().spacing,
+                known ? map.length / std::min(map.cutoff, 0.5 * map.sites) : 0.0};
     }
     /// Updates results.edge_distance with the present contact. Collective.
     void look_at_edges();

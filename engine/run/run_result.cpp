@@ -118,6 +118,8 @@ void add_steady(const SteadySlide& s, const Case& c, std::size_t i, io::Result& 
     }
     result.set("segments[].steady_contact_fraction", i, s.in_contact / c.sites());
     result.set("segments[].steady_contact_fraction_error", i, s.in_contact_error / c.sites());
+    result.set("segments[].steady_contact_area", i, s.area / c.sites());
+    result.set("segments[].steady_contact_area_uncertainty", i, s.area_error / c.sites());
     result.set("segments[].steady_mean_height", i, s.mean_height);
     for (const io::EnergyTerm& row : io::energy_terms)
         if (row.is_loss() && c.effects.has(row.effect))

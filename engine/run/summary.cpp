@@ -281,9 +281,9 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                 fmt::format(", coefficient {}", io::with_error(mean.friction / mean.load,
                                                                mean.friction_error / mean.load));
         io::print_text(
-            to, "{}, contact {}, after {:.4g} Å{}.\n", text,
-            io::with_error(mean.in_contact / c.sites(), mean.in_contact_error / c.sites()),
-            mean.running_in,
+            to, "{}, contact area {}, after {:.4g} Å{}{}.\n", text,
+            io::with_error(mean.area / c.sites(), mean.area_error / c.sites()),
+            mean.running_in, mean.has_mesh_error ? "" : " (mesh not included)",
             mean.steady ? "; steady"
                         : "; not steady yet: the friction still drifts at its end, and a longer "
                           "slide tells more");

@@ -297,6 +297,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     record_ += flows;
     record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
     if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
+    if (step.of_energies) course_.work_left_out += step.gap;
     // An extension that is wrong acts on with the larger ones that follow: twice.
     course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
     const double way = std::abs(at - this->at());

@@ -108,6 +108,9 @@ public:
     double way() const { return std::abs(at() - course_.from); }
     /// Returns the part of work() that moves the block sideways, eV.
     double lateral_work() const { return course_.lateral; }
+    /// Returns the work of the forces in the current segment less work(), eV: the difference of two
+    /// ways to the work of a viscoelastic block, of second and fourth order in the steps.
+    double work_left_out() const { return course_.work_left_out; }
     /// Returns the part of work() that brought the block into the shape in which it slides
     /// steadily, before the first step of a slide, eV.
     double settling_work() const { return course_.settling; }
@@ -159,7 +162,10 @@ private:
         Energies flows;             ///< work of the top plane and losses since then, eV
         double lateral = 0.0;       ///< part of the work that moves the block sideways, eV
         double settling = 0.0;      ///< work that brought the block into its steady shape, eV
-        WorkErrors errors;          ///< uncertainty of work and losses
+        /// Work of the forces less that of the energies in steps whose work is that of the
+        /// energies, eV.
+        double work_left_out = 0.0;
+        WorkErrors errors; ///< uncertainty of work and losses
         template <class Visitor>
         void visit(Visitor& v) {
             v("kind", kind);
@@ -179,6 +185,7 @@ private:
             v("flows", flows);
             v("lateral", lateral);
             v("settling", settling);
+            v("work_left_out", work_left_out);
             v("errors", errors);
         }
     };

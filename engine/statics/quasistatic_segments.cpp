@@ -193,7 +193,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     course_.comes_to_rest = course_.settles = false;
     course_.crept = 0;
     course_.from = at();
-    course_.lateral = course_.settling = 0.0;
+    course_.lateral = course_.settling = course_.work_left_out = 0.0;
     course_.start = record_;
     course_.flows = {};
 }

@@ -39,14 +39,16 @@ struct StepDecision {
         jump,   ///< accepted, and the energy that is missing was dissipated
     };
     Verdict verdict = halve;
-    double work = 0.0;       ///< work of the top plane in this step, eV
-    double dissipated = 0.0; ///< energy dissipated at an instability, eV
-    double gap = 0.0;        ///< work less energy gained and dissipated, eV
-    double uncertain = 0.0;  ///< uncertainty of the work if energy is missing, eV
-    bool smooth = true;      ///< the force did not jump
-    bool excess = false;     ///< the energy gained exceeds the work and its uncertainty
-    bool coarse = false;     ///< the step is halved because of the error of the time step
-    double growth = 1.0;     ///< factor from this length to that of the next step
+    double work = 0.0;        ///< work of the top plane in this step: of the forces or, in a long
+                              ///< step in time, the energy gained and dissipated, eV
+    double dissipated = 0.0;  ///< energy dissipated at an instability, eV
+    double gap = 0.0;         ///< work of the forces less energy gained and dissipated, eV
+    double uncertain = 0.0;   ///< uncertainty of the work if energy is missing, eV
+    bool smooth = true;       ///< the force did not jump
+    bool excess = false;      ///< the energy gained exceeds the work and its uncertainty
+    bool coarse = false;      ///< the step is halved because of the error of the time step
+    double growth = 1.0;      ///< factor from this length to that of the next step
+    bool of_energies = false; ///< the work is the energy gained and dissipated
 };
 
 /// Returns the decision for a path on which nothing can be dissipated: accepted, with the energy
@@ -81,6 +83,10 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         d.coarse = limits.in_time > limits.missing && !limits.last_try;
         if (!d.coarse) d.verdict = StepDecision::accept;
         d.gap = missing;
+        // In a long step in time energies and dissipation are of fourth order in the step, the
+        // forces at its ends of second.
+        d.of_energies = !limits.short_in_time;
+        if (d.of_energies) d.work = gained;
         return d;
     }
     d.coarse = !limits.short_in_time;

@@ -73,9 +73,10 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
     z.elastic = units::milli_per_unit * elastic / area;
     z.contact_fraction = c.fraction(s.in_contact);
     if (interface.wall())
-        z.contact_area = c.contact_area(static_cast<double>(s.in_contact),
-                                        static_cast<double>(interface.contact_edges(
-                                            block.lowest_layer(), block.communicator())));
+        z.contact_area = contact_sites(static_cast<double>(s.in_contact),
+                                       static_cast<double>(interface.contact_edges(
+                                           block.lowest_layer(), block.communicator()))) /
+                         c.sites();
     z.repulsive_fraction = c.fraction(s.repulsive);
     z.mean_height = interface.reference_height() + s.mean_height;
     z.residual = s.residual;

@@ -23,7 +23,7 @@ struct ZeroLoad {
     double pairwise = 0.0;       ///< -U_LJ / A0: binding energy of the pairs alone, meV/Å^2
     double elastic = 0.0;        ///< U_el / A0, meV/Å^2
     double contact_fraction = 0.0;
-    std::optional<double> contact_area; ///< area over a wall, Case::contact_area()
+    std::optional<double> contact_area; ///< share of contact_sites() over a wall
     double repulsive_fraction = 0.0;
     double mean_height = 0.0; ///< mean height of the lowest layer above the substrate's zero, Å
     double residual = 0.0;    ///< largest residual force on a site, eV/Å

@@ -116,3 +116,36 @@ TEST(SlideAverage, LongSlidesKeepFewerPoints) {
     EXPECT_NEAR(means->friction, 2.0, 1e-9);
     EXPECT_LT(means->friction_error, 1e-9);
 }
+
+TEST(SlideAverage, ErrorsOfTheMeshAndOfTheWayToTheWork) {
+    const auto with = [](double edges, double left_out) {
+        SlideAverage average;
+        for (double at = 0.0; at <= 400.0; at += 0.5)
+            average.add({.distance = at,
+                         .flows = flows(3.0 * at, 3.0 * at, 0.0),
+                         .load = 10.0,
+                         .in_contact = 100.0,
+                         .contact_edges = edges,
+                         .work_left_out = left_out * at});
+        return average;
+    };
+    const auto plain = with(0.0, 0.0).means(lengths);
+    EXPECT_DOUBLE_EQ(plain->area, 100.0);
+    EXPECT_NEAR(plain->area_error, 0.0, 1e-9);
+    EXPECT_NEAR(plain->friction_error, 0.0, 1e-9);
+    EXPECT_FALSE(plain->has_mesh_error);
+    // The forces would give 3.1: that is an error of 0.1, whether the slide is steady or not.
+    EXPECT_NEAR(with(0.0, 0.1).means(lengths)->friction, 3.0, 1e-9);
+    EXPECT_NEAR(with(0.0, 0.1).means(lengths)->friction_error, 0.1, 1e-9);
+    // Edges of 40 sites count 40 (pi - 1 + ln 2)/24 sites too much.
+    const auto edges = with(40.0, 0.0).means(lengths);
+    EXPECT_NEAR(edges->area, 100.0 - 40.0 * 0.118114, 1e-4);
+    EXPECT_NEAR(edges->area_error, 0.5 * 40.0 * 0.118114, 1e-4);
+    // A map whose shortest wave is four sites.
+    auto of_map = lengths;
+    of_map.shortest_wave = 4.0 * lengths.spacing;
+    EXPECT_TRUE(with(40.0, 0.0).means(of_map)->has_mesh_error);
+    EXPECT_NEAR(with(0.0, 0.0).means(of_map)->friction_error, 3.0 * 0.2 / 16.0, 1e-9);
+    EXPECT_NEAR(with(40.0, 0.0).means(of_map)->friction_error,
+                3.0 * 0.2 * std::hypot(1.0 / 16.0, 100.0 / edges->area - 1.0), 1e-9);
+}

@@ -148,6 +148,33 @@ TEST(SlideOverWall, FrictionOfOneWaveIsThatOfTheLossModulus) {
 }
 
 /// From rest it comes to the same.
+TEST(SlideOverWall, WorkOfASlowCoarseWaveIsOfFourthOrder) {
+    // Steps of half a spacing, far longer than the relaxation time: the forces at their ends give
+    // (q d)^2/3 more than the closed form.
+    const double tau = 1e4, h = 0.3, omega = 1e-3 / tau;
+    for (const int sites : {8, 16}) {
+        BlockOptions o = block_of(sites, 4 * sites, {{2.0, tau}});
+        o.continuum = true;
+        Slider c(o, wave(sites, 1, 0, h), ExponentialWall(0.0, 1.0, 1e5));
+        const double q = 2.0 * pi / c.edge(), modulus = c.options.contact_modulus();
+        const double area = c.edge() * c.edge(), a = c.options.spacing;
+        const double pressure = 10.0 * 0.5 * modulus * q * h;
+        QuasistaticPath path = c.path(omega / q, 1e-4, 0.5 * a);
+        path.start();
+        path.begin({Segment::load, pressure * area, 0, ""});
+        points_of(path);
+        path.begin(slide(0, 0.5 * c.edge())); // comes to its shape
+        points_of(path);
+        const Segment more = slide(0, 2.0 * c.edge());
+        path.begin(more);
+        points_of(path);
+        const double sigma = 0.25 * q * q * h * h * modulus * 2.0 * omega * tau;
+        const double wanted = sigma * area * more.amount, order = std::pow(q * 0.5 * a, 2) / 3.0;
+        EXPECT_NEAR(path.lateral_work(), wanted, 2.0 * order * order * wanted) << sites;
+        EXPECT_NEAR(path.work_left_out(), order * wanted, 0.5 * order * wanted) << sites;
+    }
+}
+
 TEST(SlideOverWall, FrictionOfOneWaveIsReachedFromRest) {
     const double tau = 1e4;
     const int sites = 32;
@@ -238,8 +265,7 @@ TEST(SlideOverWall, UntilSteadyItBeginsWhereALongSlideComes) {
             const auto points = points_of(path);
             friction[settled] = path.lateral_work() / s.amount;
             contact[settled] = static_cast<double>(points.back().in_contact);
-            EXPECT_NEAR(path.work(),
-                        path.stored() + path.in_segment().losses(),
+            EXPECT_NEAR(path.work(), path.stored() + path.in_segment().losses(),
                         1e-3 * std::abs(path.lateral_work()) + path.uncertainty());
             EXPECT_EQ(path.settling_work() != 0.0, settled);
         }
@@ -267,8 +293,7 @@ TEST(SlideOverWall, WorkIsWhatTheBlockAndInstabilitiesLose) {
                 path.begin(slide(axis, 8.0, loaded ? std::optional(load) : std::nullopt));
                 const auto points = points_of(path);
                 const double work = path.work(), lateral = path.lateral_work();
-                const double spent =
-                    path.in_segment().losses();
+                const double spent = path.in_segment().losses();
                 ASSERT_GT(lateral, 0.0);
                 EXPECT_NEAR(work, path.stored() + spent, 1e-3 * lateral)
                     << adhesion << " " << loaded << " " << axis << " of " << lateral << " in "
