@@ -140,7 +140,7 @@ def test_ranks_of_mpi(mpi4py_launcher, place, table):
              "--out", "one"]
     with started(*words) as sweep:
         wait_for(lambda: list(place.glob("one/*/checkpoint.h5")))
-        workers = [p for p in running("-m asperity sweep scene.toml") if f"{p}".isdigit()
+        workers = [p for p in running("start() sweep scene.toml") if f"{p}".isdigit()
                    and b"OMPI_COMM_WORLD_RANK=2\0" in Path(f"/proc/{p}/environ").read_bytes()
                    or b"PMI_RANK=2\0" in Path(f"/proc/{p}/environ").read_bytes()]
         assert len(workers) == 1

@@ -9,6 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import zlib
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -672,7 +673,8 @@ def test_a_directory_has_one_sweep_at_a_time(place):
     assert "2 of 2 points are done" in command(*words)
     assert not (place / "one/run.lock").exists()
     # Of another machine nothing can be known.
-    (place / "one/run.lock").write_text("host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n")
+    lock = "host elsewhere\nprocess 7\nsince 2026-01-01 00:00:00\n"
+    (place / "one/run.lock").write_text(f"{lock}digest {store.digest_text(zlib.crc32(lock.encode()))}\n")
     assert "process 7 on host elsewhere" in command(*words, expect=4)
 
 
