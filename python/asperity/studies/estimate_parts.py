@@ -350,7 +350,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     if scene.dynamic and not scene.finite:
         rest = Variation("rate", "quasi-static", AT_REST)
     base, moved = rest or start, AT_REST if rest else []
-    coarse = Variation("spacing", "twice the spacing", joined(moved, scene.spaced(2), spacing_also(2))) if is_coarse(scene) else None
+    coarse = Variation("spacing", "twice the spacing", joined(joined(moved, scene.spaced(2)), spacing_also(2))) if is_coarse(scene) else None
     parts: list[Part] = []
 
     def part(name: str, group: str, what: str, choices: Sequence[Choice] = (), rule: Rule = limit, of: Variation | None = None,
