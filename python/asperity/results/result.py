@@ -103,13 +103,14 @@ def expect(directory: Path, *files: str) -> None:
     own, runs = kinds_in(directory), [place for place, kinds in results_below(directory).items() if "result.json" in kinds]
     which = " or ".join(map(str, runs[:LISTED])) + f", one of {len(runs)}" * (len(runs) > LISTED)
     if own:
+        whole = "; in Python asperity.load_sweep() takes it whole" if own[0] == "sweep.json" else ""
         raise InputOutputError(str(directory), f"holds {KINDS[own[0]]}, not the result of one run", f"{own[0]} is in it",
-                               f"name one of its runs: {which}" if runs else "run it again: it holds no finished run")
+                               f"name one of its runs: {which}{whole}" if runs else "run it again: it holds no finished run")
     if runs:
         raise InputOutputError(str(directory), "holds no result of its own", "results are in directories below it", f"name one of them: {which}")
     raise InputOutputError(str(directory), "holds no result",
                            f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
-                           example + "; a run that was killed leaves no result.json before it is resumed" * (directory / "run.journal").exists())
+                           example + "; a run that was killed leaves no result.json before it is resumed")
 
 
 KINDS = {"result.json": "a run", "sweep.json": "a sweep", "estimate.json": "an estimate", "tip.json": "the force curve of a tip",
