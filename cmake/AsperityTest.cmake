@@ -15,6 +15,17 @@
 #
 # asperity_suites(<folder> LABELS ...)
 #   The same for every file tests/<folder>/*_test.cpp that is not a suite yet.
+#
+# asperity_add_test(<name> <seconds> COMMAND ...)
+#   A test each of whose processes may take so many seconds of the processor (tests/limited.sh), and all of it six times as long:
+#   a loaded machine makes no test fail, and one that hangs ends.
+
+function(asperity_add_test name seconds)
+    cmake_parse_arguments(ARG "" "" "COMMAND" ${ARGN})
+    math(EXPR wall "6 * ${seconds}")
+    add_test(NAME ${name} COMMAND bash ${PROJECT_SOURCE_DIR}/tests/limited.sh ${seconds} ${ARG_COMMAND})
+    set_tests_properties(${name} PROPERTIES TIMEOUT ${wall})
+endfunction()
 
 function(asperity_test_program folder)
     cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
@@ -48,28 +59,27 @@ function(asperity_suite file)
             math(EXPR ARG_TIMEOUT "4 * ${ARG_TIMEOUT}")
         endif()
         foreach(ranks IN LISTS ARG_RANKS)
-            add_test(NAME ${name}_ranks${ranks}
-                     COMMAND ${ASPERITY_MPIRUN} -n ${ranks} ${command})
+            asperity_add_test(${name}_ranks${ranks} ${ARG_TIMEOUT} COMMAND ${ASPERITY_MPIRUN} -n ${ranks} ${command})
             set_tests_properties(${name}_ranks${ranks} PROPERTIES LABELS "${ARG_LABELS};mpi"
-                TIMEOUT ${ARG_TIMEOUT} PROCESSORS ${ranks} ENVIRONMENT "${environment}")
+                PROCESSORS ${ranks} ENVIRONMENT "${environment}")
         endforeach()
         set(command ${ASPERITY_MPIRUN} -n 1 ${command})
     else()
-        add_test(NAME ${name} COMMAND ${command})
-        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT}
+        asperity_add_test(${name} ${ARG_TIMEOUT} COMMAND ${command})
+        set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}"
                                                 ENVIRONMENT "${environment}")
     endif()
     foreach(level IN LISTS ARG_KERNELS)
         if(level IN_LIST ASPERITY_VARIANTS)
-            add_test(NAME ${name}_${level} COMMAND ${command})
+            asperity_add_test(${name}_${level} ${ARG_TIMEOUT} COMMAND ${command})
             set_tests_properties(${name}_${level} PROPERTIES LABELS "${ARG_LABELS}"
-                TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "${environment};ASPERITY_KERNELS=${level}")
+                ENVIRONMENT "${environment};ASPERITY_KERNELS=${level}")
         endif()
     endforeach()
     if(ARG_LONG)
         string(REGEX REPLACE "_test$" "_long" long_name ${name})
-        add_test(NAME ${long_name} COMMAND ${command})
-        set_tests_properties(${long_name} PROPERTIES LABELS long TIMEOUT 3600
+        asperity_add_test(${long_name} 3600 COMMAND ${command})
+        set_tests_properties(${long_name} PROPERTIES LABELS long
                                                      ENVIRONMENT "${environment};ASPERITY_LONG=1")
     endif()
 endfunction()

@@ -7,6 +7,7 @@
 
 #include "io/error.hpp"
 #include "io/json.hpp"
+#include "io/terminal.hpp"
 #include "io/units.hpp"
 
 #include <algorithm>
@@ -442,20 +443,25 @@ Key& Schema::add(Key key) {
 
 std::string Schema::toml(bool with_docs) const {
     std::string text;
+    const auto comment = [&](const std::string& words, const std::string& sign) {
+        for (const std::string& line : wrapped(words, text_columns - visible_width(sign)))
+            if (with_docs) text += sign + line + '\n';
+    };
     for (const auto& [section, section_doc] : sections_) {
         if (!text.empty()) text += '\n';
-        if (with_docs) text += "# " + section_doc + "\n";
+        comment(section_doc, "# ");
         text += "[" + section + "]\n";
         for (const Key& key : keys_) {
             if (key.section != section || !key.written()) continue;
-            std::string line = key.name + " = " + toml_value(key.load());
-            if (with_docs) line = fmt::format("{:<36} # {}: {}", line, allowed(key, ""), key.doc);
-            text += line + '\n';
+            comment(fmt::format("{}: {}", allowed(key, ""), key.doc), "#   ");
+            text += key.name + " = " + toml_value(key.load()) + '\n';
         }
     }
-    if (with_docs && !variations_.name.empty())
-        text += fmt::format("\n# {}\n# [{}]\n# {}\n", variations_.doc, variations_.name,
-                            variations_.example);
+    if (with_docs && !variations_.name.empty()) {
+        text += '\n';
+        comment(variations_.doc, "# ");
+        text += fmt::format("# [{}]\n# {}\n", variations_.name, variations_.example);
+    }
     return text;
 }
 

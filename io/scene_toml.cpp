@@ -393,6 +393,25 @@ void Schema::read(std::string_view text, const std::string& file,
     reading.finish(problems);
 }
 
+namespace {
+
+/// Returns the scene of a folder that a name without a file may mean: with .toml, or spelt
+/// alike; "": none.
+std::string scene_meant(const std::filesystem::path& file) {
+    std::error_code error;
+    std::filesystem::path with_ending = file;
+    if (std::filesystem::is_regular_file(with_ending += ".toml", error)) return with_ending;
+    std::vector<std::string> names;
+    const std::filesystem::path folder = file.parent_path();
+    for (const auto& entry :
+         std::filesystem::directory_iterator(folder.empty() ? "." : folder, error))
+        if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+    const std::string near = nearest(file.stem().string(), names);
+    return near.empty() ? "" : (folder / (near + ".toml")).string();
+}
+
+} // namespace
+
 std::string read_scene_file(const std::string& file) {
     const auto cannot = [&](std::string why, std::string fix) {
         return SceneError(
@@ -400,9 +419,12 @@ std::string read_scene_file(const std::string& file) {
     };
     std::error_code error;
     const bool piped = file == standard_input;
-    if (!piped && !std::filesystem::exists(file, error))
+    if (!piped && !std::filesystem::exists(file, error)) {
+        const std::string meant = scene_meant(file);
         throw cannot("there is no such file",
-                     "check the path; `asperity init` writes a scene to start from");
+                     meant.empty() ? "check the path; `asperity init` writes a scene to start from"
+                                   : fmt::format("did you mean {}?", meant));
+    }
     if (std::filesystem::is_directory(file, error))
         throw cannot("it is a directory", "name a .toml file in it");
     std::ifstream stream(piped ? "/dev/stdin" : file, std::ios::binary);

@@ -111,7 +111,22 @@ std::vector<std::string> wrapped(std::string_view text, int most) {
     return lines;
 }
 
-std::string folded(std::string_view unchecked) {
+namespace {
+
+/// Returns the number of columns below which the rest of a long line stands: those of its value
+/// behind a name and two blanks, or of its text behind "why: ", "fix: " or "note: ".
+std::size_t hanging_indent(std::string_view line) {
+    const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
+    for (const std::string_view label : {"why: ", "fix: ", "note: "})
+        if (line.substr(first).starts_with(label)) return first + label.size();
+    const std::size_t gap = line.find("  ", first);
+    const std::size_t value = gap < 20 ? line.find_first_not_of(' ', gap) : first;
+    return value == std::string_view::npos ? first : value;
+}
+
+} // namespace
+
+std::string folded(std::string_view unchecked, int of_margin) {
     const std::string shown = printable(unchecked);
     std::string_view text = shown;
     std::string all;
@@ -119,14 +134,11 @@ std::string folded(std::string_view unchecked) {
         const std::string_view line = text.substr(0, text.find('\n'));
         const bool ends = line.size() < text.size();
         text.remove_prefix(line.size() + (ends ? 1 : 0));
-        const std::size_t first = std::min(line.find_first_not_of(' '), line.size());
-        const std::size_t gap = line.find("  ", first);
-        const std::size_t value = gap < 20 ? line.find_first_not_of(' ', gap) : first;
-        const std::size_t begin = value == std::string_view::npos ? first : value;
+        const std::size_t begin = hanging_indent(line);
         if (visible_width(line) <= text_columns) {
             all += line;
         } else {
-            const int indent = visible_width(line.substr(0, begin));
+            const int indent = begin == 0 ? of_margin : visible_width(line.substr(0, begin));
             bool below = false;
             for (const std::string& part : wrapped(line.substr(begin), text_columns - indent)) {
                 all += std::exchange(below, true)
@@ -160,6 +172,13 @@ std::string Table::text(bool with_colours) const {
     for (const auto& row : rows_)
         for (std::size_t i = 0; i < row.size(); ++i)
             width[i] = std::max(width[i], visible_width(row[i]));
+    const auto total = [&] {
+        return std::accumulate(width.begin(), width.end(), 2 * static_cast<int>(width.size()));
+    };
+    constexpr int least_column = 20;
+    int& last = width.back();
+    if (sides_.back() == '<' && total() > text_columns)
+        last = std::max(std::min(last, least_column), last - (total() - text_columns));
 
     const auto line = [&](const std::vector<std::string>& cells) {
         std::string text;
@@ -171,9 +190,16 @@ std::string Table::text(bool with_colours) const {
         text.erase(text.find_last_not_of(' ') + 1);
         return text;
     };
-    const int total =
-        std::accumulate(width.begin(), width.end(), 2 * static_cast<int>(width.size()));
-    const std::string rule_text = fmt::format("  {:─<{}}", "", std::max(0, total - 2));
+    const auto lines = [&](std::vector<std::string> cells) {
+        std::string text;
+        for (const std::string& part : wrapped(cells.back(), last)) {
+            cells.back() = part;
+            text += line(cells) + "\n";
+            std::fill(cells.begin(), cells.end(), "");
+        }
+        return text;
+    };
+    const std::string rule_text = fmt::format("  {:─<{}}", "", std::max(0, total() - 2));
 
     std::string text;
     const bool headed = std::any_of(heads_.begin(), heads_.end(),
@@ -183,7 +209,7 @@ std::string Table::text(bool with_colours) const {
         text += (with_colours ? "\033[1m" + head + "\033[0m" : head) + "\n" + rule_text + "\n";
     }
     for (const auto& row : rows_)
-        text += (row.empty() ? rule_text : line(row)) + "\n";
+        text += row.empty() ? rule_text + "\n" : lines(row);
     return text;
 }
 

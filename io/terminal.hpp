@@ -18,7 +18,8 @@
 namespace asperity::io {
 
 /// Table in a terminal. Columns are aligned by visible characters (UTF-8 counts as one); headings
-/// are bold on a terminal, unless NO_COLOR is set or TERM is "dumb".
+/// are bold on a terminal, unless NO_COLOR is set or TERM is "dumb". Cells of a last column that is
+/// flush left are broken if the table is wider than text_columns.
 class Table {
 public:
     /// Sets headings and alignment. sides: one character per column, '<' for flush left, '>' for
@@ -59,8 +60,9 @@ int visible_width(std::string_view text);
 /// whole, and so does a number with the word behind it.
 std::vector<std::string> wrapped(std::string_view text, int most);
 /// Returns a printable() text whose lines fill at most text_columns. The rest of a longer line
-/// stands below its first word, or of a line "  name   value" below the value.
-std::string folded(std::string_view unchecked);
+/// stands below its first word, of a line "  name   value" below the value, and of "note: ..."
+/// below the text, and of a line that begins at the margin this number of columns from there.
+std::string folded(std::string_view unchecked, int of_margin = 0);
 /// Prints a text, folded; arguments as of fmt::print().
 template <typename... T>
 void print_text(std::FILE* to, fmt::format_string<T...> text, T&&... values) {

@@ -138,6 +138,8 @@ Case read_case_text(const std::string& text, const std::string& file,
 /// wrong options or contents of the file, io::FileError if the file cannot be read.
 Surface surface_of(const Case& c, const Communicator& world = Communicator());
 
+/// Returns the notes of a case and of its surface, one sentence each.
+std::vector<std::string> notes_of(const Case& c, const Surface& surface);
 /// Makes the checks of a run without running: require_runnable(), and the contents of the file of a
 /// surface. Returns the notes of the case and of the surface. Collective. Throws io::SceneError.
 std::vector<std::string> examine(const Case& c, const Communicator& world = Communicator());

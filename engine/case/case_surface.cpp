@@ -193,6 +193,12 @@ Surface surface_of(const Case& c, const Communicator& world) {
     }
 }
 
+std::vector<std::string> notes_of(const Case& c, const Surface& surface) {
+    std::vector<std::string> notes = c.notes;
+    notes.insert(notes.end(), surface.notes.begin(), surface.notes.end());
+    return notes;
+}
+
 std::vector<std::string> examine(const Case& c, const Communicator& world) {
     std::vector<std::string> notes = c.notes;
     io::Problems problems = c.scene.problems();
@@ -200,8 +206,7 @@ std::vector<std::string> examine(const Case& c, const Communicator& world) {
         problems.add(problem);
     if (c.scene.surface.reads_file()) {
         try {
-            const Surface surface = surface_of(c, world);
-            notes.insert(notes.end(), surface.notes.begin(), surface.notes.end());
+            notes = notes_of(c, surface_of(c, world));
         } catch (const io::SceneError& error) {
             for (const io::Problem& problem : error.problems())
                 problems.add(problem);

@@ -229,6 +229,11 @@ io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Co
             io::Problem{"command line", fmt::format("{} is no option of {}", word, command),
                         fmt::format("its options are {}", fmt::join(names, ", ")), fix});
     }
+    const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+    if (lacks && error.what() == takes::scene.name + " is required")
+        return io::SceneError(io::Problem{
+            "command line", "no scene is given", "the command needs one",
+            fmt::format("for example: asperity {} scenes/first-contact.toml", command)});
     return io::SceneError(io::Problem{"command line", error.what(), "", fix});
 }
 

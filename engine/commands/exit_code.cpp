@@ -55,7 +55,7 @@ int report(const std::exception& error, bool json, const Communicator& world) {
     }
     if (world.root()) {
         std::fflush(stdout);
-        fmt::print(stderr, "{}\n", io::printable(text));
+        fmt::print(stderr, "{}\n", json ? io::printable(text) : io::folded(text, 2));
         std::fflush(stderr);
     }
     return code;

@@ -144,7 +144,7 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
     const std::vector<std::string> notes = examine(c, world);
     if (!world.root() || given.quiet) return io::exit_code::done;
     io::print_text(stdout, "{}: nothing wrong\n", c.scene.file);
-    fmt::print("  {}; {}\n", c.box_in_words(), c.block_in_words());
+    io::print_text(stdout, "  {}; {}\n", c.box_in_words(), c.block_in_words());
     if (c.effects.dynamic)
         fmt::print("  time step {:.4g} fs, usable up to {:.2g} fs\n", c.simulation.dt,
                    usable_timestep(c.longest_timestep));
@@ -281,7 +281,7 @@ int surface_command(const Case& c, const Arguments& given, const Communicator& w
                               {"slope_of_neighbours",
                                map_statistics(surface.height, n, n, pixel, pixel, true).rms_slope},
                               {"doubts", surface.doubts},
-                              {"notes", surface.notes}};
+                              {"notes", notes_of(c, surface)}};
         world.on_root([&] {
             if (!out.empty()) write_surface(c, surface, out);
             fmt::print("{}\n", io::json_text(all));
@@ -294,7 +294,7 @@ int surface_command(const Case& c, const Arguments& given, const Communicator& w
         const std::vector<std::string> lines = write_surface(c, surface, out);
         print_surface(surface);
         if (given.quiet) return;
-        for (const std::string& note : surface.notes)
+        for (const std::string& note : notes_of(c, surface))
             io::print_text(stdout, "note: {}\n", note);
         for (const std::string& line : lines)
             io::print_text(stdout, "{}\n", line);

@@ -51,8 +51,8 @@ std::string python() {
 }
 
 /// Lines that Python carries out first. Its options -c and -m put the current folder before all
-/// others into the search path, where a numpy.py beside the user's data would be run as code. Python without
-/// that folder (-P) is of 3.11; sys is part of the interpreter.
+/// others into the search path, where a numpy.py beside the user's data would be run as code.
+/// Python without that folder (-P) is of 3.11; sys is part of the interpreter.
 constexpr const char* start = "import sys; sys.path[:] = filter(None, sys.path); "
                               "from asperity.__main__ import start; start()";
 

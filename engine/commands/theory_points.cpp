@@ -91,6 +91,11 @@ Json profile_json(const TheoryCase& what, const TheoryNumbers& n) {
     return columns;
 }
 
+/// Returns the notes of a case, and with_surface those of its surface.
+std::vector<std::string> notes_on(const Case& c, SurfaceCache& surfaces, bool with_surface) {
+    return with_surface ? notes_of(c, surfaces.of(c)) : c.notes;
+}
+
 Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
     const bool realised = theory_needs_surface(c);
     const TheoryCase what = theory_case(c, realised ? &surfaces.of(c) : nullptr);
@@ -99,7 +104,9 @@ Json point_json(const Case& c, SurfaceCache& surfaces, bool profile) {
     if (!what.origin.empty()) values.set("surface.origin", what.origin);
     values.set("delta_gamma", what.flat);
     record_theory(what, numbers, values);
-    Json notes = what.notes;
+    Json notes = notes_on(c, surfaces, realised);
+    for (const std::string& note : what.notes)
+        notes.push_back(note);
     if (profile && what.contact.work_of_adhesion > 0.0 && !what.contact.spectrum.smooth()) try {
             const theory::CriticalRoughness end = theory::critical_roughness(what.contact);
             values.set("theory.persson.critical_rms", end.h_rms);
@@ -129,7 +136,7 @@ Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     values.set("delta_gamma", c.flat.work_of_adhesion);
     values.set("theory.persson.note", why);
     Json point = values.json();
-    point["notes"] = Json::array();
+    point["notes"] = notes_on(c, surfaces, c.surface.reads_file());
     return point;
 }
 

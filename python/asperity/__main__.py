@@ -19,6 +19,7 @@ import time
 import warnings
 from pathlib import Path
 
+from .arguments import command_line
 from .commands.command_line import parsers
 from .errors import NEEDED, Error, InputOutputError, SceneError, to_install
 from .running import program
@@ -48,7 +49,7 @@ def _scenes(given: argparse.Namespace) -> list[str]:
     found = [word for word in given.words if not _is_override(word)]
     if not found:
         raise SceneError("command line", "no scene is given", "the command needs one",
-                         "for example: asperity run scenes/first-contact.toml")
+                         f"for example: asperity {given.command} scenes/first-contact.toml")
     return found
 
 
@@ -101,7 +102,7 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise SceneError("command line", f"two files to write are given, {given.target} and {given.out}", "", "leave one out")
         target = given.target or given.out or Path(given.source.partition(":/")[0]).with_suffix(".h5")
         said, *notes = convert(given.source, target, given.channel).split("\n")
-        voice.show(folded(said))
+        voice.show(said)
         for note in notes:
             voice.say(note)
         voice.tell({"file": target, "text": said, "notes": [note.removeprefix("note: ") for note in notes]})
@@ -133,7 +134,7 @@ def _carry_out(given: argparse.Namespace) -> int:
     if given.command == "adhesion":
         from .commands.adhesion import adhesion_command
 
-        return adhesion_command(given.map, given.young, given.poisson, given.adhesion, given.out, options, voice,
+        return adhesion_command(given.map, given.young, given.poisson, given.adhesion, given.out, options, given.plan, voice,
                                 reach=given.range, size=given.size, unit=given.unit, channel=given.channel, sites=given.sites,
                                 line_noise=given.line_noise)
     if given.command == "tip":
@@ -154,8 +155,8 @@ def _carry_out(given: argparse.Namespace) -> int:
             return 0  # a rank that has worked for the first one
         options.executor = executor
         if cost:
-            return cost_command(scenes[0], given.sets, _names(given.parameters), given.out, options, given.target, voice)
-        return sweep_command(scenes, given.sets, given.out, given.theory_only, options, voice)
+            return cost_command(scenes[0], given.sets, _names(given.parameters), given.out, options, given.target, given.plan, voice)
+        return sweep_command(scenes, given.sets, given.out, given.theory_only, options, given.plan, voice)
 
 
 def _after_the_first(code: int) -> int:
@@ -170,7 +171,7 @@ def _print_error(error: Error, as_json: bool) -> None:
     if as_json:
         print(json.dumps({"error": {"code": error.code, "problems": error.listed, "text": text}}, ensure_ascii=False).encode("utf-8", "replace").decode(), file=sys.stderr)
         return
-    print(text, file=sys.stderr)
+    print(folded(text, 2), file=sys.stderr)
     if error.code == SceneError.code:
         n = error.problems
         print(f"{n} problem{'' if n == 1 else 's'}; nothing was written", file=sys.stderr)
@@ -198,7 +199,8 @@ def main(words: list[str]) -> int:
             if STANDARD_INPUT in getattr(given, "words", []):
                 file = piped.enter_context(scene_file(STANDARD_INPUT))
                 given.words = [file if word == STANDARD_INPUT else word for word in given.words]
-            return _carry_out(given)
+            with command_line():
+                return _carry_out(given)
     except Error as error:
         if leads and rank != 0:
             return _after_the_first(error.code)
@@ -206,7 +208,7 @@ def main(words: list[str]) -> int:
         return error.code
     except ImportError as error:
         fix = to_install(*NEEDED)
-        print(f"asperity {words[0]}: a Python package is missing\n    why: {sys.executable}: {error}\n    fix: {fix}",
+        print(folded(f"asperity {words[0]}: a Python package is missing\n    why: {sys.executable}: {error}\n    fix: {fix}", 2),
               file=sys.stderr)
         return 1
 

@@ -5,23 +5,101 @@
     young = chosen("young", 'young="100 GPa"', young=young, E=E)      # an argument of a function
     command.add_argument(*options("young"), required=True)            # an option: --young, --E
     @checks_call                                                      # run(rnaks=2): "did you mean ranks?"
+
+Messages name options, "--size 100nm"; the functions for Python say them as arguments, size="100nm".
 """
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import functools
 import inspect
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
+from contextvars import ContextVar
 from typing import Any, TypeVar, cast
 
-from .errors import SceneError, WrongCall
+from .errors import Error, SceneError, WrongCall
+from .units import is_unit
 
 F = TypeVar("F", bound=Callable[..., Any])
 K = TypeVar("K", bound=type)
 
 ALIASES = {"young": ("E",), "poisson": ("nu",), "adhesion": ("work", "w"), "size": ("file_size",), "unit": ("file_unit",)}
 """Other names of an argument. Each argument has the last word of a key of the scene, as itself or as an alias."""
+
+
+_called: ContextVar[Callable[..., Any] | None] = ContextVar("called", default=None)
+"""The function of the package that a script has called; command_line on the command line."""
+OPTION = re.compile(r"""--(set) ([\w.]+)=(?:"([^"]*)"|'([^']*)'|([^\s;)"']+))|--([a-z][a-z-]+)(?:[ =](?:"([^"]+)"|'([^']+)'|([^\s,;:()"']+)))?""")
+
+
+@contextlib.contextmanager
+def command_line() -> Iterator[None]:
+    """Makes the messages within the context name options, as the command line has them."""
+    with _calls(command_line):
+        yield
+
+
+@contextlib.contextmanager
+def _calls(function: Callable[..., Any]) -> Iterator[None]:
+    """Notes the function within the context, unless it is called by another one of the package."""
+    if _called.get() is not None:
+        yield
+        return
+    before = _called.set(function)
+    try:
+        yield
+    finally:
+        _called.reset(before)
+
+
+def spoken(text: str, function: Callable[..., Any] | None = None) -> str:
+    """Spells the options in a message as arguments of the function that was called; on the command line the message is not changed.
+
+    Parameters
+    ----------
+    text : str
+        Message: "name it: --unit nm".
+    function : callable, optional
+        Function; None: the one that the script has called.
+
+    Returns
+    -------
+    str
+        Message for the caller: 'name it: unit="nm"'. Options that are no arguments of the function stay.
+    """
+    function = command_line if _called.get() is command_line else function or _called.get()
+    if function in (None, command_line):
+        return text
+    known = inspect.signature(function).parameters
+
+    def spelt(found: re.Match[str]) -> str:
+        place = next((one for one in ("overrides", "values") if one in known), "")
+        if found[1]:
+            return f'{place}={{"{found[2]}": {_literal(found[3] or found[4] or found[5], "")}}}' if place else found[0]
+        name, quoted = found[6].replace("-", "_"), found[7] or found[8]
+        name = place if name == "set" and place else name
+        if name not in known:
+            return found[0]
+        value = (found[9] or "").rstrip(".")
+        end = (found[9] or "")[len(value):]
+        if quoted or re.search(r"\d", value) or is_unit(value) or value.isupper():
+            return f"{name}={_literal(quoted or value, str(known[name].annotation))}{end}"
+        return name + (f" {value}{end}" if value else "")
+
+    if (whole := re.fullmatch(r"--([a-z][a-z-]+) ([^\"',;:]+)", text)) and (name := whole[1].replace("-", "_")) in known:  # a place
+        return f"{name}={_literal(whole[2], str(known[name].annotation))}"
+    return OPTION.sub(spelt, text.replace("a --set", "--set"))
+
+
+def _literal(text: str, annotation: str) -> str:
+    """Spells a value in Python: a number if the argument takes one, or if the type is not known; else a text."""
+    if "," in text and not annotation:
+        return "[" + ", ".join(_literal(one, annotation) for one in text.split(",")) + "]"
+    number = re.fullmatch(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", text)
+    return text if number and "str" not in annotation else f'"{text}"'
 
 
 def options(name: str) -> list[str]:
@@ -104,7 +182,12 @@ def checks_call(function: F) -> F:
         except TypeError:
             where = function.__qualname__.removesuffix(".__init__")
             raise _wrong_call(signature, where.rpartition("<locals>.")[2] + "()", given, named, first) from None
-        return function(*given, **named)
+        try:
+            with _calls(function):
+                return function(*given, **named)
+        except Error as error:
+            error.rewrite(lambda text: spoken(text, function))
+            raise
 
     return cast("F", checked)
 

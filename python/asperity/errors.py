@@ -141,6 +141,14 @@ class WrongCall(SceneError, TypeError):
     Python expects of calls."""
 
 
+def meant(path: str | Path) -> str:
+    """Returns the fix for a file or directory that is not there: "did you mean results/first-contact?"; "" if none is spelt alike."""
+    path = Path(path)
+    names = {one.name: one for one in path.parent.iterdir()} if path.parent.is_dir() else {}
+    near = [name for name in names if name.partition(".")[0] == path.name] or difflib.get_close_matches(path.name, names, 1, 0.7)
+    return f"did you mean {path.parent / near[0]}?" if near else ""
+
+
 class Named:
     """Base class of results whose wrong attributes raise UnknownName with the existing names."""
 

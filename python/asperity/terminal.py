@@ -11,7 +11,6 @@ import os
 import re
 import shutil
 import sys
-import textwrap
 import time
 from collections.abc import Iterable, MutableMapping
 from typing import Any
@@ -19,43 +18,73 @@ from typing import Any
 from .errors import SceneError, printable
 from .units import MILLIJOULE
 
-COLUMNS = 80
-"""Columns that a line of text fills at most."""
-WIDEST = 100
-"""Columns of text that a table fills at most."""
+WIDTH = 80
+"""Columns of text that a line fills at most, as in the program (io/terminal.hpp)."""
+LEAST = 20
+"""Columns of a last column of text that is broken to fit."""
 PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
 
-def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)) -> str:
-    """Returns a table for the terminal, numbers to the right.
+def wrapped(text: str, most: int) -> list[str]:
+    """Returns a text in lines that are broken at blanks; a unit stays behind its number.
 
     Parameters
     ----------
-    heads : list[str]
-        Heads of the columns.
-    rows : list[list[str]]
-        Cells of each row; an empty row is a rule.
-    left : tuple[int, ...]
-        Columns that are set to the left.
+    text : str
+        Text of one line.
+    most : int
+        Columns of a line at most; a longer word stays whole.
+
+    Returns
+    -------
+    list[str]
+        The lines.
+    """
+    lines = [""]
+    for word in text.split(" "):
+        if lines[-1] and len(lines[-1]) + 1 + len(word) > most:
+            before, _, last = lines[-1].rpartition(" ")
+            both = bool(before) and bool(re.fullmatch(r"[-+(.\de]+", last) and re.search(r"\d", last[:2]))
+            lines[-1:] = [before, last] if both else [lines[-1], ""]
+        lines[-1] += " " * bool(lines[-1]) + word
+    return lines
+
+
+def folded(text: str, indent: int = 0) -> str:
+    """Returns a printable text whose lines fill at most WIDTH columns, as folded() of the program (io/terminal.cpp) makes it.
+
+    The rest of a longer line stands below its first word, of a line "  name   value" below the value, and of "note: ..." below the
+    text.
+
+    Parameters
+    ----------
+    text : str
+        Text.
+    indent : int
+        Columns before the rest of a line that begins at the margin.
 
     Returns
     -------
     str
         The lines.
     """
-    width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) for i in range(len(heads))]
-    rule = "  " + "─" * (sum(width) + 2 * len(width) - 2)
-
-    def line(cells: list[str]) -> str:
-        cells = cells + [""] * (len(heads) - len(cells))
-        return "  " + "  ".join(c.ljust(w) if i in left else c.rjust(w)
-                                for i, (c, w) in enumerate(zip(cells, width))).rstrip()
-
-    return "\n".join([line(heads), rule, *(line(row) if row else rule for row in rows)])
+    return "\n".join(_folded_line(line, indent) for line in printable(text).split("\n"))
 
 
-def tables(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,), again: tuple[int, ...] = (0,)) -> str:
-    """Returns a table for the terminal in parts of at most WIDEST columns of text, below each other.
+def _folded_line(line: str, of_margin: int) -> str:
+    if len(line) <= WIDTH:
+        return line
+    first = len(line) - len(line.lstrip(" "))
+    gap = re.compile(r"  +").search(line, first)
+    label = re.compile(r"why: |fix: |note: |\$ ").match(line, first)
+    begin = label.end() if label else gap.end() if gap and gap.start() < 20 else first
+    indent = begin or of_margin
+    return line[:begin] + ("\n" + " " * indent).join(wrapped(line[begin:], WIDTH - indent))
+
+
+def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,), again: tuple[int, ...] = (0,)) -> str:
+    """Returns a table for the terminal, numbers to the right. If it is wider than WIDTH, the cells of a last column of text are broken,
+    or the table is divided into parts below each other.
 
     Parameters
     ----------
@@ -74,17 +103,30 @@ def tables(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,)
         The lines.
     """
     width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) + 2 for i in range(len(heads))]
+    last = len(heads) - 1
+    if last in left and sum(width) > WIDTH:
+        width[last] = max(min(width[last], LEAST), width[last] - (sum(width) - WIDTH))
     parts: list[list[int]] = [[]]
     for i in range(len(heads)):
-        if sum(width[k] for k in parts[-1]) + width[i] > WIDEST and set(parts[-1]) - set(again):
+        if sum(width[k] for k in parts[-1]) + width[i] > WIDTH and set(parts[-1]) - set(again):
             parts.append([k for k in again if k != i])
         parts[-1].append(i)
 
-    def of(line: list[str], part: list[int]) -> list[str]:
-        return [line[k] if k < len(line) else "" for k in part] if line else []
+    def line(cells: list[str], part: list[int]) -> str:
+        cells = [cells[k] if k < len(cells) else "" for k in part]
+        lines = []
+        for piece in wrapped(cells[-1], width[part[-1]] - 2):
+            cells[-1] = piece
+            lines.append("".join("  " + (cell.ljust(width[k] - 2) if k in left else cell.rjust(width[k] - 2))
+                                 for k, cell in zip(part, cells)).rstrip())
+            cells = [""] * len(cells)
+        return "\n".join(lines)
 
-    return "\n\n".join(table(of(heads, part), [of(row, part) for row in rows], tuple(at for at, k in enumerate(part) if k in left))
-                       for part in parts)
+    def one(part: list[int]) -> str:
+        rule = "  " + "─" * (sum(width[k] for k in part) - 2)
+        return "\n".join([line(heads, part), rule, *(line(row, part) if row else rule for row in rows)])
+
+    return "\n\n".join(map(one, parts))
 
 
 def html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], below: str = "") -> str:
@@ -217,16 +259,6 @@ def environment_alone() -> dict[str, str]:
     return {name: value for name, value in os.environ.items() if not of_rank.match(name)}
 
 
-def folded(text: str) -> str:
-    """Returns a text whose lines fill at most 80 columns, as io/terminal.cpp folds them; the rest of a longer line stands below its first
-    word."""
-    def lines(line: str) -> str:
-        indent = " " * (len(line) - len(line.lstrip()))
-        return textwrap.fill(line, COLUMNS, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
-
-    return "\n".join(line if len(line) <= COLUMNS else lines(line) for line in text.split("\n"))
-
-
 class Progress:
     """A bar that is drawn over (on a terminal) or lines that get rarer, to stderr."""
 
@@ -250,17 +282,17 @@ class Progress:
         """Shows a text in place of the last one."""
         self._last = time.monotonic()
         if self.mode == "bar":
-            sys.stderr.write("\r\033[K" + printable(text)[: shutil.get_terminal_size((110, 24)).columns - 1])
+            sys.stderr.write("\r\033[K" + printable(text)[: shutil.get_terminal_size((WIDTH, 24)).columns - 1])
             self._drawn = True
         elif self.mode == "lines":
-            sys.stderr.write(printable(text) + "\n")
+            sys.stderr.write(folded(text) + "\n")
         sys.stderr.flush()
 
     def say(self, sentence: str) -> None:
         """Writes a sentence that stays."""
         if self.mode != "off":
             self.finish()
-            sys.stderr.write(printable(sentence) + "\n")
+            sys.stderr.write(folded(sentence) + "\n")
             sys.stderr.flush()
 
     def finish(self) -> None:
@@ -287,12 +319,12 @@ class Voice:
     def say(self, sentence: str) -> None:
         """Prints a sentence on the course of the command or a note, unless it is quiet."""
         if not self.quiet and not self.json:
-            print(folded(printable(sentence)), flush=True)
+            print(folded(sentence), flush=True)
 
     def show(self, text: str) -> None:
         """Prints a result for people."""
         if not self.json:
-            print(printable(text), flush=True)
+            print(folded(text), flush=True)
 
     def tell(self, values: Any) -> None:
         """Prints a result for programs, if they ask; numbers that are not finite are null."""

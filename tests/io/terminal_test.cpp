@@ -7,6 +7,8 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <sstream>
+#include <string>
 
 namespace asperity::io {
 namespace {
@@ -43,6 +45,24 @@ TEST(Table, AlignsWhatIsSeen) {
                                  "  ─────────────────────────────\n"
                                  "  Å                        7\n");
     EXPECT_NE(table.text(true).find("\033[1m"), std::string::npos);
+}
+
+TEST(Table, ALastColumnOfTextIsBroken) {
+    Table table({"effect", "", "because"}, "<<<");
+    const std::string why =
+        "a copy of the lowest layer is relaxed where the approach ends, and more";
+    table.row({"relaxation", "on", why});
+    const std::string text = table.text(false);
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);)
+        EXPECT_LE(visible_width(line), text_columns) << line;
+    EXPECT_NE(text.find("\n                  "), std::string::npos) << text; // below "a copy"
+}
+
+TEST(Errors, AreFoldedBehindTheirLabels) {
+    const std::string fix(100, 'x');
+    EXPECT_EQ(folded("    fix: take " + fix), "    fix: take\n         " + fix);
+    EXPECT_EQ(folded("  note: take " + fix), "  note: take\n        " + fix);
 }
 
 TEST(Table, Cells) {

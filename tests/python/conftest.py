@@ -25,6 +25,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("MPLBACKEND", "agg")
 
 import asperity  # noqa: E402
+import asperity.arguments  # noqa: E402
 import asperity.running.runs  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
@@ -74,12 +75,27 @@ def command(*words, expect=0, says=(), ranks=0, cwd=None, env=None, given=None):
     return as_expected(words, done.returncode, done.stdout + done.stderr, expect, says)
 
 
+def unfolded(text):
+    """The text whose lines, folded to 80 columns, are whole again: a line was cut where its next word had no place."""
+    lines, columns = [], 0
+    for line in text.split("\n"):
+        words, table = line.split(), re.search(r"\S  +\S|──", line)
+        first = " ".join(words[:1 + bool(words and re.fullmatch(r"[-+(.\de]+", words[0]))])
+        indent = len(line) - len(line.lstrip()) if lines and not lines[-1].startswith(" ") else 0
+        if lines and columns and words and not table and columns + 1 + len(first) > 80 - indent:
+            lines[-1] += " " + " ".join(words)
+        else:
+            lines.append(line)
+        columns = len(line)
+    return "\n".join(lines)
+
+
 def as_expected(words, code, said, expect, says):
     """Checks the end of a command. Returns the text."""
     assert code == expect, f"exit {code}: {words}\n{said}"
     for text in [says] if isinstance(says, str) else says:
         assert (text in said or " ".join(text.split()) in " ".join(said.split())), f"{words} did not say {text!r}:\n{said}"
-    return said
+    return unfolded(said)
 
 
 def found(directory):
@@ -182,6 +198,13 @@ def mpi4py_launcher():
     if theirs.split()[0] != ours.split()[0]:
         pytest.skip(f"mpi4py is of {theirs.split(',')[0]}, the program of {ours}")
     return asperity.running.runs.launcher
+
+
+@pytest.fixture(autouse=True)
+def as_sources_spell(request):
+    """Messages whose fixes are followed name options as their sources do, also of calls of Python (test_functions.py has those)."""
+    with asperity.arguments.command_line() if request.module.__name__.startswith("test_fixes_") else contextlib.nullcontext():
+        yield
 
 
 @pytest.fixture()

@@ -9,7 +9,7 @@ import re
 import subprocess
 
 from catalogue import Message, catalogue
-from conftest import OF_PYTHON, in_this_process
+from conftest import OF_PYTHON, in_this_process, unfolded
 
 heard: list[str] = []
 """Messages whose fix was followed to its good end, each from its first line to its fix."""
@@ -29,10 +29,10 @@ def ask(*words: object, given: str = "", env: dict[str, str] | None = None) -> t
     """Runs the program; its exit code, and what it prints. A command of the package runs in this process."""
     if words[0] in OF_PYTHON and env is None:
         code, *streams = in_this_process(words, given)
-        return code, "".join(streams)
+        return code, unfolded("".join(streams))
     done = subprocess.run([os.environ["ASPERITY_PROGRAM"], *map(str, words)], input=given, text=True, capture_output=True,
                           timeout=60, env={**os.environ, **(env or {})})
-    return done.returncode, done.stdout + done.stderr
+    return done.returncode, unfolded(done.stdout + done.stderr)
 
 
 def not_followed(places: tuple[str, ...], excused: dict[str, str], others: bool = False) -> list[str]:

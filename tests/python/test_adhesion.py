@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT
 """From a map to its adhesion: a surface of known adhesion by way of an export, and what is no map."""
 
+import json
 import re
 import shutil
 from pathlib import Path
@@ -16,7 +17,7 @@ from asperity.running import program
 from asperity.running.pool import PoolOptions
 from asperity.running.scene import scene_file
 from asperity.studies.estimates import Estimating, surface_made
-from conftest import command
+from conftest import ROOT, command
 
 MATTER = {"block": {"young": "5 GPa", "poisson": 0.3, "thickness": 32},
           "interface": {"kind": "wall", "range": 3, "adhesion": "200 mJ/m^2"}, "drive": {"path": ["relax"]}}
@@ -200,6 +201,30 @@ def test_a_surface_is_made_by_one_start_of_the_program(place, monkeypatch):
     Path("rough.toml").write_text("[surface]\nsites = 16\n")
     made = surface_made("rough.toml")
     assert len(started) == 1 and made.heights.shape == (16, 16) and made.rms == pytest.approx(made.heights.std())
+
+
+def test_what_will_not_be_stated_is_said_before_the_first_run(place):
+    """With what would help; the same in Python as a warning."""
+    scan = ROOT / "scenes/measured/uncd_afm_100nm_512.h5"
+    given = ("adhesion", scan, "--young", "10GPa", "--poisson", "0.3", "--adhesion", "20mJ/m2", "--sites", "32", "--out", "a")
+    said = command(*given, "--plan", says=["9 runs, about", "the numbers will not be stated: roughness that the map does not show decides",
+                                           "a map with smaller pixels"])
+    assert said.index("will not be stated") and not list(Path("a").glob("*/result.json"))
+    told = json.loads(command(*given, "--plan", "--json"))
+    assert told["runs"] == told["left"] == 9 and told["seconds"] > 0 and told["unstated"][0]["numbers"] == "the numbers"
+
+
+def test_sites_that_show_enough_of_a_map_are_named(place):
+    """A self-affine map of H = 0.8, on a quarter of its points: what they cut off and what is beyond the map is too much, the latter
+    alone is not."""
+    draw = np.random.default_rng(2)
+    q = np.hypot(*np.meshgrid(128 * np.fft.fftfreq(128), 128 * np.fft.fftfreq(128)))
+    waves = np.where(q > 0, np.fft.fft2(draw.normal(size=(128, 128))) / np.maximum(q, 1.0) ** 1.8, 0.0)
+    height = np.fft.ifft2(waves).real
+    np.save("map.npy", height / height.std())
+    said = command("adhesion", "map.npy", "--unit", "nm", "--size", "200nm", "--young", "10GPa", "--poisson", "0.3", "--adhesion", "50mJ/m2",
+                   "--sites", "32", "--plan", says="--sites 128 shows enough of it")
+    assert "will not be stated" in said
 
 
 def test_the_law_of_missing_waves_is_that_of_the_map_without_its_line_noise(place):

@@ -70,7 +70,7 @@ def test_processes_that_mpi_does_not_connect(place):
 
 
 @pytest.mark.parametrize("words, says", [
-    ([], ""), (["chek"], "did you mean `asperity check`?"), (["run"], "SCENE is required"),
+    ([], ""), (["chek"], "did you mean `asperity check`?"), (["run"], "no scene is given"),
     (["run", "plain.toml", "--no-such-option"], "--no-such-option"),
     (["run", "plain.toml", "plain.toml"], "more than one scene"),
     (["run", "plain.toml", "--wall-limit", "soon"], "--wall-limit soon: is no length of time"),

@@ -10,7 +10,42 @@ import numpy as np
 import pytest
 
 import asperity
-from conftest import ROOT, STATE, command
+from conftest import ROOT, STATE, command, unfolded
+
+SPOKEN = (  # function, a message in the words of the command line, and in those of Python
+    ("adhesion", "name it: --unit nm", 'name it: unit="nm"'), ("adhesion", '--size "100 nm"', 'size="100 nm"'),
+    ("adhesion", '--sites 96, or --range "10 Å"; or leave it out', 'sites=96, or range="10 Å"; or leave it out'),
+    ("adhesion", '--line-noise "isotropic" takes it off', 'line_noise="isotropic" takes it off'),
+    ("adhesion", "leave --channel out", "leave channel out"),
+    ("adhesion", "of several: --channel 2", 'of several: channel="2"'), ("prony", "say --poisson 0.49", "say poisson=0.49"),
+    ("prony", "--relaxed 9 MPa", 'relaxed="9 MPa"'), ("prony", "take more branches (--branches)", "take more branches (branches)"),
+    ("prony", "say --modulus E, or", 'say modulus="E", or'), ("prony", "--channel 2", "--channel 2"), ("cost", "--target good", 'target="good"'),
+    ("estimate", "for example --set drive.path=relax", 'for example overrides={"drive.path": "relax"}'),
+    ("sweep", "for example --set surface.rms=1,2,3; for", 'for example values={"surface.rms": [1, 2, 3]}; for'),
+    ("tip", 'write --radius "20 nm"', 'write radius="20 nm"'))
+
+
+@pytest.mark.parametrize("name, text, wanted", SPOKEN, ids=[text for _, text, _ in SPOKEN])
+def test_messages_are_in_the_words_of_the_caller(name, text, wanted):
+    """The arguments that a message of Python names are arguments of the function."""
+    from asperity.arguments import command_line, spoken
+
+    function = getattr(asperity, name).__wrapped__
+    assert spoken(text, function) == wanted
+    with command_line():
+        assert spoken(text, function) == text
+
+
+def test_a_number_without_a_unit_is_read_as_people_mean_it():
+    for argument, value, wanted in (("radius", 20e-9, 'radius="20 nm"'), ("young", 3e9, 'young="3 GPa"'),
+                                    ("young", 3, 'young="3 GPa" or young="3 MPa"'),
+                                    ("adhesion", 0.05, 'adhesion="0.05 J/m^2"'), ("stiffness", 0.2, 'stiffness="0.2 N/m" or stiffness="0.2 mN/m"')):
+        given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "0.2 N/m",
+                 argument: value}
+        with pytest.raises(asperity.SceneError) as error:
+            asperity.tip(**given)
+        assert str(error.value).endswith("write the one that is meant: " + wanted), error.value
+
 
 SCENE = {**STATE, "surface": {"sites": 24, "rms": 0.5}}
 
@@ -58,7 +93,7 @@ def test_theory_is_that_of_the_command(file):
     told = json.loads(command("theory", file, "--json", "--set", "surface.rms=0.4"))
     assert found.theory == told["theory"] and found.delta_gamma == told["delta_gamma"]
     assert 0.0 < found.theory.persson.gamma_eff < found.delta_gamma and found.theory.renormalised.contact_fraction > 0.5
-    assert str(found) in command("theory", file, "--set", "surface.rms=0.4", "--out", "there")
+    assert unfolded(str(found)) in command("theory", file, "--set", "surface.rms=0.4", "--out", "there")
     # No module takes the name, whatever was imported before.
     code = "import asperity.theories.combined, asperity.plots, asperity; print(callable(asperity.theory), callable(asperity.cost))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, env={"PYTHONPATH": str(ROOT / "python")})
@@ -75,7 +110,7 @@ def test_cost_is_that_of_the_command(place, file):
     assert "are there already" in said and said.splitlines()[-1] == last
     with pytest.raises(asperity.SceneError, match="this scene has"):
         asperity.cost(file, out="other", parameters=["layers"])
-    with pytest.raises(asperity.SceneError, match="--target"):
+    with pytest.raises(asperity.SceneError, match='target="good"(?s:.*)for example target="1%", or target="0.01"'):
         asperity.cost(file, out="other", target="good")
     assert not (place / "other").exists()
 

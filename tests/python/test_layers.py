@@ -17,7 +17,7 @@ SUBPACKAGES = {
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "master_curve", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),
-    "studies": ("grid", "tables", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
+    "studies": ("grid", "tables", "forecast", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
                 "estimates", "map_scene", "tip", "prony", "states"),
     "plots": ("style", "run", "prony", "tip", "sweep"),
     "reports": ("page", "sentences", "run", "cost", "estimate", "tip", "sweep", "export"),

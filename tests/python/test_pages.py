@@ -12,6 +12,7 @@ from urllib.parse import unquote
 
 import pytest
 
+from asperity.commands.scenes import title
 from conftest import ROOT
 
 markdown_it = pytest.importorskip("markdown_it", reason="no markdown_it: apt-get install python3-markdown-it")
@@ -149,6 +150,8 @@ def test_every_scene_is_in_the_index():
     index = (ROOT / "scenes/README.md").read_text()
     scenes = {str(file.relative_to(ROOT / "scenes")) for file in (ROOT / "scenes").rglob("*.toml") if "results" not in file.parts}
     assert set(re.findall(r"\]\((.*?\.toml)\)", index)) == scenes
+    for scene, words in re.findall(r"\]\((.*?\.toml)\) \| (.*?) \|", index):
+        assert words == title(ROOT / "scenes" / scene) and words.count("(") == words.count(")")  # no citation is cut
 
 
 def test_references_are_current():

@@ -360,3 +360,46 @@ def test_what_is_no_result_is_a_message(tmp_path):
 def test_under_mpirun_one_rank_speaks(state_run):
     assert command("report", state_run.directory, ranks=2, expect=2).count("not one of several ranks") == 1
     command("export", state_run.directory, "--to", "xyz", ranks=1)
+
+
+KINDS_OF_PAGES = {  # files of results in the folder or below -> the exit code, and what is said
+    ("result.json",): (0, "one page"), ("sweep.json",): (0, "one page"),
+    ("a/result.json", "b/result.json"): (2, ["holds 2 results", "a (a run), b (a run)", "asperity report DIR/a", "asperity report DIR/b"]),
+    ("a/result.json", "b/sweep.json"): (2, ["holds 2 results", "b (a sweep)"]),
+    ("a/sweep.json", "b/sweep.json"): (0, "one page"),
+    ("a/b/result.json",): (2, ["holds 1 results", "asperity report DIR/a/b"]),
+    ("result.json", "sweep.json"): (2, ["holds 2 results: a run and a sweep", "move the others"]),
+    ("result.json", "estimate.json"): (2, ["a run and an estimate"]),
+    ("tip.json", "tip/result.json"): (2, ["holds the force curve of a tip", "asperity report DIR/tip"]),
+    ("states.json",): (2, ["holds stable states", "look at these files"]), ("cost.csv", "scene/result.json"): (2, ["holds a cost"]),
+    (): (4, "holds no result")}
+
+
+@pytest.mark.parametrize("files", KINDS_OF_PAGES, ids=" ".join)
+def test_a_page_is_of_one_result_or_says_why_not(tmp_path, light, files):
+    content = {"sweep.json": '{"name": "s", "scene": {}, "axes": ["surface.rms"], "points": []}'}
+    for name in files:
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).write_text(content.get(name.rpartition("/")[2], '{"delta_gamma": 1}'))
+    code, says = KINDS_OF_PAGES[files]
+    command("report", tmp_path, expect=code, says=says if isinstance(says, str) else [one.replace("DIR", str(tmp_path)) for one in says])
+    assert (tmp_path / "report.html").exists() == (code == 0)
+
+
+RUBBER = {"name": "rubber", "surface": {"sites": 16, "spacing": 10.0, "rms": 2.0, "q_max": 4}, "block": {"young": 0.01, "poisson": 0.49,
+          "thickness": 16, "prony": [[20.0, 1000.0]]}, "interface": {"kind": "wall", "adhesion": 0},
+          "drive": {"mode": "quasistatic", "control": "mean-height", "load": 2.0, "velocity": 1.0, "path": ["relax", "slide x 10 nm under load"]}}
+
+
+@pytest.mark.parametrize("adhesion", [0, 20])
+def test_the_page_of_a_sweep_of_slides_has_friction_and_no_pull_off(tmp_path, light, adhesion):
+    """Plots and words are those of what the points have: slides have neither approach nor pull-off."""
+    scene = {**RUBBER, "interface": {"kind": "wall", "adhesion": f"{adhesion} mJ/m2", "range": "4 nm"}}
+    sweep = asperity.sweep(scene, {"drive.velocity": [0.5, 5.0]}, out=tmp_path / "slides")
+    found = page(sweep.directory)
+    assert "Friction coefficient" in found.text and (sweep.directory / "report/friction.csv").exists()
+    assert not (sweep.directory / "report/curves.csv").exists()
+    shown = [label for d in found.data for label, _ in d.get("curves", [])]
+    assert "mean of the slide" in shown and not any(word in label for label in shown for word in ("pull-off", "approach"))
+    for word in ("pull-off", *["binding energy"] * (not adhesion)):
+        assert word not in found.text.lower().partition("the scene that the points vary")[0], word

@@ -28,7 +28,7 @@ sys.exit(done.returncode)
 ASKED = """
 import json, sys, asperity
 from asperity.running import program
-from asperity.studies import estimates, variations
+from asperity.studies import forecast, variations
 
 TINY = {"name": "tiny", "surface": {"sites": 16, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 said = [program.version(), program.mpi(), {name: program.info()[name] for name in ("git", "compiler", "flags")}]
@@ -41,7 +41,7 @@ for overrides in ({"surface.sites": -3, "block.poisson": 2.0}, {"drive.timestep"
         said += [type(error).__name__, str(error), error.listed]
 swept = asperity.sweep(TINY, {"drive.max_steps": [5, 7]}, out="swept", jobs=1)
 said += [[point["status"] for point in swept.points], swept.table["steps"].tolist() if "steps" in swept.table else None]
-said.append(estimates._seconds("tiny.toml", []) > 0.0)
+said.append(forecast.seconds_of("tiny.toml", []) > 0.0)
 with open("said.json", "w") as file:
     json.dump(said, file)
 """

@@ -745,3 +745,16 @@ def test_the_theory_alone(place):
     assert stored["version"] in command("--version") and {"git", "compiler", "flags"} <= stored.keys()
     table = asperity.sweep(STATE, {"surface.rms": "0.5:2:0.5"}, out="py", theory_only=True).table
     assert len(gamma := table["theory.persson.gamma_eff"]) == 4 and (np.diff(gamma) < 0).all()
+
+
+def test_the_progress_of_a_run_never_runs_back(tmp_path):
+    """A line that is half written, a sentence between two lines, and a second segment do not lower it."""
+    from asperity.running.pool import LOG, Job, _fraction
+
+    job, seen = Job("a", tmp_path, "", [], {}), []
+    for line in ('{"fraction": 0.3, "text": ""}\n', '{"fraction": 0.54, "text": ""}\n', '{"text": "pull-off begins"}\n', '{"fraction": 0.0',
+                 ', "text": ""}\n', '{"fraction": null, "text": ""}\n', '{"fraction": 0.67, "text": ""}\n'):
+        with open(tmp_path / LOG, "a") as log:
+            log.write(line)
+        seen.append(_fraction(job))
+    assert seen == [0.3, 0.54, 0.54, 0.54, 0.54, 0.54, 0.67]

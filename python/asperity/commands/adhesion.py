@@ -23,6 +23,7 @@ from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs, req
 from ..studies.estimates import MAP_FILES, OF_A_MAP, RESULT, Estimate, Estimating
 from ..studies.map_scene import MapScene, scene_of, stem_of
 from ..terminal import Voice
+from .studies import told
 
 
 @checks_calls
@@ -124,6 +125,7 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
     made = scene_of(str(map), stiffness, ratio, bond, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
                     line_noise=line_noise)
     making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
+    making.warn()
     found, complete = _carried_out(making)
     if not complete:
         raise Stopped(str(place), "the estimate stopped early", "", "the same call goes on from here")
@@ -134,7 +136,8 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
 
 
 def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Estimating:
-    return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition)
+    return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,
+                      of_sites="--sites")
 
 
 def _require_free(place: Path, file: str) -> None:
@@ -160,7 +163,7 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     return found, complete
 
 
-def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: str | None, options: PoolOptions, voice: Voice,
+def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: str | None, options: PoolOptions, plan: bool, voice: Voice,
                      **more) -> int:
     """Carries out `asperity adhesion`.
 
@@ -178,6 +181,8 @@ def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: 
         Result directory; None: the default one.
     options : PoolOptions
         Options of the runs.
+    plan : bool
+        True: only tells what would be run.
     voice : Voice
         Output of the command.
     **more : Any
@@ -194,7 +199,8 @@ def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: 
     for line in (f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
         voice.say(line)
     making = _estimating(made, place, options, voice.say)
-    voice.say(making.told())
+    if told(making.forecast(), plan, voice):
+        return 0
     found, complete = _carried_out(making)
     if not complete:
         voice.show("Stopped early: the same command goes on from here.")
@@ -203,7 +209,7 @@ def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: 
     if found is None or outcome.status != DONE:
         voice.show(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
-    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in made.notes])))
+    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in making.said])))
     voice.tell({**found.json(), "directory": place})
     voice.say(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0

@@ -13,15 +13,28 @@ import textwrap
 
 from ..arguments import options
 from ..errors import SceneError
+from ..terminal import WIDTH
 from ..units import is_unit
 
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early"
-WIDTH, INDENT = 80, 26
-"""Columns of the help, and the one in which explanations begin."""
+INDENT = 26
+"""Column of the help in which explanations begin."""
+EXAMPLES = {"DIR": "results/first-contact", "MAP": "scan.gwy", "FILE": "measured.csv", "FORMAT": "vtk"}
+"""What may stand for a word of the help."""
 
 
 class Parser(argparse.ArgumentParser):
     """Command line of a command: its mistakes are SceneErrors, its help has the form of the program's."""
+
+    words: tuple[str, ...] = ()
+    """Words of the call behind the command, for messages."""
+
+    def _given(self, action: argparse.Action) -> str | None:
+        """Returns the word of the call that gives an option or, of what stands without one, the first such word; None: none does."""
+        takes_value = {name for one in self._actions if one.nargs != 0 for name in one.option_strings}
+        alone = [word for word, before in zip(self.words, ("", *self.words)) if not word.startswith("-") and before not in takes_value]
+        names = [word for word in self.words if word.partition("=")[0] in action.option_strings]
+        return next(iter(names if action.option_strings else alone), None)
 
     def error(self, message: str):
         """Throws SceneError, with the option that was meant."""
@@ -35,9 +48,11 @@ class Parser(argparse.ArgumentParser):
             message, why = f"'{alone[1]}' stands alone", "a blank ends a word of the command line"
             fix = "write the unit behind the number, 100GPa, or put both into quotation marks" if is_unit(alone[1]) else fix
         elif message.startswith("the following arguments are required"):
-            why = "the command cannot be carried out without"
-            fix = " ".join(self.usage_line().split())
-        raise SceneError("command line", message[0].lower() + message[1:], why, fix)
+            lacking = [action for action in self._actions if action.required and self._given(action) is None]
+            message = ", ".join(map(_name_of, lacking)) + (" is" if len(lacking) == 1 else " are") + " missing"
+            why = "; ".join(f"{_name_of(action)}: {action.help}" for action in lacking)
+            fix = "for example: " + " ".join([self.prog, *self.words, *(_example(action) for action in lacking)])
+        raise SceneError("command line", message if message[:2].isupper() else message[0].lower() + message[1:], why, fix)
 
     def usage_line(self) -> str:
         """Returns what the command needs, as the help has it: "usage: asperity report DIR [options]"."""
@@ -49,6 +64,7 @@ class Parser(argparse.ArgumentParser):
 
     def refuse_unknown(self, words: list[str]) -> None:
         """Checks the options of a call before argparse does, which names those that are missing first. Raises SceneError."""
+        self.words = tuple(words)
         takes_value = {name for action in self._actions if action.nargs != 0 for name in action.option_strings}
         for word, before in zip(words, ["", *words]):
             name = word.partition("=")[0]
@@ -65,6 +81,16 @@ class Parser(argparse.ArgumentParser):
         parts += [_listed("arguments", [(str(a.metavar), a) for a in words])] * bool(words)
         parts.append(_listed("options", [(_spelt(a), a) for a in of_command if a.option_strings]))
         return "\n\n".join([*parts, EXIT]) + "\n"
+
+
+def _name_of(action: argparse.Action) -> str:
+    return action.option_strings[0] if action.option_strings else str(action.metavar)
+
+
+def _example(action: argparse.Action) -> str:
+    """Spells an option with a value, or what stands without one, as it may be written."""
+    value = EXAMPLES.get(str(action.metavar), str(action.metavar))
+    return f"{action.option_strings[0]} {value}" if action.option_strings else value
 
 
 def _spelt(action: argparse.Action) -> str:
@@ -125,6 +151,10 @@ def _jobs(command: argparse.ArgumentParser, what: str = "runs side by side; they
     command.add_argument("-j", "--jobs", type=_many, default=1, metavar="N", help=what)
 
 
+def _plan(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--plan", action="store_true", help="say what would be run, how long it takes and what it will not state; run nothing")
+
+
 WORKERS = ("run them on workers instead: mpi (the ranks of `mpirun -n 3 asperity ... --executor mpi`, the first of which "
            "leads) or dask:tcp://HOST:PORT; one thread each, unless OMP_NUM_THREADS says more there")
 
@@ -154,6 +184,7 @@ def parsers() -> dict[str, Parser]:
     sweep.add_argument("--wall-limit", default="", metavar="23h50m",
                        help="stop with checkpoints when this time has passed (exit 75)")
     sweep.add_argument("--theory-only", action="store_true", help="the theory alone, no simulation")
+    _plan(sweep)
     _voice(sweep)
     cost = add("cost", "what accuracy costs in run time: a scene with each of its numerical settings varied",
                "The same command goes on where it stopped.")
@@ -163,6 +194,7 @@ def parsers() -> dict[str, Parser]:
     cost.add_argument("--target", metavar="ERROR",
                       help="find the cheapest numerical settings that keep this error: 1%%, 0.01")
     cost.add_argument("--parameters", default="", metavar="NAMES", help="only these: timestep,cutoff,layers,...")
+    _plan(cost)
     _voice(cost)
     estimate = add("estimate", "the numbers of a scene with their errors, from runs with one setting varied at a time",
                    "Parts of the error: convergence, tail, spacing, levels, timestep, thickness, width, edge (of a map), rate, "
@@ -172,7 +204,7 @@ def parsers() -> dict[str, Parser]:
     estimate.add_argument("--seeds", type=_many, metavar="N",
                           help="surfaces of a self-affine scene to average over (default: 8, or 4 with a path)")
     estimate.add_argument("--parts", default="", metavar="NAMES", help="only these parts of the error: tail,seeds,...")
-    estimate.add_argument("--plan", action="store_true", help="say what would be run and how long it takes; run nothing")
+    _plan(estimate)
     _voice(estimate)
     adhesion = add("adhesion", "from a measured map of heights to its adhesion with an error",
                    "An elastic half-space on the rigid map, bound by an exponential attraction: run, path at a held mean height, "
@@ -190,6 +222,7 @@ def parsers() -> dict[str, Parser]:
     adhesion.add_argument(*options("sites"), type=_sites, metavar="N", help="along an edge (default: the map's points, 256 at most)")
     _out(adhesion, "results/<map>-adhesion")
     _jobs(adhesion)
+    _plan(adhesion)
     _voice(adhesion)
     tip = add("tip", "the force curve of a tip on a sample, with an error",
               "A rigid sphere on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without "

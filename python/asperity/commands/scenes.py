@@ -31,7 +31,8 @@ def title(scene: Path) -> str:
     """Returns the first sentence of the comment at the head of a scene, or of a script."""
     lines = [line[1:].strip() for line in scene.read_text().split("\n\n")[0].splitlines() if line.startswith("#")]
     text = "\n".join(line for line in lines if not line.startswith(("SPDX", "!"))).strip().partition("\n\n")[0].replace("\n", " ")
-    return re.split(r"(?<!Fig)\.\s", text + " ", maxsplit=1)[0].strip().rstrip(":")
+    ends = (end.start() for end in re.finditer(r"(?<!Fig)\.\s", text) if text.count("(", 0, end.start()) == text.count(")", 0, end.start()))
+    return text[:next(ends, len(text))].strip().rstrip(".:")
 
 
 def scenes_command(out: str, voice: Voice) -> int:

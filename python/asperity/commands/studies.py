@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from ..plots.sweep import plot_files, write_plots
 from ..reports import estimate as report_estimate
 from ..reports.cost import FILES, answer_of, json_of, text_of, write
@@ -11,14 +13,40 @@ from ..running import lock
 from ..running.pool import DONE, FAILED, PHYSICS, STOPPED, PoolOptions
 from ..studies.cost import Costing, target_of
 from ..studies.estimates import Estimating
-from ..studies.sweeps import TABLES, Carried
+from ..studies.forecast import Forecast
+from ..studies.sweeps import TABLES, Carried, forecast
 from ..terminal import Voice
+
+
+def told(forecast: Forecast, plan: bool, voice: Voice) -> bool:
+    """Tells what a study will run.
+
+    Parameters
+    ----------
+    forecast : Forecast
+        Runs, their time, and the numbers that will not be stated.
+    plan : bool
+        True: the forecast is the result (--plan).
+    voice : Voice
+        Output of the command.
+
+    Returns
+    -------
+    bool
+        The value of `plan`: nothing is left to do.
+    """
+    for line in forecast.lines:
+        (voice.show if plan else voice.say)(line)
+    if plan:
+        voice.tell(forecast.json())
+    return plan
+
 
 EARLY = "Stopped early: the same command goes on from here."
 
 
 def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
-                  voice: Voice) -> int:
+                  plan: bool, voice: Voice) -> int:
     """Carries out `asperity sweep`.
 
     Parameters
@@ -33,6 +61,8 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
         True: no simulation.
     options : PoolOptions
         Options of the runs.
+    plan : bool
+        True: only tells what would be run.
     voice : Voice
         Output of the command.
 
@@ -41,6 +71,9 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
     int
         The exit code: 75 if stopped early, else that of the first failure.
     """
+    if plan:
+        told(forecast(scenes, sets, out, theory_only, options, voice.say), plan, voice)
+        return 0
     done = Carried(scenes, sets, out, theory_only, options, voice.say, plot_files(not theory_only))
     written, note = write_plots(done.place, done.sweeps)
     for sweep in done.sweeps:
@@ -69,7 +102,7 @@ def sweep_command(scenes: list[str], sets: list[str], out: str | None, theory_on
 
 
 def cost_command(scene: str, overrides: list[str], parameters: list[str], out: str | None, options: PoolOptions,
-                 target: str | None, voice: Voice) -> int:
+                 target: str | None, plan: bool, voice: Voice) -> int:
     """Carries out `asperity cost`.
 
     Parameters
@@ -86,6 +119,8 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
         Options of the runs.
     target : str | None
         Relative error to keep, "1%"; None: none.
+    plan : bool
+        True: only tells what would be run.
     voice : Voice
         Output of the command.
 
@@ -97,6 +132,9 @@ def cost_command(scene: str, overrides: list[str], parameters: list[str], out: s
     costing = Costing(scene, overrides, out, options, parameters, None if target is None else target_of(target), voice.say, FILES)
     cost = costing.cost
     voice.say(f"reference: {costing.case.reference_text}")
+    if plan:
+        told(costing.forecast(), plan, voice)
+        return 0
     with lock.in_use(costing.place):
         complete = costing.carry_out()
         reference = costing.reference
@@ -144,11 +182,8 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
         The exit code: 75 if stopped early, that of the scene if it failed.
     """
     making = Estimating(scene, overrides, out, options, seeds, parts, say=voice.say, also=report_estimate.FILES)
-    if plan:
-        voice.show(making.told())
-        voice.tell({"name": making.name, "directory": making.place, "plan": making.told()})
+    if told(making.forecast(), plan, voice):
         return 0
-    voice.say(making.told())
     with lock.in_use(making.place):
         found, complete = making.carry_out()
         outcome = making.plan.scene.outcome
@@ -159,7 +194,7 @@ def estimate_command(scene: str, overrides: list[str], out: str | None, options:
     if not complete or found is None:
         voice.show(EARLY)
         return STOPPED
-    voice.show(report_estimate.text_of(found))
+    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in making.said])))
     voice.tell({**found.json(), "directory": making.place})
     voice.say(f"in {making.place}: {', '.join(written)}")
     return 0

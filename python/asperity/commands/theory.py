@@ -158,7 +158,7 @@ def computed(file: str, overrides: list[str]) -> Computed:
     point = combined.points(file, [overrides], profile=True)[0]
     program.complaints([point])
     profile, notes = point.pop("profile"), point.pop("notes")
-    text = _text(Values(point))
+    text = terminal.folded(_text(Values(point)))
     notes += [Values(point).part("theory." + part).text("note") for part in ("renormalised", "sphere", "sliding")]
     point.pop("flat")
     for key in ("gamma_eff_ratio", "gamma_eff_ratio_error"):

@@ -28,7 +28,7 @@ import h5py
 import numpy
 
 from ..arguments import checks_call
-from ..errors import Error, to_install
+from ..errors import Error, meant, to_install
 from ..files import store
 from ..running import program
 from ..running.scene import toml_of
@@ -132,7 +132,7 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
     except Error:
         raise
     except FileNotFoundError:
-        raise refuse(source, "cannot be read", "there is no such file", "check the path") from None
+        raise refuse(source, "cannot be read", "there is no such file", meant(source) or "check the path") from None
     except Exception as error:  # every library has its own
         raise refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
 

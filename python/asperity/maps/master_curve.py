@@ -16,6 +16,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from ..errors import meant
 from ..units import conversion
 from .channels import refuse
 
@@ -56,7 +57,8 @@ def _lines(path: Path) -> list[str]:
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise refuse(path, "cannot be read", error.strerror or error, "check the path and its permissions") from None
+        fix = "" if path.exists() else meant(path)
+        raise refuse(path, "cannot be read", error.strerror or error, fix or "check the path and its permissions") from None
     if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
         return data.decode("utf-16", "replace").splitlines()
     try:

@@ -198,7 +198,7 @@ class Verdict(NamedTuple):
     note: str
 
 
-def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
+def verdict(law: Law | None, modulus: float, adhesion: float, sites: str = "") -> Verdict:
     """Estimates the energy of the missing waves of a map and whether it matters.
 
     Parameters
@@ -209,6 +209,8 @@ def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
         E*, eV/Å³.
     adhesion : float
         Δγ, eV/Å².
+    sites : str
+        Setting of as many sites as show enough of the map; "": none do.
 
     Returns
     -------
@@ -228,5 +230,15 @@ def verdict(law: Law | None, modulus: float, adhesion: float) -> Verdict:
         judged = "this is negligible" if share < NEGLIGIBLE else (
             f"the numbers are uncertain by {100 * FACTOR * share:.2g} %, and likely too high")
         return Verdict(FACTOR * share, "", what, f"{wave} are missing or not trusted; {stored}: {judged} ({spectrum}).")
-    return Verdict(0.0, f"roughness that the map does not show decides: {wave} are missing, and {stored} ({spectrum}); a map with "
-                   "smaller pixels shows more of it", what, "")
+    return Verdict(0.0, f"roughness that the map does not show decides: {wave} are missing, and {stored} ({spectrum}); "
+                   + _help(law, share, bounded, sites), what, "")
+
+
+def _help(law: Law, share: float, bounded: bool, sites: str) -> str:
+    """Tells what would have the numbers stated. share: the missing energy over Δγ; sites: setting of as many sites as show enough."""
+    if sites:
+        return f"{sites} shows enough of it"
+    if not bounded or law.hurst <= 0.55:
+        return "a map with smaller pixels shows more of it"
+    pixel = 0.1 * law.shortest / PIXELS * (DECISIVE / share) ** (1.0 / (2.0 * law.hurst - 1.0))
+    return f"a map with pixels of about {pixel:.2g} nm, or a solid that is {1.0 + share / DECISIVE:.2g} times softer, shows enough of it"

@@ -71,7 +71,7 @@ def json_of(cost: Cost) -> dict[str, Any]:
         return {"parameter": one.parameter, "value": one.label, "setting": one.setting, "seconds": one.seconds,
                 "numbers": dict(zip(QUANTITIES, one.numbers)), "error": one.error, "failed": one.outcome.reason}
 
-    return {"rows": [row(one) for one in cost.rows], "target": cost.target,
+    return {"rows": [row(one) for one in cost.rows], "target": cost.target, "notes": cost.notes,
             "chosen": cost.chosen.setting if cost.chosen else None}
 
 
@@ -144,7 +144,7 @@ def text_of(cost: Cost) -> str:
         rows.append([*cells, *(percent(error, grain) for error, grain in zip(errors_of(row.numbers, reference.numbers), least)),
                      *("-" if "nan" in time else time for time in times),
                      "".join("*" if f else " " for f in row.front.values())])
-    parts.append(terminal.tables(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
+    parts.append(terminal.table(["parameter", "value", "γ", "contact", "in", "out", "force", "processor", "to scene", ""],
                                 rows, left=(0, 1), again=(0, 1)))
     for question, what in (("state", "the state at zero load (γ, contact)"),
                            ("path", "the whole path (works, pull-off force too)")):

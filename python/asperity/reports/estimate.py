@@ -14,11 +14,13 @@ from .. import terminal
 from ..files import store
 from ..plots import style as figures
 from ..plots.style import BLUE, INK, Curve, drawn, finish
+from ..results.result import Values
 from ..studies.estimate_parts import GROUPS
 from ..studies.estimates import Estimate
 from ..studies.stated_number import Found, Number, rounded
 from ..units import shown
 from .page import Page, page_files
+from .run import end
 from .sentences import ALWAYS_LEFT_OUT
 
 SMALL = 0.1
@@ -93,7 +95,7 @@ def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
     last = ""
     for group in GROUPS:
         for part in (p for p in estimate.parts if p["group"] == group):
-            rows.append([group if group != last else "", part["name"], part["failed"] and "failed" or part["what"],
+            rows.append([group if group != last else "", part["name"] if part["name"] != group else "", part["failed"] and "failed" or part["what"],
                          *(_cell(n, part["name"], what) for n in columns for what in ("shift", "error"))])
             last = group
     rows.append([])
@@ -115,8 +117,11 @@ def tables_of(estimate: Estimate) -> list[list[Number]]:
 def text_of(estimate: Estimate) -> str:
     """Returns the estimate as text for the terminal."""
     parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
+    varied = [row for row in rows_of(estimate, []) if row][1:-1]
+    parts += [terminal.table(heads_of([]), varied, left=(0, 1, 2)), ""] * bool(varied)
     for columns in tables_of(estimate):
-        parts += [terminal.tables(heads_of(columns), rows_of(estimate, columns), left=(0, 1, 2), again=(1,)), ""]
+        rows = [[row[1] or row[0].removesuffix(" as it is"), *row[3:]] if row else [] for row in rows_of(estimate, columns)]
+        parts += [terminal.table(["part", *heads_of(columns)[3:]], rows), ""]
     parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
     parts.append("Names: " + "; ".join(names_of(estimate)) + ".")
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
@@ -195,6 +200,8 @@ def page_of(estimate: Estimate, out: Path | None = None) -> Page:
     page.add("lists", [("", [*estimate.unseen, *LEFT_OUT])])
     page.section("notes", "Notes")
     page.add("lists", estimate.notes and [("", estimate.notes)])
+    end(page, Values({"run": estimate.run}), "The scene", estimate.scene, "Every key with the value that was used; the runs of the error vary one at "
+        "a time.")
     return page
 
 

@@ -18,6 +18,9 @@ from ..errors import Error
 from ..files import store
 from ..plots import style as figures
 
+WIDE = 24
+"""Characters of a cell from which its column is one of text, which is broken into lines."""
+
 
 def file_name(text: str) -> str:
     """Returns a name ("every:1000") as part of the name of a file or an element."""
@@ -120,7 +123,8 @@ class Page:
         links : list[str], optional
             Target of the first cell of each row.
         """
-        self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows)))})
+        wide = {k for row in rows for k, cell in enumerate(row) if k and heads and len(cell) > WIDE}
+        self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows))), "wide": wide})
 
     def figure(self, id: str, heading: str, caption: str, draw: Callable[[Axes], bool]) -> bool:
         """Adds a figure to the last section, with PNG, PDF, SVG and CSV.

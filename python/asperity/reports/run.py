@@ -57,6 +57,8 @@ PATH_CAPTIONS = {
     True: "Force of the substrate on the block over the mean height of the lowest layer above the apex; negative is "
           "attraction. Other curves: a smooth sphere by JKR, and by JKR and Maugis-Dugdale with the periodic "
           "images of the sphere."}
+RINGING = (" On the approach the surfaces jump into contact, faster than the top plane moves, and the block then vibrates about its new place: "
+           "the curve folds. After the pull-off the free block rings on until the damping has taken its energy.")
 MAPS = (("gap", "Gap", "Height of each site above the substrate below it. The colour bar {bar}."),
         ("pressure", "Pressure", "Normal force of the substrate on a site over its area. Blue is attractive, orange "
                                  "repulsive; the colour bar spans 99\u00a0% of the values."),
@@ -81,7 +83,7 @@ def _words(run: Result) -> dict[str, str]:
     path = PATH_CAPTIONS[run.curved]
     if not run.curved:
         path += ("Straight lines across are jumps, on which the solids are not in force balance." if static and not held else
-                 "The integral of a curve along its path is the work of the interface’s force on that segment.")
+                 "The integral of a curve along its path is the work of the interface’s force on that segment." + RINGING * (not static))
     places = losses(run.series)
     others = "".join(f" + dissipated in the {place}" for place in places)
     return {"path": path, "contact": contact,
@@ -94,7 +96,8 @@ def _words(run: Result) -> dict[str, str]:
                        "cycle." if places else
                        "The area between approach and pull-off is the energy lost in a cycle." if static else
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
-                       "the damping does is not in it.", "at": run.load_words[0],
+                       "the damping does is not in it. Swings after the jump into contact and after the pull-off are vibrations of the "
+                       "block.", "at": run.load_words[0],
             "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
 
 
@@ -113,10 +116,12 @@ def _top(page: Page, run: Result) -> None:
                              "shows the part before the stop."))
     page.notices += [("Some of the files cannot be read", note) for note in run.notes]
     page.unread += run.notes
-    page.add("numbers", sentences.key_numbers(run))
+    numbers = sentences.key_numbers(run)
+    page.add("first", numbers and numbers[0])
     for sentence in sentences.results(run):
         page.add("paragraph", sentence)
-    if any("converged" in number.note for number in sentences.key_numbers(run)):
+    page.table(["number", "value", "unit", ""], [[one.name, one.value, one.unit, one.note] for one in numbers[1:]])
+    if any("converged" in number.note for number in numbers):
         page.add("paragraph", sentences.CONVERGED)
     if not run.part("scene"):
         return

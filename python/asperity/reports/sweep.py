@@ -9,6 +9,7 @@ import base64
 import contextlib
 import io
 import os
+import shlex
 from functools import partial
 from pathlib import Path
 
@@ -16,11 +17,11 @@ import matplotlib.image
 import numpy as np
 from matplotlib.axes import Axes
 
-from ..errors import Error
+from ..errors import Error, SceneError
 from ..files import store
 from ..plots import run as run_plots, sweep as plots
 from ..plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
-from ..results.result import Result, Values, expect
+from ..results.result import KINDS as RESULTS, LISTED, Result, Values, expect, kinds_in, results_below
 from ..running.pool import DONE, FAILED
 from ..running.scene import toml_of
 from ..studies.estimates import RESULT, load_estimate
@@ -128,20 +129,24 @@ def _force_curves(points: _Points, ax: Axes) -> bool:
     """Draws the force curves of several points in one plot, spread evenly over them."""
     runs = [(n, r) for n, r in points.runs
             if {"segment", "mean_height", "force"} <= set(r.series) and len(r.series["segment"]) > 1]
+    ways = {"pull-off": "-", "approach": DASHES[4]}
+    runs = [(n, r) for n, r in runs if ways.keys() & set(r.segment_names)]
     if len(runs) < 2:
         return False
     few = min(len(runs), MOST_CURVES)
+    drawn_ways: dict[str, str] = {}
     for k in range(few):
         name, run = runs[k * (len(runs) - 1) // (few - 1)]
+        drawn_ways |= {words: ways[words] for words in run.segment_names if words in ways}
+        first = "pull-off" if "pull-off" in run.segment_names else "approach"
         unit, label = run_plots.force_unit(run)
         for segment, words in enumerate(run.segment_names):
             here = run.series["segment"] == segment
-            if here.sum() > 1:
+            if here.sum() > 1 and words in ways:
                 curve(ax, run.series["mean_height"][here], run.series["force"][here] / unit,
-                      name if words == "pull-off" else "", colour=COLOURS[k],
-                      line=DASHES[4] if words == "approach" else "-")
-    ax.plot([], [], color=GREY, linestyle="-", label="pull-off")
-    ax.plot([], [], color=GREY, linestyle=DASHES[4], label="approach")
+                      name if words == first else "", colour=COLOURS[k], line=ways[words])
+    for words, line in drawn_ways.items():
+        ax.plot([], [], color=GREY, linestyle=line, label=words)
     felt = [h for _, r in runs for h in r.series["mean_height"][
         np.abs(r.series["force"]) > 1e-3 * np.abs(r.series["force"]).max()]]
     if felt:
@@ -245,7 +250,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path 
         page.add("numbers", key_numbers(sweep))
         for note in sweep.notes:
             page.add("paragraph", f"Note: {note}.")
-    page.section("plots", "Adhesion and contact")
+    page.section("plots", "Over the swept keys")
     for name in plots.names(sweeps):
         page.figure(name, *FIGURES[name], partial(plots.plot, sweeps, name))
     for sweep, some in zip(sweeps, points):
@@ -289,14 +294,31 @@ def write_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: str | None 
     ------
     InputOutputError
         The directory has no result.
+    SceneError
+        The directory has several results, or one of which there is no page.
     """
     place = None if out is None else store.chosen(out, "")
-    if (directory / RESULT).exists():
+    own = kinds_in(directory)
+    below = results_below(directory) if directory.is_dir() and not own else {}
+    if len(own) > 1:
+        raise SceneError(str(directory), f"holds {len(own)} results: " + " and ".join(RESULTS[file] for file in own),
+                         f"{', '.join(own)} are in it, and a page is of one", "move the others to directories of their own")
+    if own == [RESULT]:
         page = page_of(load_estimate(directory), place)
         page.write()
         return page
-    run = (directory / "result.json").exists()
-    if (directory / "sweep.json").exists() or not run and any(directory.glob("*/sweep.json")):
+    if own == ["sweep.json"] or below and all(files == ["sweep.json"] for files in below.values()):
         return write_sweep_page(directory, kinds, place)
-    expect(directory, "result.json", "sweep.json")
+    runs = {**below, **(results_below(directory) if own and own != ["result.json"] else {})}
+    commands = [f"asperity report {shlex.quote(str(one))}" for one in runs][:LISTED] + ["..."] * (len(runs) > LISTED)
+    if below:
+        raise SceneError(str(directory), f"holds {len(below)} results, and a page is of one or of a sweep",
+                         ", ".join(f"{one.relative_to(directory)} ({RESULTS[files[0]]})" for one, files in [*below.items()][:LISTED])
+                         + ", ..." * (len(below) > LISTED), "name one of them:\n" + "\n".join(commands))
+    if own and own != ["result.json"]:
+        page = directory / "report.html"
+        raise SceneError(str(directory), f"holds {RESULTS[own[0]]}, of which this command makes no page",
+                         f"{own[0]} is in it, with what its own command has written" + f": its page is {page}" * page.exists(),
+                         "name one of its runs:\n" + "\n".join(commands) if commands else "look at these files")
+    expect(directory, "result.json")
     return write_run_page(Result(directory), kinds, place)

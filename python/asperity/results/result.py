@@ -21,7 +21,7 @@ import h5py
 import numpy as np
 
 from ..arguments import checks_call, checks_calls
-from ..errors import InputOutputError, UnknownName
+from ..errors import InputOutputError, UnknownName, meant
 from ..files import store
 from .frames import Frames, data_frame, data_set
 from .values import Attributes, Values, finite as finite
@@ -97,14 +97,42 @@ def expect(directory: Path, *files: str) -> None:
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
         raise InputOutputError(str(directory), "is no result directory",
-                               "it is a file" if directory.exists() else "there is no such directory", example)
-    if not any((directory / file).exists() for file in files):
-        if (directory / "sweep.json").exists():
-            raise InputOutputError(str(directory), "holds a sweep, not the result of one run", "sweep.json is in it",
-                                   "name the directory of one of its points; in Python asperity.load_sweep() takes it whole")
-        raise InputOutputError(str(directory), "holds no result",
-                               f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
-                               example + "; a run that was killed leaves no result.json before it is resumed")
+                               "it is a file" if directory.exists() else "there is no such directory", meant(directory) or example)
+    if any((directory / file).exists() for file in files):
+        return
+    own, runs = kinds_in(directory), [place for place, kinds in results_below(directory).items() if "result.json" in kinds]
+    which = " or ".join(map(str, runs[:LISTED])) + f", one of {len(runs)}" * (len(runs) > LISTED)
+    if own:
+        whole = "; in Python asperity.load_sweep() takes it whole" if own[0] == "sweep.json" else ""
+        raise InputOutputError(str(directory), f"holds {KINDS[own[0]]}, not the result of one run", f"{own[0]} is in it",
+                               f"name one of its runs: {which}{whole}" if runs else "run it again: it holds no finished run")
+    if runs:
+        raise InputOutputError(str(directory), "holds no result of its own", "results are in directories below it", f"name one of them: {which}")
+    raise InputOutputError(str(directory), "holds no result",
+                           f"{' and '.join(files)} {'is' if len(files) == 1 else 'are'} not in it",
+                           example + "; a run that was killed leaves no result.json before it is resumed")
+
+
+KINDS = {"result.json": "a run", "sweep.json": "a sweep", "estimate.json": "an estimate", "tip.json": "the force curve of a tip",
+         "states.json": "stable states", "cost.csv": "a cost"}
+"""What a directory with this file holds."""
+LISTED = 8
+"""Results of a directory that a message names."""
+
+
+def kinds_in(directory: Path) -> list[str]:
+    """Returns the files of KINDS in a directory."""
+    return [file for file in KINDS if (directory / file).exists()]
+
+
+def results_below(directory: Path) -> dict[Path, list[str]]:
+    """Returns the directories with results in a directory and, where that has none, in the directories in it, each with its files of
+    KINDS."""
+    found: dict[Path, list[str]] = {}
+    for place in sorted(one for one in directory.iterdir() if one.is_dir()):
+        kinds = kinds_in(place)
+        found |= {place: kinds} if kinds else {one: some for one in sorted(place.glob("*/")) if (some := kinds_in(one))}
+    return found
 
 
 class RunFile:

@@ -367,8 +367,8 @@ def _reason(job: Job, code: int) -> str:
 
 
 def _fraction(job: Job) -> float:
-    """Returns the completed part of a run's path, from its last line of progress; 0 if unknown."""
-    return program.told(_log(job).rpartition("\n")[2]).get("fraction") or 0.0
+    """Returns the completed part of a run's path, the largest of its lines of progress; 0 if unknown."""
+    return max((program.told(line).get("fraction") or 0.0 for line in _log(job).splitlines()), default=0.0)
 
 
 class Pool:

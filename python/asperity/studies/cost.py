@@ -19,6 +19,7 @@ import numpy as np
 from ..errors import Named, SceneError
 from ..running.pool import FAILED, Outcome, PoolOptions
 from .cost_parameters import ASKED, Base, CostCase, Row, cost_case
+from .forecast import Forecast
 from .variations import NAN, Study, joined
 
 TARGETS = (0.05, 0.01, 0.001)
@@ -87,10 +88,10 @@ def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarra
 
 
 class Cost(Named):
-    """Rows of the measured settings: the first is the reference, the second the scene itself."""
+    """Rows of the measured settings: the first is the reference, the second the scene itself. notes: on the scene."""
 
-    def __init__(self, case: CostCase, target: float | None = None):
-        self.case, self.target = case, target
+    def __init__(self, case: CostCase, target: float | None = None, notes: Sequence[str] = ()):
+        self.case, self.target, self.notes = case, target, list(notes)
         self.rows = [Row("reference", "reference", case.reference, compared=False), Row("scene", "as it is", []),
                      *(row for parameter in case.parameters for row in parameter.rows)]
         self.cheapest: dict[str, list[Row | None]] = {}
@@ -231,7 +232,11 @@ class Costing(Study):
         write in the directory. Raises SceneError."""
         super().__init__(scene, overrides, out, "cost", options, say, files)
         self.case = cost_case(self.varied, list(parameters), same_experiment=target is not None)
-        self.cost = Cost(self.case, target)
+        self.cost = Cost(self.case, target, self.notes)
+
+    def forecast(self) -> Forecast:
+        """Returns the runs of single settings that are left, and their time."""
+        return self.forecast_of(self.cost.rows, "then the cheapest combinations of them")
 
     @property
     def reference(self) -> Outcome:

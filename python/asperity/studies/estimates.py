@@ -10,35 +10,35 @@ import math
 import os
 import re
 import tempfile
+import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from numbers import Integral
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from ..arguments import checks_call, checks_calls
-from ..errors import BY_CODE, Error, InputOutputError, InternalError, Named, SceneError, Stopped, UnknownName
+from ..arguments import checks_call, checks_calls, spoken
+from ..errors import BY_CODE, InputOutputError, InternalError, Named, SceneError, SceneWarning, Stopped, UnknownName
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values, read_json
 from ..running import lock, program
 from ..running.pool import DONE, PoolOptions, refuse_jobs, require_free_runs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
-from ..terminal import duration
 from ..units import GIGAPASCAL
 from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
-from .quantities import number_of, quantities_of
+from .forecast import Forecast
+from .quantities import CURVED, FLAT, number_of, quantities_of
 from .stated_number import Found, Number
-from .variations import Setting, Study, Variation, Variations
+from .variations import Study, Variation
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 RESULT = "estimate.json"
-START = 0.3
-"""s; what a run takes beside its simulation."""
 SURFACES = {False: 8, True: 4}
 """Surfaces of a scene without and with a path."""
 NO_ADHESION = 0.01
@@ -165,9 +165,9 @@ OF_A_MAP = re.compile(r"(scene|finer|mirrored|quarter-\d)(,.*)?|\w+=.*")
 
 
 def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, spacing_also: SpacingAlso,
-               ) -> tuple[tuple[Part, ...], missing_waves.Law | None]:
+               ) -> tuple[tuple[Part, ...], Callable[[float], missing_waves.Law | None], int]:
     """Returns the parts of the error of a measured map (the same waves on half of the spacing, the map in its mirror images, its
-    quarters; each a scene of its own in `place`) and the law of the waves that the map does not show.
+    quarters; each a scene of its own in `place`), the law of the waves that sites of a spacing do not show, and the points of the map.
 
     continuous: the spacing of the sites is no solid's own."""
     of = Values(keys)
@@ -236,7 +236,8 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         parts.append(Part("places", "realisation", "the quarters of the map",
                           scenes("quarter", height_map.quarters(heights), 0.5, "periodic" if detrend == "none" else detrend),
                           places))
-    return tuple(parts), missing_waves.law_of(_without_line_noise(heights, edge, of.text("surface.line_noise")), edge, edge / sites)
+    quiet = _without_line_noise(heights, edge, of.text("surface.line_noise"))
+    return tuple(parts), partial(missing_waves.law_of, quiet, edge), len(heights)
 
 
 def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
@@ -284,38 +285,6 @@ def surface_made(file: str, overrides: Iterable[str] = ()) -> SurfaceMade:
     return SurfaceMade(made["rms"], made["slope_of_neighbours"], heights, made["doubts"])
 
 
-def _seconds(scene: str, sets: list[str]) -> float:
-    """Returns the time of a run by `asperity plan`, s; NaN if unknown."""
-    try:
-        return program.plan(scene, sets)["seconds"]["altogether"]
-    except Error:
-        return math.nan
-
-
-def work_of(setting: Setting, scene: Variations) -> float:
-    """Estimates the run time of a setting relative to that of the scene.
-
-    Parameters
-    ----------
-    setting : Setting
-        Keys and their values.
-    scene : Variations
-        Settings of the scene.
-
-    Returns
-    -------
-    float
-        The ratio of the times.
-    """
-    set_to = dict(one.split("=", 1) for one in setting)
-
-    def ratio(key: str) -> float:
-        return float(set_to[key]) / scene.own(key) if key in set_to and scene.own(key) else 1.0
-
-    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.displacement_step") ** -0.5)
-            / (ratio("drive.timestep") * ratio("drive.velocity")))
-
-
 # Carrying it out.
 
 def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
@@ -354,12 +323,13 @@ class Estimating(Study):
     """Planned estimate of a scene in a directory; carry_out() makes the runs."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, options: PoolOptions, seeds: int | None,
-                 only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] = (),
-                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = ()):
+                 only: Iterable[str] = (), spacing_also: SpacingAlso = lambda _: [], notes: Iterable[str] | None = None,
+                 say: Callable[[str], None] = print, withheld: str = "", condition: str = "", also: Iterable[str] = (),
+                 of_sites: str = "surface.sites ="):
         """Plans the estimate. withheld: reason why the numbers OF_A_PATH are not stated; condition: limitation of these numbers;
-        also: names of files that the caller will write in the directory."""
-        super().__init__(scene, overrides, out, "estimate", options, say, [RESULT, *also])
-        keys, varied, self.notes = self.keys, self.varied, list(notes)
+        also: names of files that the caller will write in the directory; of_sites: how its user sets the sites."""
+        super().__init__(scene, overrides, out, "estimate", options, say, [RESULT, *also], notes)
+        keys, varied = self.keys, self.varied
         path = keys["drive"]["path"]
         if not {"relax", "approach", "pull-off"} & set(path):
             raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
@@ -375,10 +345,11 @@ class Estimating(Study):
                              "smaller surface.spacing")
         of_file = keys["surface"]["kind"] == "file"
         map_parts: tuple[Part, ...] = ()
-        self.law: missing_waves.Law | None = None
+        self.law_at: Callable[[float], missing_waves.Law | None] | None = None
+        self.points, self.of_sites = 0, of_sites
         if of_file:
             require_free_runs(self.place, OF_A_MAP)
-            map_parts, self.law = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
+            map_parts, self.law_at, self.points = _map_parts(keys, scene, self.place / "maps", varied.continuous, spacing_also)
         self.plan = plan_of(varied, seeds or SURFACES[varied.moves or varied.dynamic], spacing_also, map_parts)
         only = [name for name in only.split(",") if name] if isinstance(only, str) else list(only)
         self.require_known(only, self.plan.parts, "--parts")
@@ -389,19 +360,40 @@ class Estimating(Study):
         for part in self.plan.parts:
             self.rows += [row for row in ([part.base, *part.rows] if part.rows and part.base else []) if row not in self.rows]
         self.jobs = self.runs.jobs(self.rows)
+        self.judged = self._judged()
+        for part in self.plan.parts if self.judged else []:
+            if part.name == "waves":
+                part.what, part.relative = self.judged.what, self.judged.relative
+        of_path = ", ".join(q.symbol for q in (CURVED if keys["surface"]["radius"] != "none" else FLAT) if q.path in OF_A_PATH)
+        self.unstated = [("the numbers", self.judged.withheld)] if self.judged and self.judged.withheld else \
+            [(of_path, self.withheld)] if self.withheld and varied.moves else []
 
-    def told(self) -> str:
-        """Prints the number of runs of the estimate and their approximate time."""
-        once, work = {id(job): row for job, row in zip(self.jobs, self.rows)}, 0.0
-        base: dict[tuple[str, ...], float] = {(): _seconds(self.runs.scene, self.runs.common)}
-        for row in once.values():
-            still = "drive.mode=quasistatic" in row.setting and self.varied.dynamic
-            key = ("drive.mode=quasistatic",) * still
-            if key not in base:
-                base[key] = _seconds(self.runs.scene, [*self.runs.common, *key])
-            factor = {"mirrored": 4.0, "finer": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
-            work += START + factor * base[key]
-        return f"{self.name}: {len(once)} runs, about {_about(work / max(1, self.runs.options.jobs))}"
+    @property
+    def law(self) -> missing_waves.Law | None:
+        """Law of the waves that a map does not show; None if it shows all."""
+        return self.law_at(self.varied.edge / self.varied.sites) if self.law_at else None
+
+    def warn(self) -> None:
+        """Tells by a warning which numbers will not be stated, before the runs are made."""
+        for names, why in self.unstated:
+            warnings.warn(f"{names} will not be stated: {spoken(why)}", SceneWarning, stacklevel=4)
+
+    def forecast(self) -> Forecast:
+        """Returns the runs that are left, their time, and the numbers that will not be stated."""
+        return replace(self.forecast_of(self.rows), unstated=self.unstated)
+
+    def _judged(self) -> missing_waves.Verdict | None:
+        """Returns what the waves that a map does not resolve do to the numbers; None if they are not looked at."""
+        if self.law_at is None or not any(one.name == "waves" and not one.what for one in self.plan.parts):
+            return None
+        layers = self.varied.scene.find("block.layers")
+        young, poisson = layers[0][1:] if layers else (self.varied.own("block.young"), self.varied.own("block.poisson"))
+        modulus = young * GIGAPASCAL / (1.0 - poisson ** 2)  # of the surface, where short waves are
+        adhesion = Values(self.jobs[0].answer).number("delta_gamma", 0.0) / 1e3
+        sites = [n for n in (self.varied.sites * 2**k for k in range(1, 8)) if n < self.points] + [self.points]
+        more = next((n for n in sites if n > self.varied.sites and
+                     not missing_waves.verdict(self.law_at(self.varied.edge / n), modulus, adhesion).withheld), 0)
+        return missing_waves.verdict(self.law, modulus, adhesion, f"{self.of_sites} {more}" * (more > 0))
 
     def carry_out(self) -> tuple[Estimate | None, bool]:
         """Carries out the runs and writes estimate.json.
@@ -415,13 +407,14 @@ class Estimating(Study):
         if self.plan.scene.outcome.status != DONE:
             return None, complete
         result = self.plan.scene.outcome.result
-        numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, self._missing(result))
+        judged = self.judged
+        numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, judged.withheld if judged else "")
         for path in OF_A_PATH:
             if path in numbers:
                 numbers[path].withheld, numbers[path].condition = numbers[path].withheld or self.withheld, self.condition
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
-        notes = list(self.notes)
+        notes = self.notes + ([judged.note] if judged and judged.note else [])
         if self.varied.moves and self.keys["drive"]["control"] == "top" and self.keys["surface"]["radius"] == "none":
             notes.append("Works and losses of a path with its top held depend on the block's thickness as on the stiffness of "
                          'a machine; drive.control="mean-height" has none.')
@@ -438,25 +431,6 @@ class Estimating(Study):
             with store.outputs(self.place, [RESULT], inputs=self.inputs) as written:
                 written.write(RESULT, store.sealed_json(estimate.json()))
         return estimate, complete
-
-
-    def _missing(self, result: Values) -> str:
-        """Completes the part of the waves that a map does not resolve. Returns the reason why no number is stated; "" if numbers
-        are stated."""
-        part = next((one for one in self.plan.parts if one.name == "waves" and not one.what), None)
-        if part is None:
-            return ""
-        layers = self.varied.scene.find("block.layers")
-        young, poisson = layers[0][1:] if layers else (self.varied.own("block.young"), self.varied.own("block.poisson"))
-        modulus = young * GIGAPASCAL / (1.0 - poisson ** 2)  # of the surface, where short waves are
-        found = missing_waves.verdict(self.law, modulus, result.number("delta_gamma", 0.0) / 1e3)
-        part.what, part.relative = found.what, found.relative
-        self.notes += [found.note] * bool(found.note)
-        return found.withheld
-
-
-def _about(seconds: float) -> str:
-    return "a time that is not known" if math.isnan(seconds) else duration(seconds)
 
 
 @checks_call
@@ -500,6 +474,7 @@ def estimate(scene: SceneLike, overrides: Overrides | None = None, out: str | os
         said: list[str] = []
         making = Estimating(file, assignments(overrides), None if out is None else str(out),
                             PoolOptions(jobs=jobs, progress="off"), seeds, parts, say=said.append)
+        making.warn()
         with lock.in_use(making.place):
             found, complete = making.carry_out()
         if not complete:

@@ -16,13 +16,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arguments import spoken
 from ..errors import SceneError
 from ..files import store
 from ..maps import height_map, missing_waves
 from ..results.result import Values
 from ..running import program
 from ..running.scene import scene_file, toml_of
-from ..units import GIGAPASCAL, MILLIJOULE
+from ..units import GIGAPASCAL, MILLIJOULE, conversion
 from .estimate_parts import SpacingAlso
 from .estimates import surface_made
 from .variations import Setting
@@ -34,8 +35,33 @@ SITE_BYTES = 1200
 RANGE = "3 Å"
 WIDEST_PIXEL = 1e4
 """Å"""
-UNITS = {"young": ("GPa", "MPa"), "adhesion": ("J/m^2", "mJ/m^2"), "range": ("Å", "nm"), "size": ("nm", "µm"),
-         "radius": ("nm", "µm"), "stiffness": ("N/m", "mN/m")}
+
+
+class Units(NamedTuple):
+    """Units in which an argument is usually meant, the unit of SI, and the least and largest value in it that anybody means."""
+
+    usual: tuple[str, ...]
+    si: str
+    least: float
+    most: float
+
+    def meant(self, text: str) -> list[str]:
+        """Returns what a number without a unit may mean, each with a unit: "20 nm" of 2e-8."""
+        try:
+            value = float(text)
+        except ValueError:
+            value = 1.0
+        of_si = {unit: conversion(unit, self.si) or 1.0 for unit in self.usual}
+        found = [f"{text} {unit}" for unit, factor in of_si.items() if self.least <= value * factor <= self.most]
+        if self.least <= value <= self.most and self.si not in self.usual:
+            near = min(of_si, key=lambda unit: abs(math.log(value / of_si[unit] / 30)))
+            found.append(f"{value / of_si[near]:.6g} {near}")
+        return list(dict.fromkeys(found)) or [f"{text or 1} {unit}" for unit in self.usual]
+
+
+UNITS = {"young": Units(("GPa", "MPa"), "Pa", 1e3, 3e12), "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
+         "range": Units(("Å", "nm"), "m", 1e-12, 1e-5), "size": Units(("nm", "µm"), "m", 1e-9, 1e-2),
+         "radius": Units(("nm", "µm"), "m", 1e-10, 1e-3), "stiffness": Units(("N/m", "mN/m"), "N/m", 1e-5, 1e5)}
 
 
 ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhesion": "adhesion", "interface.range": "range",
@@ -85,7 +111,7 @@ def with_unit(name: str, value: object) -> str:
     text = str(value).strip()
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
-                         "write the one that is meant: " + " or ".join(f'"{text or 1} {unit}"' for unit in UNITS[name]))
+                         "write the one that is meant: " + " or ".join(f'--{name} "{one}"' for one in UNITS[name].meant(text)))
     return text
 
 
@@ -309,7 +335,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
     def also(factor: float) -> Setting:
         return [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
 
-    return MapScene(place / f"{stem}.toml", notes, also, withheld, condition)
+    return MapScene(place / f"{stem}.toml", [*map(spoken, notes)], also, spoken(withheld), condition)
 
 
 def stem_of(file: str) -> str:

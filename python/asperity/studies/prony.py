@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from scipy.optimize import least_squares, nnls
 
-from ..arguments import checks_call, chosen
+from ..arguments import checks_call, chosen, spoken
 from ..errors import SceneError
 from ..files import store
 from ..maps.channels import refuse
@@ -405,6 +405,7 @@ def prony(source: str | Path, target: str | Path | None = None, branches: int | 
     if modulus not in ("", "E", "G"):
         raise SceneError(f"--modulus {modulus}", "is none of its choices", "choices: E, G", "say E of Young's moduli, G of shear moduli")
     found = fit(read_master_curve(source, frequency_unit, modulus_unit, modulus), branches, chosen("poisson", poisson=poisson, nu=nu), relaxed)
+    found.notes = [spoken(note) for note in found.notes]
     if target is not None:
         with store.new(Path(target)) as beside:
             Path(beside).write_text(found.toml, encoding="utf-8")

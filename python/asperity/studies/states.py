@@ -23,13 +23,13 @@ from typing import Any
 import numpy
 
 from ..arguments import checks_call
-from ..errors import PhysicsError, SceneError
+from ..errors import PhysicsError, SceneError, SceneWarning
 from ..files import store
 from ..results.result import Values
 from ..running import lock, program
 from ..running.engine import State, Statics
-from ..running.scene import Overrides, SceneLike, assignments, inputs_of
-from ..terminal import Progress, Voice, html_table, millijoules, tables
+from ..running.scene import Overrides, SceneLike, assignments, inputs_of, scene_file
+from ..terminal import Progress, Voice, html_table, millijoules, table
 from ..units import MEGAPASCAL, MILLIJOULE
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
@@ -289,6 +289,20 @@ class FoundStates(Values):
         return html_table("Stable states", NUMBERS, rows, f"the path ended because: {self['ended']}")
 
 
+def _statics(scene: SceneLike, overrides: list[str]) -> Statics:
+    """Returns the contact at rest. Notes on the scene as it is written are warnings; those on the keys that are set here are none."""
+    relaxed = [*overrides, "block.prony=[]", "drive.path=relax"]  # the block has relaxed
+    with scene_file(scene) as file:
+        answer = program.check(file, overrides)
+    with warnings.catch_warnings():
+        if not answer["problems"]:
+            warnings.simplefilter("ignore", SceneWarning)
+        statics = Statics(scene, relaxed)
+    for note in answer["notes"]:
+        warnings.warn(note, SceneWarning, stacklevel=4)
+    return statics
+
+
 @checks_call
 def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.PathLike | None = None, starts: int = 20,
            report: Callable[[str], None] | None = None) -> dict[str, Any]:
@@ -335,8 +349,7 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         if place and (place / RESULT).exists():
             raise SceneError(str(place), "already holds a result, states.json", "results are not written over",
                              "name another directory, or remove this one")
-        relaxed = [*assignments(overrides), "block.prony=[]", "drive.path=relax"]  # the block has relaxed
-        search, saved = Search(Statics(scene, relaxed), starts), time.monotonic()
+        search, saved = Search(_statics(scene, assignments(overrides)), starts), time.monotonic()
         if place:
             inputs = () if isinstance(scene, Mapping) else inputs_of(str(scene), tomllib.loads(search.case["scene"]))
             written = stack.enter_context(store.outputs(place, (RESULT, UNFINISHED), renew=False, inputs=inputs))
@@ -392,7 +405,7 @@ def states_command(scene: str, sets: list[str], out: str | None, starts: int, vo
              ", ".join(s["found"])] for s in found["states"]]
     voice.tell({**found, "directory": place})
     rows = [[str(i), *row] for i, row in enumerate(rows)]
-    voice.show(tables(["state", "binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
+    voice.show(table(["state", "binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
                        "to the next, MPa", "found by"], rows, left=(0, 7)))
     deepest = found["states"][found["deepest_found"]]["binding_energy"]
     voice.show(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "

@@ -12,6 +12,7 @@ from __future__ import annotations
 import contextlib
 import math
 import os
+import re
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
@@ -29,9 +30,10 @@ from ..errors import Error, InputOutputError, Named, SceneError
 from ..files import store
 from ..results.result import Result, Values, read_json
 from ..running import lock, program
-from ..running.pool import DONE, FAILED, Job, Pool, PoolOptions, look_at_all, refuse_jobs
+from ..running.pool import DONE, FAILED, WAITING, Job, Pool, PoolOptions, look_at_all, refuse_jobs
 from ..running.scene import SceneLike, inputs_of, scene_file
 from ..theories import combined
+from .forecast import Forecast, seconds_of_all
 from .grid import Axis, axes_of, in_decades, is_seed, points_of, shown
 from .tables import Columns, Table, columns_of, text_of
 
@@ -187,7 +189,7 @@ class Sweep(Named):
         heads, rows, meaning = text_of(self.table)
         stride = max(1, (len(rows) + 19) // 25)
         lines = [f"{self.name}: {meaning}"] if meaning else []
-        lines.append(terminal.tables(heads, [r for i, r in enumerate(rows) if i % stride == 0 or i + 1 == len(rows)],
+        lines.append(terminal.table(heads, [r for i, r in enumerate(rows) if i % stride == 0 or i + 1 == len(rows)],
                                      (0, len(heads) - 1), tuple(i for i, head in enumerate(heads) if head in self.axes)))
         if stride > 1:
             lines.append(f"  (every {stride}th of {len(rows)} lines; all are in the files)")
@@ -260,7 +262,7 @@ def _default_axis(file: str, fixed: list[str]) -> Axis:
     step = 0.1
     with contextlib.suppress(Error):  # no such end, or a scene without roughness
         found = program.theory_points(file, [fixed], profile=True)[0]
-        wanted = 1.4 * Values(found).number("theory.persson.critical_rms", math.nan) / 100
+        wanted = 1.4 * Values(found).number("theory.persson.critical_rms", 100 * step / 1.4) / 100
         decade = 10.0 ** math.floor(math.log10(wanted))
         step = min((m * decade for m in (1.0, 2.0, 2.5, 5.0, 10.0)), key=lambda s: abs(math.log(s / wanted)))
     return Axis("surface.rms", [f"{i * step:.12g}" for i in range(1, 101)], "surface.rms")
@@ -317,6 +319,15 @@ def _theory_curves(file: str, axes: list[Axis], fixed: list[str], points: list[d
     return [_point(finer, point) for point in found if "problems" not in point]  # where it has no number
 
 
+def _told_once(notes: list[list[str]]) -> list[str]:
+    """Returns the notes of all points, each once; of those that differ in their numbers alone the first one."""
+    alike: dict[str, list[str]] = {}
+    for note in (note for of_point in notes for note in dict.fromkeys(of_point)):
+        alike.setdefault(re.sub(r"\d[\d.e+-]*", "0", note), []).append(note)
+    return [f"{some[0]} (and with other numbers at {len(some) - 1} more points)" if len(set(some)) > 1 else some[0]
+            for some in alike.values()]
+
+
 def _point_name(point: dict[str, Any]) -> str:
     """Returns the directory of a point: "rms=3,seed=1". Sections only where two keys share a name."""
     last = [key.partition(".")[2] for key in point["set"]]
@@ -334,7 +345,7 @@ def _prepare(file: str, found: dict[str, Any], sets: list[str], place: Path, pre
     # So many points of a theory are a curve.
     answers = combined.points(file, overrides, runnable=not theory_only, quick=theory_only and len(overrides) > 40)
     program.complaints(answers, {axis.key: axis.where for axis in axes if axis.where})
-    notes = list(dict.fromkeys(note for answer in answers for note in answer["notes"]))
+    notes = _told_once([answer["notes"] for answer in answers])
     sweep = Sweep(base["name"], base["scene"], [a.key for a in axes], [_point(axes, a) for a in answers], notes=notes,
                   simulated=not theory_only, directory=place)
     jobs: dict[str, Job] = {}
@@ -403,6 +414,50 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
     free = store.numbered(place, lambda one: (one / "sweep.json").exists())
     say(f"note: {place} already holds a sweep; this one goes to {free}")
     return free
+
+
+def forecast(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
+             say: Callable[[str], None]) -> Forecast:
+    """Returns the runs of sweeps that are left, and their time.
+
+    Parameters
+    ----------
+    scenes : list[str]
+        Scene files.
+    sets : list[str]
+        Overrides and axes, each "key=values".
+    out : str | None
+        Result directory; None: the default one.
+    theory_only : bool
+        True: no simulation.
+    options : PoolOptions
+        Options of the runs.
+    say : Callable[[str], None]
+        Called with each sentence for the user.
+
+    Returns
+    -------
+    Forecast
+        The forecast.
+
+    Raises
+    ------
+    SceneError
+        A scene or a value is refused.
+    """
+    axes, fixed = axes_of(sets, [])
+    found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
+    name = "+".join(found[file]["name"] for file in scenes)
+    place = _directory(out, name, theory_only, say)
+    several = len(scenes) > 1
+    prepared = [_prepare(file, found[file], sets, place / found[file]["name"] if several else place, "", theory_only, say)
+                for file in scenes]
+    for note in dict.fromkeys(note for sweep, _ in prepared for note in sweep.notes):
+        say(f"note: {note}")
+    jobs = [job for _, some in prepared for job in some]
+    left = [job for job, outcome in zip(jobs, look_at_all(jobs, say)) if outcome.status == WAITING]
+    return Forecast(name, place, len(jobs), len(left), seconds_of_all(left) / max(1, options.jobs),
+                    f"{sum(len(sweep.points) for sweep, _ in prepared)} points of the theory" * theory_only)
 
 
 class Carried:

@@ -20,8 +20,9 @@ from ..errors import SceneError, UnknownName
 from ..files import store
 from ..results.result import Values
 from ..running import program
-from ..running.pool import DONE, WAITING, Job, Outcome, Pool, PoolOptions, look_at_all
+from ..running.pool import DONE, WAITING, Job, Outcome, Pool, PoolOptions, look_at, look_at_all
 from ..running.scene import inputs_of
+from .forecast import START, Forecast, seconds_of
 
 NAN = float("nan")
 Setting = list[str]
@@ -274,17 +275,48 @@ class Study:
     """A scene, checked, with its variations and their runs in a directory."""
 
     def __init__(self, scene: str, overrides: list[str], out: str | None, kind: str, options: PoolOptions,
-                 say: Callable[[str], None], files: Iterable[str]):
+                 say: Callable[[str], None], files: Iterable[str], notes: Iterable[str] | None = None):
         """Checks the scene and its directory. kind: "cost", the end of the default directory's name; files: those that the study
-        will write there. Raises SceneError."""
+        will write there; notes: what was said of a scene that a study wrote; None: those of `check` are said. Raises SceneError."""
         self.answer = program.check(scene, overrides)
         self.keys, self.name = self.answer["scene"], self.answer["name"]
         self.varied = Variations(self.keys, self.answer.get("longest_timestep", 0.0))
         if self.answer["problems"]:
             raise SceneError.of(self.answer["problems"])
+        self.notes: list[str] = list(self.answer["notes"] if notes is None else notes)
+        self.said = tuple(self.notes)
+        for note in self.said if notes is None else ():
+            say(f"note: {note}")
         self.place, self.inputs = store.chosen(out, f"results/{self.name}-{kind}"), inputs_of(scene, self.keys)
         store.require_free({self.place: files}, inputs=self.inputs)
         self.runs = Runs(scene, overrides, self.place, options, say)
+
+    def forecast_of(self, rows: Sequence[Variation], beyond: str = "") -> Forecast:
+        """Returns the runs of some rows that are left, and their time.
+
+        Parameters
+        ----------
+        rows : Sequence[Variation]
+            Rows of the study.
+        beyond : str
+            Words for what is run after them.
+
+        Returns
+        -------
+        Forecast
+            The forecast.
+        """
+        once = {id(job): (job, row) for job, row in zip(self.runs.jobs(rows), rows)}
+        left = [row for job, row in once.values() if look_at(job).status == WAITING]
+        base: dict[tuple[str, ...], float] = {}
+        work = 0.0
+        for row in left:
+            key = ("drive.mode=quasistatic",) * ("drive.mode=quasistatic" in row.setting and self.varied.dynamic)
+            if key not in base:
+                base[key] = seconds_of(self.runs.scene, [*self.runs.common, *key])
+            factor = {"mirrored": 4.0, "finer": 4.0, "quarter": 0.25}.get(row.parameter, 1.0) * work_of(row.setting, self.varied)
+            work += START + factor * base[key]
+        return Forecast(self.name, self.place, len(once), len(left), work / max(1, self.runs.options.jobs), beyond)
 
     @staticmethod
     def require_known(names: Iterable[str], groups: Iterable[Varied], option: str) -> None:
@@ -309,3 +341,27 @@ class Study:
             if name not in there:
                 raise UnknownName(f"{option} {name}", "is none of them", "this scene has " + ", ".join(there),
                                  f"name some of these, or leave {option} out for all of them")
+
+
+def work_of(setting: Setting, scene: Variations) -> float:
+    """Estimates the run time of a setting relative to that of the scene.
+
+    Parameters
+    ----------
+    setting : Setting
+        Keys and their values.
+    scene : Variations
+        Settings of the scene.
+
+    Returns
+    -------
+    float
+        The ratio of the times.
+    """
+    set_to = dict(one.split("=", 1) for one in setting)
+
+    def ratio(key: str) -> float:
+        return float(set_to[key]) / scene.own(key) if key in set_to and scene.own(key) else 1.0
+
+    return (ratio("surface.sites") ** 2 * max(1.0, ratio("interface.cutoff")) * max(1.0, ratio("drive.displacement_step") ** -0.5)
+            / (ratio("drive.timestep") * ratio("drive.velocity")))
