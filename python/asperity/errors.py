@@ -149,6 +149,10 @@ def meant(path: str | Path) -> str:
     return f"did you mean {path.parent / near[0]}?" if near else ""
 
 
+class WrongValue(SceneError, ValueError):
+    """Error of an argument whose value has no meaning. It is a ValueError too, as Python expects of values."""
+
+
 class Named:
     """Base class of results whose wrong attributes raise UnknownName with the existing names."""
 
