@@ -79,14 +79,15 @@ inline constexpr Quantity result_quantities[] = {
      "energy lost during the approach: dissipated at instabilities (quasi-static), or damped "
      "(dynamic, at T = 0). From rest, without a load, binding_energy = -work_of_drive.approach + "
      "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + kinetic.approach "
-     "- kinetic.pull_off, with kinetic = 0 on quasi-static paths. If the path has several cycles: "
-     "of the last one"},
+     "- kinetic.pull_off, with kinetic = 0 on quasi-static paths, and with spring.* added to "
+     "kinetic.* if a spring holds the top plane. If the path has several cycles: of the last one"},
     {"lost.pull_off", "meV/Å^2", per::area,
      "energy lost during the pull-off: dissipated at instabilities (quasi-static), or damped "
      "(dynamic, at T = 0)"},
     {"lost.cycle", "meV/Å^2", per::area,
      "energy lost in a whole cycle, from and to rest beyond the interaction range, including "
-     "kinetic.pull_off; on a path of one approach and one pull-off equal to work_of_drive.approach "
+     "kinetic.pull_off and spring.pull_off, which are damped after the end; on a path of one "
+     "approach and one pull-off equal to work_of_drive.approach "
      "+ work_of_drive.pull_off - dissipated_in_block.cycle"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without a "
@@ -106,6 +107,13 @@ inline constexpr Quantity result_quantities[] = {
     {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of dissipated_in_block.approach"},
     {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
+    {"spring.approach", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane (drive.stiffness) at the end of the approach "
+     "(dynamic, at T = 0, without a load), apart from kinetic.approach"},
+    {"spring.pull_off", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of the pull-off (dynamic, at T = "
+     "0), apart from kinetic.pull_off: the plane, released by the jump out of contact, oscillates "
+     "on the spring"},
      "convergence of dissipated_in_block.pull_off"},
     {"stored.approach", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) during the approach of a "
@@ -186,6 +194,9 @@ inline constexpr Quantity result_quantities[] = {
      "drifts; the following values are means after the running-in"},
     {"segments[].running_in", "Å", "",
      "distance omitted at the beginning of the slide, for which the variance of the mean friction "
+    {"segments[].spring", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of an approach or a pull-off of a "
+     "dynamic path at T = 0, as spring.*"},
      "is least"},
     {"segments[].steady_friction", "eV/Å", per::block,
      "mean force against the slide; for a steady slide of a viscoelastic block the dissipated "

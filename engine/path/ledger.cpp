@@ -22,7 +22,7 @@ std::optional<double> Ledger::per_area(const std::optional<double>& energy) cons
 }
 
 void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& works,
-                      const std::optional<double>& kinetic) {
+                      const std::optional<EnergyLeft>& left) {
     const Segment& segment = case_.path()[number];
     SegmentResults ended = results_.ended(number, segment, now, works.lateral,
                                           works.distance.value_or(std::abs(segment.amount)));
@@ -34,14 +34,17 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.settling = per_area(works.settling);
     ended.interface_work = per_area(works.interface);
     ended.uncertainty = per_area(works.uncertainty);
-    if (!case_.effects.temperature) ended.kinetic = per_area(kinetic);
+    if (left && !case_.effects.temperature) {
+        ended.kinetic = per_area(left->kinetic);
+        if (case_.effects.spring) ended.spring = per_area(left->spring);
+    }
     results_.segments.push_back(ended);
     results_.begin_segment();
 
     lost_since_apart_ += works.lost;
     dissipated_in_block_since_apart_ += works.dissipated_in_block;
     if (segment.kind != Segment::pull_off) return;
-    const double moving = kinetic.value_or(0.0);
+    const double moving = left ? left->total() : 0.0;
     // A part of the energy that moved before the cycle is in its losses. Heat goes both ways.
     if (results_.last(Segment::approach) && !case_.effects.temperature)
         results_.lost_in_cycle = per_area(lost_since_apart_ + moving - moved_apart_);

@@ -42,6 +42,8 @@ struct SegmentResults {
     /// state at zero load after an approach (empty if that state is not known), or about the solids
     /// at rest apart after a pull-off.
     std::optional<double> kinetic;
+    /// Energy left at the end in the spring that holds the top plane, apart from `kinetic`.
+    std::optional<double> spring;
     std::optional<double> uncertainty;  ///< uncertainty of works and lost; quasi-static only
     double attraction = 0.0;            ///< largest attraction, eV/Å
     std::optional<double> lateral_mean; ///< mean force against a slide, work over distance, eV/Å
@@ -64,6 +66,7 @@ struct SegmentResults {
         v("lost", lost);
         v("stored", stored);
         v("kinetic", kinetic);
+        v("spring", spring);
         v("uncertainty", uncertainty);
         v("attraction", attraction);
         v("lateral_mean", lateral_mean);

@@ -74,6 +74,8 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
         "kinetic.pull_off", "pull_off_force", "work_of_drive.uncertainty.pull_off",
         "work_of_interface.uncertainty.pull_off", "lost.uncertainty.pull_off");
     result.set("lost.cycle", results.lost_in_cycle);
+    if (in) result.set("spring.approach", in->spring);
+    if (out) result.set("spring.pull_off", out->spring);
     if (in) result.set("dissipated_in_block.approach", in->dissipated_in_block);
     if (out) result.set("dissipated_in_block.pull_off", out->dissipated_in_block);
     result.set("dissipated_in_block.cycle", results.dissipated_in_block_in_cycle);

@@ -186,11 +186,15 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  The works of the drive on the solids, in and out, add up to {}: energy that is "
             "{}.\n",
             form.with_unit(lost),
-            c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
+            !c.effects.dynamic ? "lost at instabilities"
+            : c.effects.spring ? "damped, or left in motion and in the spring at the end"
+                               : "damped, or left in motion at the end");
     if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
         io::print_text(
             to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-            c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
+            !c.effects.dynamic ? "energy lost there"
+            : c.effects.spring ? "energy lost + energy left in motion and in the spring"
+                               : "energy lost + energy left in motion",
             c.effects.dynamic ? "" : " = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.effects.dynamic)
         io::print_text(to,
@@ -428,6 +432,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     if (directory.empty()) return;
     io::print_text(to, "\nHow to read it\n");
     if (state)
+        row("energy left in the spring", "spring.approach", of("spring.approach"),
+            of("spring.pull_off"));
         io::print_text(
             to,
             "  The state {} has a binding energy of {}{}: {} of the pairs across the interface, "

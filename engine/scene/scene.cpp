@@ -508,7 +508,8 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.dynamic};
     schema
         .number("damping", drive.damping, "1/ps", at_least(0.0),
-                "rate Γ of the damping force -m Γ v, with v relative to the top plane")
+                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
+                "top plane or the far end of its spring (drive.stiffness)")
         .needs = {needs.dynamic};
     schema
         .number("damping_from", drive.damping_from, "", between(0.0, 1.0),

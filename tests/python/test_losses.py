@@ -124,3 +124,21 @@ def test_every_page_has_all_losses(rubber):
             value = run.number(f"{key}.{way}")
             assert (value is None) == ((key, way) == ("stored", "cycle"))
             assert value is None or f"{value:.2f}" in said, (key, way)
+
+
+@pytest.mark.parametrize("stiffness", ["none", 100.0])
+def test_a_spring_has_its_own_line_in_the_books_of_a_path_in_time(place, stiffness):
+    # The top plane, released by the jump out of contact, oscillates on the spring: its energy is no motion of the block.
+    run = asperity.run({"surface": {"sites": 12, "rms": 0.5}, "block": {"thickness": 12},
+                        "drive": {"velocity": 20.0, "timestep": 15.0, "stiffness": stiffness}, "output": {"series": 1}}, out="run")
+    found = json.loads((run.directory / "result.json").read_text())
+    lines, sprung = found["segments"], stiffness != "none"
+    left = [line["kinetic"] + line.get("spring", 0.0) for line in lines]
+    works = [line["work_of_drive"] - line["lost"] for line in lines]
+    state = found["binding_energy"]
+    assert works[0] == pytest.approx(left[0] - state, abs=1e-3 * state)
+    assert works[1] == pytest.approx(left[1] - left[0] + state, abs=1e-3 * state)
+    assert found["lost"]["cycle"] == pytest.approx(sum(line["work_of_drive"] for line in lines), abs=1e-3 * state)
+    assert [("spring" in line) for line in lines] == [sprung, sprung] and ("spring" in found) == sprung
+    if sprung:  # the last step is the end of the path
+        assert lines[1]["spring"] * (12 * 2.6) ** 2 / 1000 == pytest.approx(found["energy"]["spring"], rel=1e-9)

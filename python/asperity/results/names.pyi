@@ -71,6 +71,12 @@ class DissipatedInBlockUncertainty(Values):
     pull_off: float
     """meV/Å^2: convergence of dissipated_in_block.pull_off"""
 
+class Spring(Values):
+    approach: float
+    """meV/Å^2: energy of the spring that holds the top plane"""
+    pull_off: float
+    """meV/Å^2: energy of the spring that holds the top plane at the end of the pull-off"""
+
 class DissipatedInBlock(Values):
     approach: float
     """meV/Å^2: energy dissipated by a viscoelastic block"""
@@ -143,6 +149,8 @@ class Segment(Values):
     """eV/Å: largest attraction in the segment"""
     friction: float
     """eV/Å: mean force against a slide"""
+    spring: float
+    """meV/Å^2: energy of the spring that holds the top plane at the end of an approach or a pull-off of a dynamic path at ..."""
     largest_friction: float
     """eV/Å: largest force against a slide"""
     steady: str
@@ -457,6 +465,7 @@ class Numbers:
     approach_force: float
     """eV/Å: largest attraction during the approach"""
     pull_off_force: float
+    spring: Spring
     """eV/Å: largest attraction during the pull-off"""
     jkr: Jkr
     contact_radius: ContactRadius
