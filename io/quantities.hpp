@@ -285,6 +285,8 @@ inline constexpr Quantity result_quantities[] = {
     {"theory.renormalised.separation", "Å", "",
      "mean separation; omitted if the surfaces do not adhere"},
     {"theory.renormalised.tension", "GPa", "", "largest tension of the renormalised potential"},
+    {"theory.persson.area_factor", "", "",
+     "definition of the area that adheres: theory.area_factor, or what \"auto\" stands for"},
     {"theory.renormalised.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
     {"theory.renormalised.contact_fraction_error", "1", per::area,
      "numerical error of contact_fraction"},

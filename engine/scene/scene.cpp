@@ -554,12 +554,16 @@ io::Schema bind(Scene& scene) {
                 "β, correction to the elastic energy of partial contact")
         .needs = {needs.one_layer};
     schema
-        .choice<AreaFactor>("area_factor", theory.area_factor,
-                            {{"gaussian", AreaFactor::gaussian},
-                             {"small-slope", AreaFactor::small_slope},
-                             {"none", AreaFactor::none},
-                             {"lattice", AreaFactor::lattice}},
-                            "relation of the true area to the slope")
+        .choice<std::optional<AreaFactor>>(
+            "area_factor", theory.area_factor,
+            {{"auto", std::nullopt},
+             {"gaussian", AreaFactor::gaussian},
+             {"small-slope", AreaFactor::small_slope},
+             {"none", AreaFactor::none},
+             {"lattice", AreaFactor::lattice}},
+            "area that adheres, over the projected area: 1 (\"none\"), or a factor that follows from "
+            "the slope; \"auto\": \"none\" over a wall, whose law acts on the projected area, and "
+            "\"gaussian\" over atoms")
         .needs = {needs.one_layer};
     schema
         .choice<TheorySpectrum>(

@@ -260,6 +260,8 @@ class TheoryPersson(Values):
     """true if the errors are below 1e-3"""
     note: str
     """reason why the theory has no solution for this scene"""
+    area_factor: str
+    """definition of the area that adheres"""
 
 class TheoryRenormalised(Values):
     gamma_eff: float
