@@ -388,10 +388,13 @@ io::Schema bind(Scene& scene) {
              {"9-3", WallLawKind::nine_three},
              {"8-2", WallLawKind::eight_two},
              {"table", WallLawKind::table}},
-            "law of a wall: attraction exp(-gap/range), of constant tension up to the range, or "
-            "1/(1 + gap/range)^exponent, with a linear repulsion; powers 9 and 3, or 8 and 2, of "
-            "range/gap, deepest at the range; interface.table; or the substrate's atoms smeared "
-            "over their layer (potential, cutoff, tail)")
+            "law of a wall. With a linear repulsion below a gap of 0: an energy per area of "
+            "-adhesion exp(-gap/range), with a largest tension of T = adhesion/range; a constant "
+            "tension T up to the range (\"dugdale\"); or an energy of -adhesion/(1 + "
+            "gap/range)^exponent, with a largest tension of exponent T (\"power\"). Powers 9 and "
+            "3, or 8 and 2, of range/gap in the energy, which is deepest at the range, with a "
+            "largest tension of 1.466 T and 1.026 T; interface.table; or the substrate's atoms "
+            "smeared over their layer (potential, cutoff, tail)")
         .needs = {needs.wall};
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
@@ -405,8 +408,10 @@ io::Schema bind(Scene& scene) {
             "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
             "attraction. A value for each site is given by a map, in a file as for surface.file, "
             "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
-            "\"rings MEAN AMPLITUDE PERIOD\" or \"patches LOW HIGH LENGTH SEED\" (random, with "
-            "this correlation length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\""),
+            "\"rings MEAN AMPLITUDE PERIOD\" (MEAN (1 + AMPLITUDE cos(2 π r/PERIOD)), r from the "
+            "middle of the box) or \"patches LOW HIGH LENGTH SEED\" (random, with this correlation "
+            "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
+            "10 nm\""),
         interface.adhesion_map, needs.adhesion);
     schema
         .number("range", interface.range, "Å", positive(),
@@ -414,7 +419,7 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.ranged};
     schema
         .number("exponent", interface.exponent, "", io::Range{1.0, 100.0},
-                "exponent of law = \"power\"")
+                "exponent of the energy of law = \"power\"; the tension falls with one power more")
         .needs = {needs.power};
     schema
         .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
