@@ -289,17 +289,6 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
-    for (const SiteMapKeys* map : interface.site_maps())
-        if (pairs)
-            problems.add(
-                fmt::format("interface.{}", map->of.name),
-                fmt::format("= \"{}\" without a wall that has a law of its own", map->source),
-                fmt::format("pairs of atoms, and walls of smeared atoms, have the {} of "
-                            "their potential",
-                            map->of.words),
-                fmt::format("take interface.kind = \"wall\" with another law than "
-                            "\"smeared\" on a quasi-static path, or leave {} out",
-                            map->of.name));
     if (interface.has_adhesion() && interface.shape_repels() && interface.adhesion == 0.0)
         problems.add("interface.adhesion", "= 0 meV/Å^2 with a law that repels by itself",
                      "the work of adhesion multiplies its repulsion too, and nothing would repel",

@@ -373,7 +373,7 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 /// Fills in the maps of the sites that the scene has, and their largest values in the scene.
 void find_site_maps(Case& c, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
-    if (!keys.adhesion_map.given()) return;
+    if (!keys.adhesion_map.given() || !keys.has_adhesion()) return;
     constexpr const char* key = "interface.adhesion";
     const auto map = site_map(c, keys.adhesion_map, problems);
     if (!map) return;

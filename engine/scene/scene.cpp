@@ -47,8 +47,10 @@ void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
                    const io::Schema::Need& need) {
     key.needs = {need};
     const std::string name = key.name, of = "interface." + name, unit = key.unit;
-    const io::Schema::Need given{[is_met = need.is_met, &map] { return is_met() && map.given(); },
-                                 of + " names no map of a wall"};
+    const io::Schema::Need given = Needs::acting(
+        {[is_met = need.is_met, &map] { return is_met() && map.given(); },
+         of + " names no map of a wall"},
+        "give " + of + " a map or a formula", {of, "interface.kind", "interface.law"});
     schema
         .number_or(name + "_size", map.size, "auto", "Å", positive(),
                    "edge of the map of " + of +
@@ -280,8 +282,7 @@ io::Schema bind(Scene& scene) {
         .count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
                          "thickness in lattice layers, or a length (\"33 nm\"), rounded to whole "
                          "layers; by default N")
-        .needs = {{[&scene] { return !scene.has_free_edges(); },
-                   "surface.boundary is \"free\", and the block is a half-space"}};
+        .needs = {needs.periodic};
     schema
         .integer("layers_per_level", block.layers_per_level, between(2, 1024),
                  "thickness of each level of the multiscale block, in its own cells")
@@ -470,7 +471,7 @@ io::Schema bind(Scene& scene) {
                        "the surface goes on beyond the box, and displacements are measured from "
                        "far away",
                        "take control = \"top\""),
-        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
+        needs.held};
     schema.removed({"drive.hold", "", "it is called drive.control",
                     "write control = \"top\" or \"mean-height\""});
     schema.removed({"drive.states", "", "a run reports one state at zero load",
@@ -485,7 +486,7 @@ io::Schema bind(Scene& scene) {
                    "stiffness of a spring between drive and top plane, for the whole box, like the "
                    "cantilever of an instrument; \"none\": the drive moves the top plane itself")
         .needs = {
-        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"},
+        needs.held,
         needs.refusing({[&scene] { return scene.drive.control == Control::top; }, ""},
                        "with drive.control = \"mean-height\"",
                        "the mean height is prescribed as by a machine that is hard, whatever holds "
@@ -504,9 +505,7 @@ io::Schema bind(Scene& scene) {
         .number_or("mass", drive.mass, "block", "u", positive(),
                    "mass of the top plane on the spring of drive.stiffness; \"block\": the mass of "
                    "the block's nodes, so that the spring does not oscillate faster than the block")
-        .needs = {
-        needs.dynamic,
-        {[&scene] { return scene.drive.stiffness.has_value(); }, "drive.stiffness = \"none\""}};
+        .needs = {needs.dynamic, needs.spring};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")

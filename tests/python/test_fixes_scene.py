@@ -223,7 +223,7 @@ CASES = [
     ("set the negative values", {FIELD: "minus.txt"}, {FIELD: "map.txt"}, WALL),
     ("give interface.adhesion a number", {"drive.path": '["approach", "slide x 5 Å"]', FIELD: "stripes 1 2 20"}, {FIELD: "1.5"}, {**QUASI, "interface.kind": "wall"}),
     ("take interface.kind = \"wall\" with another law", {FIELD: "map.txt"}, {"interface.kind": "wall"}, STILL),
-    ("or leave adhesion out", {FIELD: "map.txt", "interface.law": "smeared"}, {FIELD: None}, WALL),
+    ("or leave interface.adhesion out", {FIELD: "map.txt", "interface.law": "smeared"}, {FIELD: None}, WALL),
     ("take an adhesion above zero", {FIELD: "0", "interface.law": "9-3"}, {FIELD: "1"}, WALL),
     ("above zero, or law = \"exponential\"", {FIELD: "0", "interface.law": "9-3"}, {"interface.law": "exponential"}, WALL),
     ("take a small work of adhesion in place of 0", {FIELD: "stripes 0 2 20", "interface.law": "9-3"}, {FIELD: "stripes 0.1 2 20"}, WALL),

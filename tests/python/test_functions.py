@@ -25,7 +25,9 @@ def test_check_returns_the_scene_or_all_mistakes():
     found = asperity.check(SCENE, {"surface.spacing": 2.5})
     assert found.name == "state" and found.scene.surface.spacing == 2.5 and found.scene.block.young == 77.2
     assert 10.0 < found.longest_timestep < 200.0 and found.edge_pinning == 1.0  # fs
-    assert any("has no effect" in note for note in asperity.check(SCENE, {"interface.morse_a": 2.0}).notes)
+    assert any("has no effect" in note for note in asperity.check(SCENE, {"drive.velocity": 2.0}).notes)
+    with pytest.raises(asperity.SceneError, match="morse_a = 2 1/Å has no effect"):
+        asperity.check(SCENE, {"interface.morse_a": 2.0})
     with pytest.raises(asperity.SceneError, match="test_functions.py") as error:
         asperity.check(SCENE, {"block.poisson": 0.6, "surface.rms": -1.0})
     assert error.value.problems == 2
