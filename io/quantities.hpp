@@ -42,6 +42,14 @@ inline constexpr Quantity result_quantities[] = {
      "flat reference Δγ: work of adhesion of flat on flat with the potential, cutoff and lattices "
      "of the scene; for a substrate of atoms (surface.kind = \"atoms\") that of one layer of the "
      "block's lattice, as a unit of measure"},
+    {"box.softness", "1", "",
+     "largest decrease of a wall's attraction with the gap, divided by the stiffness of the "
+     "longest "
+     "wave of the box. Given if it is above 1: flat surfaces in this box jump, and works of the "
+     "path and the energy lost are those of the box, not of the surface"},
+    {"box.flat_loss", "meV/Å^2", per::area,
+     "estimate of the energy that flat surfaces lose in this box in a cycle at a prescribed mean "
+     "height, with box.softness"},
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load)"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
@@ -76,8 +84,12 @@ inline constexpr Quantity result_quantities[] = {
      "convergence of work_of_drive.pull_off (quasi-static), for the sequence of instabilities on "
      "the path"},
     {"lost.approach", "meV/Å^2", per::area,
-     "energy lost during the approach: dissipated at instabilities (quasi-static), or damped "
-     "(dynamic, at T = 0). From rest, without a load, binding_energy = -work_of_drive.approach + "
+     "energy lost during the approach: dissipated at instabilities (quasi-static; jumps of less "
+     "than "
+     "drive.tolerance for each site and Å of a step are left out, of which there are more in "
+     "larger "
+     "boxes), or damped (dynamic, at T = 0). From rest, without a load, binding_energy = "
+     "-work_of_drive.approach + "
      "lost.approach + kinetic.approach = work_of_drive.pull_off - lost.pull_off + kinetic.approach "
      "- kinetic.pull_off, with kinetic = 0 on quasi-static paths, and with spring.* added to "
      "kinetic.* if a spring holds the top plane. If the path has several cycles: of the last one"},
@@ -95,6 +107,13 @@ inline constexpr Quantity result_quantities[] = {
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the pull-off (dynamic, at T = 0), above a "
      "block at rest beyond the interaction range"},
+    {"spring.approach", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane (drive.stiffness) at the end of the approach "
+     "(dynamic, at T = 0, without a load), apart from kinetic.approach"},
+    {"spring.pull_off", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of the pull-off (dynamic, at T = "
+     "0), apart from kinetic.pull_off: the plane, released by the jump out of contact, oscillates "
+     "on the spring"},
     {"dissipated_in_block.approach", "meV/Å^2", per::area,
      "energy dissipated by a viscoelastic block (block.prony) during the approach, apart from "
      "lost.approach"},
@@ -107,13 +126,6 @@ inline constexpr Quantity result_quantities[] = {
     {"dissipated_in_block.uncertainty.approach", "meV/Å^2", per::area,
      "convergence of dissipated_in_block.approach"},
     {"dissipated_in_block.uncertainty.pull_off", "meV/Å^2", per::area,
-    {"spring.approach", "meV/Å^2", per::area,
-     "energy of the spring that holds the top plane (drive.stiffness) at the end of the approach "
-     "(dynamic, at T = 0, without a load), apart from kinetic.approach"},
-    {"spring.pull_off", "meV/Å^2", per::area,
-     "energy of the spring that holds the top plane at the end of the pull-off (dynamic, at T = "
-     "0), apart from kinetic.pull_off: the plane, released by the jump out of contact, oscillates "
-     "on the spring"},
      "convergence of dissipated_in_block.pull_off"},
     {"stored.approach", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) during the approach of a "
@@ -182,6 +194,9 @@ inline constexpr Quantity result_quantities[] = {
     {"segments[].kinetic", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
      "path at T = 0, as kinetic.*"},
+    {"segments[].spring", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of an approach or a pull-off of a "
+     "dynamic path at T = 0, as spring.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "convergence of work_of_drive, lost and dissipated_in_block (quasi-static), for the sequence "
      "of instabilities on the path"},
@@ -194,9 +209,6 @@ inline constexpr Quantity result_quantities[] = {
      "drifts; the following values are means after the running-in"},
     {"segments[].running_in", "Å", "",
      "distance omitted at the beginning of the slide, for which the variance of the mean friction "
-    {"segments[].spring", "meV/Å^2", per::area,
-     "energy of the spring that holds the top plane at the end of an approach or a pull-off of a "
-     "dynamic path at T = 0, as spring.*"},
      "is least"},
     {"segments[].steady_friction", "eV/Å", per::block,
      "mean force against the slide; for a steady slide of a viscoelastic block the dissipated "
@@ -273,6 +285,8 @@ inline constexpr Quantity result_quantities[] = {
     {"theory.persson.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
     {"theory.persson.critical_rms_full_contact", "Å", "",
      "rms height beyond which adhesion vanishes for complete contact"},
+    {"theory.persson.area_factor", "", "",
+     "definition of the area that adheres: theory.area_factor, or what \"auto\" stands for"},
     {"theory.persson.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
     {"theory.persson.converged", "", "",
      "true if the errors are below 1e-3 (relative for a ratio above 1)"},
@@ -285,8 +299,6 @@ inline constexpr Quantity result_quantities[] = {
     {"theory.renormalised.separation", "Å", "",
      "mean separation; omitted if the surfaces do not adhere"},
     {"theory.renormalised.tension", "GPa", "", "largest tension of the renormalised potential"},
-    {"theory.persson.area_factor", "", "",
-     "definition of the area that adheres: theory.area_factor, or what \"auto\" stands for"},
     {"theory.renormalised.gamma_eff_error", "meV/Å^2", per::area, "numerical error of gamma_eff"},
     {"theory.renormalised.contact_fraction_error", "1", per::area,
      "numerical error of contact_fraction"},

@@ -11,6 +11,7 @@
 #include "io/terminal.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
+#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
@@ -402,11 +403,13 @@ void derive(Case& c, io::Problems& problems) {
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);
+    find_softness(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
     refuse_out_of_proportion(c, refused);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
+    if (const auto note = note_on_soft_box(c)) c.notes.push_back(*note);
     look_at_ranks(c, refused);
     c.refused = refused.list();
 }
@@ -434,6 +437,23 @@ std::string Case::block_in_words() const {
 
 bool Case::jumps_as_a_whole() const {
     return simulation.drive.control == Control::top && !effects.free_edges;
+}
+
+bool Case::box_jumps() const {
+    const bool leads = has(Segment::approach) || has(Segment::pull_off);
+    return softness > 1.0 && leads && !effects.free_edges && !radius();
+}
+
+std::optional<double> Case::flat_loss() const {
+    if (!box_jumps() || simulation.drive.control == Control::top) return {};
+    return flat.work_of_adhesion * loss_of_flat(softness);
+}
+
+double Case::smooth_pull_off() const {
+    const double flat_on_flat = largest_tension * units::gigapascal * area();
+    if (!radius()) return flat_on_flat;
+    const double work = flat.work_of_adhesion / units::milli_per_unit;
+    return std::min(flat_on_flat, theory::jkr::pull_off_force(work, *radius()));
 }
 
 ProcessGrid Case::grid(int rank) const {

@@ -152,6 +152,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         given("segments[].stored", s.stored);
         given("segments[].work_of_settling", s.settling);
         given("segments[].kinetic", s.kinetic);
+        given("segments[].spring", s.spring);
         given("segments[].uncertainty", s.uncertainty);
         result.set("segments[].largest_attraction", i, s.attraction);
         given("segments[].friction", s.lateral_mean);
@@ -235,6 +236,8 @@ io::Result surface_result(const Case& c, const Surface& surface) {
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results) {
     io::Result result = surface_result(c, surface);
     result.set("delta_gamma", c.flat.work_of_adhesion);
+    if (c.box_jumps()) result.set("box.softness", c.softness);
+    result.set("box.flat_loss", c.flat_loss());
     add_path(results, c, result);
     if (results.zero_load) add_zero_load(*results.zero_load, result);
     if (!results.segments.empty()) add_segments(results, c, result);

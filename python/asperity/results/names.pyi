@@ -18,6 +18,12 @@ class Failure(Values):
     reason: str
     """error message of the command"""
 
+class Box(Values):
+    softness: float
+    """largest decrease of a wall's attraction with the gap, divided by the stiffness of the longest wave of the ..."""
+    flat_loss: float
+    """meV/Å^2: estimate of the energy that flat surfaces lose in this box in a cycle at a prescribed mean height, with ..."""
+
 class WorkOfInterfaceUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of work_of_interface.approach"""
@@ -56,7 +62,7 @@ class Lost(Values):
     pull_off: float
     """meV/Å^2: energy lost during the pull-off"""
     cycle: float
-    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off"""
+    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off ..."""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
@@ -65,17 +71,17 @@ class Kinetic(Values):
     pull_off: float
     """meV/Å^2: kinetic and vibrational energy left at the end of the pull-off"""
 
-class DissipatedInBlockUncertainty(Values):
-    approach: float
-    """meV/Å^2: convergence of dissipated_in_block.approach"""
-    pull_off: float
-    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
-
 class Spring(Values):
     approach: float
     """meV/Å^2: energy of the spring that holds the top plane"""
     pull_off: float
     """meV/Å^2: energy of the spring that holds the top plane at the end of the pull-off"""
+
+class DissipatedInBlockUncertainty(Values):
+    approach: float
+    """meV/Å^2: convergence of dissipated_in_block.approach"""
+    pull_off: float
+    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
 
 class DissipatedInBlock(Values):
     approach: float
@@ -143,14 +149,14 @@ class Segment(Values):
     """meV/Å^2: part of work_of_drive of a slide until steady"""
     kinetic: float
     """meV/Å^2: kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic path at T = 0, as ..."""
+    spring: float
+    """meV/Å^2: energy of the spring that holds the top plane at the end of an approach or a pull-off of a dynamic path at ..."""
     uncertainty: float
     """meV/Å^2: convergence of work_of_drive, lost and dissipated_in_block"""
     largest_attraction: float
     """eV/Å: largest attraction in the segment"""
     friction: float
     """eV/Å: mean force against a slide"""
-    spring: float
-    """meV/Å^2: energy of the spring that holds the top plane at the end of an approach or a pull-off of a dynamic path at ..."""
     largest_friction: float
     """eV/Å: largest force against a slide"""
     steady: str
@@ -254,14 +260,14 @@ class TheoryPersson(Values):
     """Å: rms height beyond which adhesion vanishes"""
     critical_rms_full_contact: float
     """Å: rms height beyond which adhesion vanishes for complete contact"""
+    area_factor: str
+    """definition of the area that adheres"""
     status: str
     """adhesive', 'pressed' or 'no contact"""
     converged: bool
     """true if the errors are below 1e-3"""
     note: str
     """reason why the theory has no solution for this scene"""
-    area_factor: str
-    """definition of the area that adheres"""
 
 class TheoryRenormalised(Values):
     gamma_eff: float
@@ -448,6 +454,7 @@ class Numbers:
     failure: Failure
     delta_gamma: float
     """meV/Å^2: flat reference Δγ"""
+    box: Box
     binding_energy: float
     """meV/Å^2: -"""
     binding_energy_uncertainty: float
@@ -458,6 +465,7 @@ class Numbers:
     work_of_drive: WorkOfDrive
     lost: Lost
     kinetic: Kinetic
+    spring: Spring
     dissipated_in_block: DissipatedInBlock
     stored: Stored
     contact_fraction: float
@@ -467,7 +475,6 @@ class Numbers:
     approach_force: float
     """eV/Å: largest attraction during the approach"""
     pull_off_force: float
-    spring: Spring
     """eV/Å: largest attraction during the pull-off"""
     jkr: Jkr
     contact_radius: ContactRadius
@@ -573,7 +580,7 @@ class SceneInterface(Values):
     frictionless: Any
     """no lateral tractions, and normal displacements only"""
     law: Any
-    """law of a wall"""
+    """law of a wall. With a linear repulsion below a gap of 0"""
     adhesion: Any
     """meV/Å^2: work of adhesion of flat surfaces, Δγ, for a wall that is not smeared"""
     adhesion_size: Any
@@ -587,7 +594,7 @@ class SceneInterface(Values):
     range: Any
     """Å: range of the laws except smeared and table"""
     exponent: Any
-    """exponent of law = 'power"""
+    """exponent of the energy of law = 'power"""
     stiffness: Any
     """GPa/Å: stiffness of the linear repulsion"""
     edge_pinning: Any
@@ -611,7 +618,7 @@ class SceneDrive(Values):
     timestep: Any
     """fs: time step of velocity Verlet"""
     damping: Any
-    """1/ps: rate Γ of the damping force -m Γ v, with v relative to the top plane"""
+    """1/ps: rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the top plane or the far end ..."""
     damping_from: Any
     """fraction of the thickness above which damping acts"""
     ramp: Any
@@ -633,7 +640,7 @@ class SceneTheory(Values):
     beta: Any
     """β, correction to the elastic energy of partial contact"""
     area_factor: Any
-    """relation of the true area to the slope"""
+    """area that adheres, over the projected area"""
     spectrum: Any
     """spectrum of the theory"""
     clip: Any
