@@ -309,7 +309,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "of a layer of atoms no place is empty", "take interface.kind = \"wall\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
-                     "take kind = \"flat\", or leave rms out to take the map as it is");
+                     "take kind = \"flat\" and no file, or leave rms out to take the map as it is");
     const auto& prony = scene.block.prony;
     for (std::size_t i = 1; i < prony.size(); ++i)
         if (prony[i][1] <= prony[i - 1][1])

@@ -31,7 +31,7 @@ struct Part {
 double way_of_spring(const Case& c) {
     const TopSpring& spring = c.simulation.block.top_spring;
     if (!spring) return 0.0;
-    constexpr double part = 0.1; // of the pull-off of smooth surfaces
+    constexpr double part = 0.1; // share of the pull-off force of smooth surfaces
     double way = 0.0, force = 0.0;
     for (const Segment& segment : c.path()) {
         double to = force;
@@ -255,7 +255,7 @@ void refuse_unlike_solids(const Case& c, io::Problems& refused) {
                         c.largest_tension, softest / units::gigapascal),
             fmt::format("{}, or those of {}", unit_fix, attraction));
     const double height = 4.5 * scene.surface.rms + block.spacing;
-    // A wall's minimiser finds the mean height on its own, whatever the stiffness of the block.
+    // The minimiser of walls finds the mean height on its own, so that its stiffness is no matter.
     const bool of_mean = !wall || (scene.drive.control == Control::top && !scene.only_relaxes());
     const double of_block = block.shortest_wave(),
                  of_top = of_mean ? block.modulus_of_compression() * block.spacing * block.spacing /
@@ -263,7 +263,7 @@ void refuse_unlike_solids(const Case& c, io::Problems& refused) {
                                   : 0.0;
     const double stiffest = std::max({of_block, of_top, c.scales.stiffness});
     const double lost = 4.0 * std::numeric_limits<double>::epsilon() * stiffest * height;
-    constexpr double part = 0.01; // of the force that decides the state
+    constexpr double part = 0.01; // share of the force that decides the state
     if (!(lost > part * c.scales.force) || c.effects.dynamic) return;
     const bool of_wall = c.scales.stiffness == stiffest;
     const bool stressed = 4.0 * block.surface_stress > 0.5 * of_block;

@@ -335,8 +335,10 @@ void fill_motion(Case& c, io::Problems& refused) {
                         scene.drive.timestep, c.longest_timestep),
             fmt::format("the {} has a period of {:.4g} fs, and velocity Verlet diverges for steps "
                         "longer than 1/pi of it",
-                        of_top > highest ? "vibration of a top plane of drive.mass"
-                                         : "block's fastest vibration",
+                        of_top > highest
+                            ? "vibration of a top plane of drive.mass on drive.stiffness"
+                            : "block's fastest vibration (block.young, block.poisson, "
+                              "block.atom_mass, the interface)",
                         period),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",

@@ -41,13 +41,20 @@ std::optional<std::string> note_on_soft_box(const Case& c) {
     if (!c.box_jumps()) return {};
     const double widest = c.edge() / c.softness;
     const std::optional<double> loss = c.flat_loss();
-    return fmt::format("in boxes wider than {:.4g} Å flat surfaces jump{}, and this one is {:.4g} "
-                       "Å wide: works in "
-                       "and out and the energy lost are those of the box, not of the surface{}",
-                       widest, loss ? " though the mean height is prescribed" : "", c.edge(),
-                       loss ? fmt::format("; flat surfaces lose about {:.2g} of Δγ in it",
-                                          *loss / c.flat.work_of_adhesion)
-                            : std::string());
+    std::string note = fmt::format(
+        "in boxes wider than {:.4g} Å flat surfaces jump{}, and this one is {:.4g} Å wide: works "
+        "in and out and the energy lost are those of the box, not of the surface",
+        widest, loss ? " though the mean height is prescribed" : "", c.edge());
+    if (loss)
+        note += fmt::format("; flat surfaces lose about {:.2g} of Δγ in it",
+                            *loss / c.flat.work_of_adhesion);
+    if (c.surface.kind == SurfaceKind::flat && !c.simulation.interface.adhesion)
+        note += fmt::format(
+            "; nothing breaks the symmetry of surfaces that are exactly flat, so that the path may "
+            "follow states that are not stable: take surface.kind = \"self-affine\" with a "
+            "surface.rms of {:.1g} Å",
+            0.01 * c.scales.length);
+    return note;
 }
 
 } // namespace asperity

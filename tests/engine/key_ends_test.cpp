@@ -81,7 +81,8 @@ TEST_P(KeyEnds, AreFiniteOrRefused) {
     int run = 0, refused = 0;
     std::vector<std::string> keys; // with values
     for (const io::Schema::Key& key : schema.keys())
-        if (key.kind() == "number" || key.kind() == "integer")
+        // drive.max_steps makes the runs short.
+        if ((key.kind() == "number" || key.kind() == "integer") && key.name != "max_steps")
             for (const std::string& end : ends_of(key))
                 keys.push_back(key.path() + "=" + end);
     for (const char* poisson : {"-0.99999999999999989", "0.49999999999999994"}) {

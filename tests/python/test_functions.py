@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.running import program
 from conftest import ROOT, STATE, command
 
 SCENE = {**STATE, "surface": {"sites": 24, "rms": 0.5}}
@@ -31,6 +32,15 @@ def test_check_returns_the_scene_or_all_mistakes():
     with pytest.raises(asperity.SceneError, match="test_functions.py") as error:
         asperity.check(SCENE, {"block.poisson": 0.6, "surface.rms": -1.0})
     assert error.value.problems == 2
+
+
+def test_the_answer_to_a_refused_scene_has_its_problems(file):
+    # `check --json` answers with exit code 2 if the scene can be read and not run, and says nothing if it cannot be read.
+    found = program.check(file, ['drive.path=["approach"]', "drive.timestep=200"])
+    assert found["scene"]["drive"]["timestep"] == 200.0
+    assert [one["what"] for one in found["problems"]] and "stability limit" in found["problems"][0]["what"]
+    with pytest.raises(asperity.SceneError, match="block.poisson"):
+        program.check(file, ["block.poisson=0.6"])
 
 
 def test_plan_returns_what_the_command_says(file):
