@@ -82,7 +82,7 @@ constexpr EnergyTerm dissipated(Term term, std::string_view key, std::string_vie
 inline constexpr auto energy_terms = std::to_array<EnergyTerm>({
     {Term::interface, EnergyTerm::stored, "interface_energy", "", "interface", "",
      "energy of the interface, of pairs or of the law of a wall"},
-    {Term::spring, EnergyTerm::part, "spring_energy", "", "spring", "spring of the machine",
+    {Term::spring, EnergyTerm::part, "spring_energy", "spring", "spring", "spring of the machine",
      "part of the elastic energy in the spring that holds the top plane (drive.stiffness)"},
     {Term::branches, EnergyTerm::part, "branch_energy", "", "branches", "viscoelastic block",
      "part of the elastic energy in the branches of a viscoelastic block"},
@@ -100,7 +100,9 @@ inline constexpr auto energy_terms = std::to_array<EnergyTerm>({
     dissipated(Term::in_block, "dissipated_in_block", "viscoelastic block",
                "energy dissipated by a viscoelastic block"),
     {Term::lost, EnergyTerm::lost, "damped", "lost", "damped", "",
-     "energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path",
+     "energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path "
+     "(jumps of less than drive.tolerance for each site and Å of a step are left out, of which "
+     "there are more in larger boxes)",
      "dissipated"},
 });
 

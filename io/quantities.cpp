@@ -37,8 +37,9 @@ const std::vector<Topic>& result_topics() {
     static const std::vector<Topic> topics = {
         {"Works, energies and areas",
          {"delta_gamma", "binding_energy", "binding_energy_uncertainty", "pair_binding_energy",
-          "work_of_interface", "work_of_drive", "{loss}", "kinetic", "stored", "contact_fraction",
-          "contact_area", "contact_area_uncertainty", "repulsive_fraction", "relaxed"}},
+          "work_of_interface", "work_of_drive", "{loss}", "kinetic", "spring", "box", "stored",
+          "contact_fraction", "contact_area", "contact_area_uncertainty", "repulsive_fraction",
+          "relaxed"}},
         {"Forces, spheres and instruments",
          {"approach_force", "pull_off_force", "jkr", "contact_radius", "instrument"}},
         {"Segments, slides and friction", {"segments"}},

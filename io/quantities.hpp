@@ -49,12 +49,21 @@ inline constexpr Quantity written_quantities[] = {
      "flat reference Δγ: work of adhesion of flat on flat with the potential, cutoff and lattices "
      "of the scene; for a substrate of atoms (surface.kind = \"atoms\") that of one layer of the "
      "block's lattice, as a unit of measure"},
+    {"box.softness", "1", "",
+     "largest decrease of a wall's attraction with the gap, divided by the stiffness of the "
+     "longest "
+     "wave of the box. Given if it is above 1: flat surfaces in this box jump, and works of the "
+     "path and the energy lost are those of the box, not of the surface"},
+    {"box.flat_loss", "meV/Å^2", per::area,
+     "estimate of the energy that flat surfaces lose in this box in a cycle at a prescribed mean "
+     "height, with box.softness"},
     {"binding_energy", "meV/Å^2", per::area,
      "-(U_LJ + U_el) of the relaxed state at zero load (path = [\"relax\"]: under drive.load). "
      "From "
      "rest, without a load, binding_energy = -work_of_drive.approach + losses of the approach + "
      "kinetic.approach = work_of_drive.pull_off - losses of the pull-off + kinetic.approach - "
-     "kinetic.pull_off, with kinetic = 0 on quasi-static paths"},
+     "kinetic.pull_off, with kinetic = 0 on quasi-static paths, and with spring.* added to "
+     "kinetic.* if a spring holds the top plane"},
     {"binding_energy_uncertainty", "meV/Å^2", per::area,
      "convergence of the solver, not the error (asperity estimate): energy of residual forces of "
      "the size of drive.tolerance"},
@@ -101,6 +110,13 @@ inline constexpr Quantity written_quantities[] = {
     {"kinetic.pull_off", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the pull-off (dynamic, at T = 0), above a "
      "block at rest beyond the interaction range; lost.cycle includes it"},
+    {"spring.approach", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane (drive.stiffness) at the end of the approach "
+     "(dynamic, at T = 0, without a load), apart from kinetic.approach"},
+    {"spring.pull_off", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of the pull-off (dynamic, at T = "
+     "0), apart from kinetic.pull_off: the plane, released by the jump out of contact, oscillates "
+     "on the spring; lost.cycle includes it"},
     {"stored.approach", "meV/Å^2", per::area,
      "change of the energy of interface and block (branches included) during the approach of a "
      "quasi-static path: work_of_drive = stored + all losses, during the approach, the pull-off "
@@ -169,6 +185,9 @@ inline constexpr Quantity written_quantities[] = {
     {"segments[].kinetic", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic "
      "path at T = 0, as kinetic.*"},
+    {"segments[].spring", "meV/Å^2", per::area,
+     "energy of the spring that holds the top plane at the end of an approach or a pull-off of a "
+     "dynamic path at T = 0, as spring.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
      "convergence of work_of_drive and of the losses (quasi-static), for the sequence of "
      "instabilities on the path"},
@@ -263,6 +282,8 @@ inline constexpr Quantity written_quantities[] = {
     {"theory.persson.critical_rms", "Å", "", "rms height beyond which adhesion vanishes"},
     {"theory.persson.critical_rms_full_contact", "Å", "",
      "rms height beyond which adhesion vanishes for complete contact"},
+    {"theory.persson.area_factor", "", "",
+     "definition of the area that adheres: theory.area_factor, or what \"auto\" stands for"},
     {"theory.persson.status", "", "", "\"adhesive\", \"pressed\" or \"no contact\""},
     {"theory.persson.converged", "", "",
      "true if the errors are below 1e-3 (relative for a ratio above 1)"},

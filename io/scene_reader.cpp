@@ -69,6 +69,9 @@ bool fits(const std::string& member, const Words& choices) {
     return choices.empty();
 }
 
+/// Sizes of numbers in the units of keys: powers and products of them neither overflow nor vanish.
+const Range sizes = between(1e-30, 1e30);
+
 /// Stores the value of a key in its field; tells what is wrong where it does not.
 struct Store {
     const Key& key;
@@ -207,6 +210,10 @@ struct Store {
                     "give a finite number"};
         if (!key.range.contains(number))
             return out_of_range(key.range, key.unit, !text && number > key.range.high);
+        if (const double size = std::abs(number); size != 0.0 && !sizes.contains(size))
+            return {"", "is out of all proportion",
+                    "numbers are computed with sizes " + sizes.text(key.unit) + ", and 0",
+                    "correct the number or its unit"};
         *field = number;
         return {};
     }

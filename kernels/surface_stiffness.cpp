@@ -68,6 +68,96 @@ SurfaceMatrix difference(const SurfaceMatrix& a, const SurfaceMatrix& b) {
     return {a.xx - b.xx, a.yy - b.yy, a.zz - b.zz, a.xy - b.xy, a.xz - b.xz, a.yz - b.yz};
 }
 
+/// A real vector on (u_x, u_y, i u_z).
+struct SurfaceVector {
+    double x = 0.0, y = 0.0, z = 0.0;
+};
+
+SurfaceVector operator-(const SurfaceVector& a, const SurfaceVector& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+double dot(const SurfaceVector& a, const SurfaceVector& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+SurfaceVector product(const SurfaceMatrix& m, const SurfaceVector& v) {
+    return {m.xx * v.x + m.xy * v.y + m.xz * v.z, m.xy * v.x + m.yy * v.y + m.yz * v.z,
+            m.xz * v.x + m.yz * v.y + m.zz * v.z};
+}
+
+/// Returns b v.
+SurfaceVector product(const Coupling& b, const SurfaceVector& v) {
+    return {b.xx * v.x + b.xy * v.y + b.xz * v.z, b.xy * v.x + b.yy * v.y + b.yz * v.z,
+            -b.xz * v.x - b.yz * v.y + b.zz * v.z};
+}
+
+/// Returns factor v v^T.
+SurfaceMatrix square(const SurfaceVector& v, double factor) {
+    return {factor * v.x * v.x, factor * v.y * v.y, factor * v.z * v.z,
+            factor * v.x * v.y, factor * v.x * v.z, factor * v.y * v.z};
+}
+
+/// The stiffness of a stack of cells, s + p p^T / c: p p^T / c is the resistance of the uppermost
+/// cell to a change of its volume beyond that which its springs have.
+struct Stack {
+    SurfaceMatrix s;
+    SurfaceVector p;
+    double c = 0.0; ///< 0: the cell's springs have all of its resistance
+
+    SurfaceMatrix whole() const { return c > 0.0 ? sum(s, square(p, 1.0 / c)) : s; }
+    /// Returns (d + s + p p^T / c)^-1.
+    SurfaceMatrix inverse_with(const SurfaceMatrix& d) const {
+        const SurfaceMatrix i = inverse(sum(d, s));
+        if (!(c > 0.0)) return i;
+        const SurfaceVector along = product(i, p);
+        return difference(i, square(along, 1.0 / (c + dot(p, along))));
+    }
+};
+
+/// Cells of a material, whose resistance to a change of volume is split: kappa up to `most` k is
+/// part of the matrices a, b and d, and the rest is kept apart. A cell resists a change of
+/// volume by kappa (g.u + h.v)^2 / 2, u and v the displacements of its lower and upper plane. With
+/// the whole in the matrices, their differences would lose as many digits as kappa / k has, and at
+/// Poisson's ratio 1/2 all.
+class Cells {
+public:
+    Cells(const CellElasticity& e, WavePhase x, WavePhase y) {
+        constexpr double most = 64.0; // Poisson's ratio 0.4995
+        const CellElasticity part{e.k, std::min(e.kappa, most * e.k)};
+        apart_ = e.kappa - part.kappa;
+        a_ = own(make_stencil(part, Face::lower), x, y);
+        d_ = own(make_stencil(part, Face::upper), x, y);
+        b_ = coupling(make_stencil(part, Face::inner), x, y);
+        if (!(apart_ > 0.0)) return;
+        const auto half = [](WavePhase p) -> WavePhase {
+            const double cosine = std::sqrt(0.5 * (1.0 + p.cosine));
+            return {cosine, cosine > 0.0 ? 0.5 * p.sine / cosine : 1.0};
+        };
+        const WavePhase hx = half(x), hy = half(y);
+        const double along = 4.0 * hx.sine * hy.cosine, across = 4.0 * hx.cosine * hy.sine,
+                     normal = 4.0 * hx.cosine * hy.cosine;
+        g_ = {along, across, normal};
+        h_ = {along, across, -normal};
+    }
+    /// Returns the stiffness of a cell whose upper plane is held.
+    Stack below_top() const { return {a_, g_, apart_ > 0.0 ? 1.0 / apart_ : 0.0}; }
+    /// Returns the stiffness of a cell below a stack.
+    Stack below(const Stack& stack) const {
+        const SurfaceMatrix i = stack.inverse_with(d_);
+        const SurfaceMatrix s = difference(a_, sandwich(b_, i));
+        if (!(apart_ > 0.0)) return {s, {}, 0.0};
+        const SurfaceVector along = product(i, h_);
+        return {s, g_ - product(b_, along), 1.0 / apart_ + dot(h_, along)};
+    }
+
+private:
+    SurfaceMatrix a_, d_;
+    Coupling b_{};
+    double apart_ = 0.0; ///< the part of kappa that is kept apart, eV/Å^2
+    SurfaceVector g_, h_;
+};
+
 double largest(const SurfaceMatrix& m) {
     return std::max({std::abs(m.xx), std::abs(m.yy), std::abs(m.zz), std::abs(m.xy), std::abs(m.xz),
                      std::abs(m.yz)});
@@ -114,18 +204,17 @@ SurfaceMatrix surface_stiffness(std::span<const CellLayer> layers, WavePhase x, 
     for (const CellLayer& layer : layers)
         depth += layer.cells;
     bool clamped = true; // true if the cell touches the top plane
+    Stack stack;
     SurfaceMatrix s;
     for (std::size_t i = layers.size(); i-- > 0;) {
         depth -= layers[i].cells;
         if (!(depth < enough)) continue;
-        const CellElasticity& elasticity = layers[i].elasticity;
-        const SurfaceMatrix a = own(make_stencil(elasticity, Face::lower), x, y);
-        const SurfaceMatrix d = own(make_stencil(elasticity, Face::upper), x, y);
-        const Coupling b = coupling(make_stencil(elasticity, Face::inner), x, y);
+        const Cells material(layers[i].elasticity, x, y);
         const double cells = std::min(enough - depth, static_cast<double>(layers[i].cells));
         for (int cell = 1; cell <= cells || clamped; ++cell) {
-            const SurfaceMatrix next = clamped ? a : difference(a, sandwich(b, inverse(sum(d, s))));
-            const double change = clamped ? largest(a) : largest(difference(next, s));
+            stack = clamped ? material.below_top() : material.below(stack);
+            const SurfaceMatrix next = stack.whole();
+            const double change = clamped ? largest(next) : largest(difference(next, s));
             clamped = false;
             s = next;
             if (change <= 1e-17 * std::min(1.0, wave) * largest(s)) break;

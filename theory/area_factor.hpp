@@ -5,6 +5,8 @@
 // projection; s = <|∇h|²> of all roughness up to q. Eq. (3) does not say how A* is computed.
 #pragma once
 
+#include <string_view>
+
 namespace asperity::theory {
 
 /// Definition of the area factor S(s).
@@ -17,5 +19,8 @@ enum class AreaFactor {
 
 /// Returns S(s), 1 at s = 0. c: tilt cost of `lattice`.
 [[nodiscard]] double area_factor(AreaFactor definition, double slope_variance, double c = 0);
+
+/// Returns the name of a definition, as in theory.area_factor.
+[[nodiscard]] std::string_view name(AreaFactor definition);
 
 } // namespace asperity::theory

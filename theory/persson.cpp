@@ -283,6 +283,13 @@ double area_factor(AreaFactor definition, double s, double c) {
            0.5 * std::sqrt(std::numbers::pi * s) * std::exp(1 / s) * std::erfc(1 / std::sqrt(s));
 }
 
+std::string_view name(AreaFactor definition) {
+    return definition == AreaFactor::gaussian      ? "gaussian"
+           : definition == AreaFactor::small_slope ? "small-slope"
+           : definition == AreaFactor::none        ? "none"
+                                                   : "lattice";
+}
+
 FullContactState full_contact(const AdhesiveContact& c) {
     check(c);
     const Magnification end = c.spectrum.last();

@@ -67,6 +67,9 @@ struct Case {
     /// Stability limit of the time step at the bottom of the well, 2/omega_max, fs
     /// (usable_timestep()).
     double longest_timestep = 0.0;
+    /// Factor by which a wall's attraction falls faster than the longest wave of the box is stiff:
+    /// flat surfaces at a prescribed mean height jump if it is above 1. 0 over atoms.
+    double softness = 0.0;
     std::vector<std::string> notes; ///< notes to the user that are no mistakes, one sentence each
     /// Problems that prevent a run; `theory` and `surface` can use the case.
     std::vector<io::Problem> refused;
@@ -108,6 +111,14 @@ struct Case {
     std::string block_in_words() const;
     /// Returns true if the block between interface and top plane is a spring that can jump.
     bool jumps_as_a_whole() const;
+    /// Returns true if the works of the path are those of the box: flat surfaces jump in its
+    /// longest waves.
+    bool box_jumps() const;
+    /// Returns the estimate of the energy that flat surfaces in this box lose in a cycle at a
+    /// prescribed mean height, meV/Å^2; empty if the path prescribes the top plane.
+    std::optional<double> flat_loss() const;
+    /// Returns the largest attraction of smooth surfaces of this curvature, eV/Å.
+    double smooth_pull_off() const;
     /// Returns a number of sites divided by the number of all sites.
     double fraction(long long some) const { return static_cast<double>(some) / sites(); }
     /// Returns the number of atoms of a substrate of one layer along the edge of the box.

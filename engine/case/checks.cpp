@@ -226,19 +226,22 @@ void check_keys(const Case& c, io::Problems& problems) {
     const PairPotential& potential = c.simulation.interface.potential;
     const double half = scene.edge() / 2.0;
     const double cutoff = interface.cutoff.value_or(cutoff_of(potential));
-    if (cutoff > half && !wall)
+    if (cutoff > half && !wall) {
         // If the cutoff is the default, the box is the choice of the scene.
+        const bool is_set = scene.positions.is_set("interface.cutoff");
+        const double sites = std::ceil(2.0 * cutoff / surface.spacing);
         problems.add(io::Problem{
-            scene.positions.where(scene.positions.is_set("interface.cutoff") ? "interface.cutoff"
-                                                                             : "surface.sites"),
-            fmt::format("interface.cutoff = {:.6g} Å is more than half the box", cutoff),
+            scene.positions.where(is_set ? "interface.cutoff" : "surface.sites"),
+            fmt::format("interface.cutoff = {:.6g} Å{} is more than half the box", cutoff,
+                        is_set ? "" : " (4 r0, of interface.r0)"),
             fmt::format(
-                "the box is {} x {:.6g} Å = {:.6g} Å wide, and an atom must not meet the same "
-                "neighbour twice",
+                "the box is {} x {:.6g} Å (surface.spacing) = {:.6g} Å wide, and an atom must not "
+                "meet the same neighbour twice",
                 surface.sites, surface.spacing, scene.edge()),
-            fmt::format("take a cutoff of {:.6g} Å at most, or surface.sites = {:.0f} at least",
-                        half, std::ceil(2.0 * cutoff / surface.spacing))});
-    else if (!wall && surface.kind != SurfaceKind::atoms) {
+            fmt::format("take a cutoff of {:.6g} Å at most", half) +
+                (sites <= most_sites ? fmt::format(", or surface.sites = {:.0f} at least", sites)
+                                     : std::string())});
+    } else if (!wall && surface.kind != SurfaceKind::atoms) {
         const double between_atoms =
             scene.edge() / substrate_sites(surface.sites, surface.lattice_ratio);
         const double most = largest_cutoff(surface.spacing, between_atoms);
@@ -269,7 +272,7 @@ void check_keys(const Case& c, io::Problems& problems) {
         problems.add("surface.rolloff", fmt::format("= {:.6g} is beyond Nyquist", surface.rolloff),
                      fmt::format("a grid of {} sites holds nothing above q = {} q_L", surface.sites,
                                  surface.sites / 2),
-                     "give a smaller rolloff or more sites");
+                     "give a smaller rolloff or more sites (surface.sites)");
     if (surface.radius && !scene.has_free_edges() &&
         *surface.radius < scene.edge() * std::numbers::sqrt2 / 2.0)
         problems.add(
@@ -291,17 +294,6 @@ void check_keys(const Case& c, io::Problems& problems) {
     else if (wall && !interface.frictionless)
         problems.add("interface.frictionless", "= false with a wall",
                      "a law of the gap has no lateral forces", "leave it out");
-    for (const SiteMapKeys* map : interface.site_maps())
-        if (pairs)
-            problems.add(
-                fmt::format("interface.{}", map->of.name),
-                fmt::format("= \"{}\" without a wall that has a law of its own", map->source),
-                fmt::format("pairs of atoms, and walls of smeared atoms, have the {} of "
-                            "their potential",
-                            map->of.words),
-                fmt::format("take interface.kind = \"wall\" with another law than "
-                            "\"smeared\" on a quasi-static path, or leave {} out",
-                            map->of.name));
     if (interface.has_adhesion() && interface.shape_repels() && interface.adhesion == 0.0)
         problems.add("interface.adhesion", "= 0 meV/Å^2 with a law that repels by itself",
                      "the work of adhesion multiplies its repulsion too, and nothing would repel",
@@ -319,7 +311,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "of a layer of atoms no place is empty", "take interface.kind = \"wall\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
-                     "take kind = \"flat\", or leave rms out to take the map as it is");
+                     "take kind = \"flat\" and no file, or leave rms out to take the map as it is");
     const auto& prony = scene.block.prony;
     for (std::size_t i = 1; i < prony.size(); ++i)
         if (prony[i][1] <= prony[i - 1][1])

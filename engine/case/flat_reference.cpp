@@ -41,7 +41,8 @@ FlatReference flat_reference(const ShapedWall& law, double area) {
     flat.work_of_adhesion = -units::milli_per_unit * law.energy(flat.separation) / area;
     flat.largest_tension = law.largest_tension() / area / units::gigapascal;
     flat.tension_separation = law.steepest();
-    flat.stiffness = law.stiffness_at(flat.separation) / area;
+    // Over a linear repulsion that of the repulsion, also without an attraction.
+    flat.stiffness = law.stiffness_at(law.has_kink() ? -law.range() : flat.separation) / area;
     return flat;
 }
 

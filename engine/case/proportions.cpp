@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 namespace asperity {
@@ -26,6 +27,23 @@ struct Part {
     double amount;
     std::string key, what, fix;
 };
+
+/// Returns the least way of the drive that only stretches the spring of the top plane, Å.
+double way_of_spring(const Case& c) {
+    const TopSpring& spring = c.simulation.block.top_spring;
+    if (!spring) return 0.0;
+    constexpr double part = 0.1; // share of the pull-off force of smooth surfaces
+    double way = 0.0, force = 0.0;
+    for (const Segment& segment : c.path()) {
+        double to = force;
+        if (segment.kind == Segment::approach) to = c.simulation.drive.load_force;
+        if (segment.kind == Segment::load) to = segment.amount;
+        if (segment.kind == Segment::pull_off) to = -part * c.smooth_pull_off();
+        way += std::abs(to - force) / spring.stiffness;
+        force = segment.kind == Segment::pull_off ? 0.0 : to;
+    }
+    return way;
+}
 
 /// Returns the least way of the top plane that the path asks for, at right angles and along, Å.
 double least_way(const Case& c) {
@@ -63,6 +81,13 @@ void refuse_heights(const Case& c, io::Problems& refused) {
                     fmt::format("{}, or take a wider box (surface.sites)", unit_fix));
 }
 
+/// Returns the problem with a spring so soft that its stretch makes a path without an end.
+std::string soft_spring(const Case& c) {
+    return fmt::format("= {:.6g} N/m makes a path that cannot end: the drive moves {:.2g} Å to "
+                       "stretch so soft a spring",
+                       c.scene.drive.stiffness.value_or(0.0), way_of_spring(c));
+}
+
 /// Refuses a dynamic path of more steps than a run can make.
 void refuse_long_times(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
@@ -72,8 +97,11 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
         if (segment.kind == Segment::hold) hold += segment.amount;
     const double turns = static_cast<double>(c.path().size()) - 1.0,
                  ramps = c.simulation.drive.ramp * turns;
-    const double way = least_way(c) / velocity;
+    const double way = least_way(c) / velocity, stretch = way_of_spring(c) / velocity;
     const Part parts[] = {
+        {stretch, "drive.stiffness", soft_spring(c),
+         fmt::format("take {:.2g} N/m or more",
+                     2e3 * scene.drive.stiffness.value_or(0.0) * stretch / (most_steps * dt))},
         {way, "drive.velocity",
          fmt::format("= {:.6g} m/s makes a path that cannot end", scene.drive.velocity),
          fmt::format("take {:.2g} m/s or more, or drive.mode = \"quasistatic\"",
@@ -90,7 +118,7 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
     const Part& largest =
         *std::max_element(std::begin(parts), std::end(parts),
                           [](const Part& a, const Part& b) { return a.amount < b.amount; });
-    const double steps = (way + ramps + hold) / dt;
+    const double steps = (way + stretch + ramps + hold) / dt;
     if (!(steps > most_steps) || scene.drive.max_steps > 0) return;
     const std::string why = fmt::format("the path takes {:.2g} steps of {:.3g} fs at least, and "
                                         "{:.0e} are the most",
@@ -109,12 +137,17 @@ void refuse_long_times(const Case& c, io::Problems& refused) {
 void refuse_short_steps(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
     if (c.path().size() == 1 && c.starts_with(Segment::relax)) return;
-    const double asked = scene.drive.displacement_step, way = least_way(c);
+    const double asked = scene.drive.displacement_step, stretch = way_of_spring(c),
+                 way = least_way(c) + stretch;
     const double step = std::min(asked, c.longest_step);
     if (!(way / step > most_points) || scene.drive.max_steps > 0) return;
     const std::string why = fmt::format(
         "the path takes {:.2g} points at least, and {:.0e} are the most", way / step, most_points);
-    if (asked <= c.longest_step)
+    if (stretch > 0.5 * way)
+        refused.add("drive.stiffness", soft_spring(c), why,
+                    fmt::format("take {:.2g} N/m or more; drive.max_steps makes a part of it",
+                                *scene.drive.stiffness * stretch / step / (0.01 * most_points)));
+    else if (asked <= c.longest_step)
         refused.add("drive.displacement_step",
                     fmt::format("= {:.6g} Å makes a path that cannot end", asked), why,
                     fmt::format("take {:.2g} Å; drive.max_steps makes a part of it",
@@ -151,12 +184,10 @@ void refuse_violence(const Case& c, io::Problems& refused) {
                         fmt::format("take {:.2g} K or less with this time step",
                                     scene.drive.temperature * std::pow(0.1 * width / travel, 2)));
     }
-    const double modulus = modulus_under_load(c.simulation.block) / units::megapascal;
     const auto look = [&](const char* key, double load, const std::string& shown) {
-        if (std::abs(load) > modulus)
-            refused.add(key, fmt::format("{} strains the block by more than its thickness", shown),
-                        fmt::format("its modulus under this load is {:.4g} MPa", modulus),
-                        fmt::format("{}: take a load below {:.2g} MPa", unit_fix, 0.05 * modulus));
+        if (const auto problem = load_out_of_proportion(c, load))
+            refused.add(key, fmt::format("{} {}", shown, problem->what), problem->why,
+                        problem->fix);
     };
     look("drive.load", scene.drive.load, fmt::format("= {:.6g} MPa", scene.drive.load));
     for (const Segment& segment : c.path())
@@ -242,12 +273,87 @@ void look_beyond_edges(const Case& c, const BeyondEdges& beyond, io::Problems& r
         notes.push_back(why + "; " + fix);
 }
 
+/// Refuses a block and an interface of which one is nothing beside the other: forces of a site
+/// vanish in the rounding of its position, or the attraction is stronger than any solid holds.
+void refuse_unlike_solids(const Case& c, io::Problems& refused) {
+    const Scene& scene = c.scene;
+    const auto& interface = scene.interface;
+    const BlockOptions& block = c.simulation.block;
+    const bool wall = interface.kind == InterfaceKind::wall;
+    const std::string attraction = !interface.has_adhesion() ? "interface.epsilon or interface.r0"
+                                                             : "interface.adhesion or "
+                                                               "interface.range";
+    double softest = HUGE_VAL;
+    for (const Material& material : block.materials())
+        softest = std::min(softest, material.contact_modulus());
+    constexpr double strongest = 1e6; // times the modulus
+    const double tension = c.largest_tension * units::gigapascal;
+    if (tension > strongest * softest)
+        refused.add(
+            "block.young",
+            fmt::format("= {:.6g} GPa: the attraction is {:.2g} times as strong", scene.block.young,
+                        tension / softest),
+            fmt::format("it pulls with up to {:.3g} GPa, and the softest material has an E* "
+                        "of {:.3g} GPa (block.young, block.poisson, block.layers)",
+                        c.largest_tension, softest / units::gigapascal),
+            fmt::format("{}, or those of {}", unit_fix, attraction));
+    const double height = 4.5 * scene.surface.rms + block.spacing;
+    // The minimiser of walls finds the mean height on its own, so that its stiffness is no matter.
+    const bool of_mean = !wall || (scene.drive.control == Control::top && !scene.only_relaxes());
+    const double of_block = block.shortest_wave(),
+                 of_top = of_mean ? block.modulus_of_compression() * block.spacing * block.spacing /
+                                        (block.thickness * block.spacing)
+                                  : 0.0;
+    const double stiffest = std::max({of_block, of_top, c.scales.stiffness});
+    const double lost = 4.0 * std::numeric_limits<double>::epsilon() * stiffest * height;
+    constexpr double part = 0.01; // share of the force that decides the state
+    if (!(lost > part * c.scales.force) || c.effects.dynamic) return;
+    const bool of_wall = c.scales.stiffness == stiffest;
+    const bool stressed = 4.0 * block.surface_stress > 0.5 * of_block;
+    refused.add(
+        of_wall && wall ? "interface.stiffness"
+        : of_wall       ? "interface.epsilon"
+        : stressed      ? "block.surface_stress"
+                        : "block.poisson",
+        "leaves nothing of the forces that decide the state",
+        fmt::format("a site is held with {:.2g} eV/Å², so that the rounding of its position "
+                    "is a force of {:.1g} eV/Å, and {:.1g} eV/Å decide the state",
+                    stiffest, lost, c.scales.force),
+        fmt::format("{}: {} decide both", unit_fix,
+                    of_wall ? "interface.stiffness (auto: block.young, block.poisson, "
+                              "block.layers), " +
+                                  attraction
+                            : "block.young, block.poisson, block.layers, "
+                              "block.surface_stress, " +
+                                  attraction));
+}
+
 } // namespace
+
+std::optional<io::Problem> load_out_of_proportion(const Case& c, double megapascal) {
+    const double modulus = modulus_under_load(c.simulation.block) / units::megapascal;
+    if (!(std::abs(megapascal) > modulus)) return {};
+    return io::Problem{"", "strains the block by more than its thickness",
+                       fmt::format("its modulus under this load is {:.4g} MPa", modulus),
+                       fmt::format("{}: take a load below {:.2g} MPa", unit_fix, 0.05 * modulus)};
+}
+
+std::optional<io::Problem> way_out_of_proportion(const Case& c, double way) {
+    const double step = c.simulation.drive.displacement_step;
+    if (!(std::abs(way) / step > most_points)) return {};
+    return io::Problem{
+        "", fmt::format("is {:.3g} Å from here", std::abs(way)),
+        fmt::format("steps of {:.3g} Å (drive.displacement_step) would be {:.2g} points, and "
+                    "{:.0e} are the most",
+                    step, std::abs(way) / step, most_points),
+        fmt::format("{}, or go there in parts", unit_fix)};
+}
 
 void refuse_out_of_proportion(const Case& c, io::Problems& refused,
                               std::vector<std::string>& notes) {
     const std::size_t before = refused.list().size();
     refuse_heights(c, refused);
+    refuse_unlike_solids(c, refused);
     if (refused.list().size() > before) return; // further problems would have the same cause
     if (c.effects.dynamic)
         refuse_long_times(c, refused);

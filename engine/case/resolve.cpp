@@ -11,6 +11,7 @@
 #include "io/terminal.hpp"
 #include "kernels/device/device.hpp"
 #include "kernels/variant.hpp"
+#include "theory/jkr.hpp"
 
 #include <fmt/format.h>
 
@@ -334,8 +335,10 @@ void fill_motion(Case& c, io::Problems& refused) {
                         scene.drive.timestep, c.longest_timestep),
             fmt::format("the {} has a period of {:.4g} fs, and velocity Verlet diverges for steps "
                         "longer than 1/pi of it",
-                        of_top > highest ? "vibration of a top plane of drive.mass"
-                                         : "block's fastest vibration",
+                        of_top > highest
+                            ? "vibration of a top plane of drive.mass on drive.stiffness"
+                            : "block's fastest vibration (block.young, block.poisson, "
+                              "block.atom_mass, the interface)",
                         period),
             fmt::format("take {:.2g} fs or less: a tenth of the period keeps the energy to a "
                         "fraction of a percent",
@@ -373,7 +376,7 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 /// Fills in the maps of the sites that the scene has, and their largest values in the scene.
 void find_site_maps(Case& c, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
-    if (!keys.adhesion_map.given()) return;
+    if (!keys.adhesion_map.given() || !keys.has_adhesion()) return;
     constexpr const char* key = "interface.adhesion";
     const auto map = site_map(c, keys.adhesion_map, problems);
     if (!map) return;
@@ -402,11 +405,13 @@ void derive(Case& c, io::Problems& problems) {
     fill_flat_reference(c, problems);
     limit_steps(c, refused);
     note_coarse_tolerance(c);
+    find_softness(c);
     if (c.effects.device) c.simulation.device = device_of(c.scene, refused);
     fill_motion(c, refused);
     refuse_out_of_proportion(c, refused, c.notes);
     for (std::string& note : notes_on_validity(c))
         c.notes.push_back(std::move(note));
+    if (const auto note = note_on_soft_box(c)) c.notes.push_back(*note);
     look_at_ranks(c, refused);
     c.refused = refused.list();
 }
@@ -434,6 +439,23 @@ std::string Case::block_in_words() const {
 
 bool Case::jumps_as_a_whole() const {
     return simulation.drive.control == Control::top && !effects.free_edges;
+}
+
+bool Case::box_jumps() const {
+    const bool leads = has(Segment::approach) || has(Segment::pull_off);
+    return softness > 1.0 && leads && !effects.free_edges && !radius();
+}
+
+std::optional<double> Case::flat_loss() const {
+    if (!box_jumps() || simulation.drive.control == Control::top) return {};
+    return flat.work_of_adhesion * loss_of_flat(softness);
+}
+
+double Case::smooth_pull_off() const {
+    const double flat_on_flat = largest_tension * units::gigapascal * area();
+    if (!radius()) return flat_on_flat;
+    const double work = flat.work_of_adhesion / units::milli_per_unit;
+    return std::min(flat_on_flat, theory::jkr::pull_off_force(work, *radius()));
 }
 
 ProcessGrid Case::grid(int rank) const {

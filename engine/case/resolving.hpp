@@ -7,6 +7,8 @@
 #include "engine/case/case.hpp"
 #include "engine/scene/scene_files.hpp"
 
+#include <optional>
+
 namespace asperity {
 
 /// Fills in the types and the potentials of simulation.interface from interface.potential and
@@ -28,6 +30,19 @@ void refuse_unsupported(const Case& c, io::Problems& refused);
 /// to notes those that are nearly so.
 void refuse_out_of_proportion(const Case& c, io::Problems& refused,
                               std::vector<std::string>& notes);
+/// Returns the problem with a load, MPa, under which linear elasticity has no meaning; `where` is
+/// empty.
+std::optional<io::Problem> load_out_of_proportion(const Case& c, double megapascal);
+/// Returns the problem with a way of a quasi-static path, Å, that takes more points than a run can
+/// make; `where` is empty.
+std::optional<io::Problem> way_out_of_proportion(const Case& c, double way);
+/// Fills in the softness of the box, after the flat reference.
+void find_softness(Case& c);
+/// Returns the fraction of the work of adhesion that flat surfaces lose in a cycle at a prescribed
+/// mean height, in a box of this softness.
+double loss_of_flat(double softness);
+/// Returns a note on works that are those of the box; empty if they are not.
+std::optional<std::string> note_on_soft_box(const Case& c);
 /// Returns notes on the keys (a block thinner than wide, keys without effect), one sentence each.
 std::vector<std::string> notes_on_keys(const Case& c);
 /// Returns notes on limits of validity (roughness, velocity, time step), one sentence each.

@@ -21,6 +21,8 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
+#include <numeric>
+#include <optional>
 #include <span>
 #include <sstream>
 #include <stdexcept>
@@ -32,26 +34,46 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
+/// Stands for the unit of a seed, a whole number that doubles hold exactly.
+constexpr const char* seed_unit = "seed";
+constexpr double largest_seed = 0x1p53;
+
 /// A formula: its name and its numbers, with their units in the engine.
 struct Formula {
     std::string name;
     std::vector<std::string> units; ///< unit of each number
     std::string form, example;
+    /// Lengths that sites must resolve: index of the number, factor and words.
+    struct Extent {
+        std::size_t number;
+        double factor;
+        const char* words;
+    };
+    std::vector<Extent> extents;
 };
 
 std::vector<Formula> formulas_of(const SiteQuantity& of) {
     const std::string unit = of.unit, high = of.high, both = fmt::format("{} {}", of.low, of.high);
-    std::vector<Formula> all = {
-        {"stripes", {unit, unit, "Å"}, "stripes LOW HIGH PERIOD", "stripes " + both + " 20 nm"},
-        {"discs",
-         {unit, unit, "Å", "Å"},
-         "discs LOW HIGH RADIUS DISTANCE",
-         "discs " + both + " 5 nm 20 nm"},
-        {"rings", {unit, "", "Å"}, "rings MEAN AMPLITUDE PERIOD", "rings " + high + " 0.2 10 nm"},
-        {"patches",
-         {unit, unit, "Å", ""},
-         "patches LOW HIGH LENGTH SEED",
-         "patches " + both + " 5 nm 1"}};
+    std::vector<Formula> all = {{"stripes",
+                                 {unit, unit, "Å"},
+                                 "stripes LOW HIGH PERIOD",
+                                 "stripes " + both + " 20 nm",
+                                 {{2, 1.0, "a period"}}},
+                                {"discs",
+                                 {unit, unit, "Å", "Å"},
+                                 "discs LOW HIGH RADIUS DISTANCE",
+                                 "discs " + both + " 5 nm 20 nm",
+                                 {{2, 2.0, "a diameter"}, {3, 1.0, "a distance"}}},
+                                {"rings",
+                                 {unit, "", "Å"},
+                                 "rings MEAN AMPLITUDE PERIOD",
+                                 "rings " + high + " 0.2 10 nm",
+                                 {{2, 1.0, "a period"}}},
+                                {"patches",
+                                 {unit, unit, "Å", seed_unit},
+                                 "patches LOW HIGH LENGTH SEED",
+                                 "patches " + both + " 5 nm 1",
+                                 {{2, 1.0, "a correlation length"}}}};
     return all;
 }
 
@@ -78,8 +100,9 @@ std::vector<double> numbers_of(const Formula& formula, const std::string& text,
                          fmt::format("the formula has {}", formula.units.size()), fix};
     std::vector<double> numbers;
     for (std::size_t i = 0; i < quantities.size(); ++i) {
-        const io::ParsedQuantity read = io::parse_quantity(quantities[i], formula.units[i]);
-        const bool length = formula.units[i] == "Å";
+        const bool length = formula.units[i] == "Å", seed = formula.units[i] == seed_unit;
+        const io::ParsedQuantity read =
+            io::parse_quantity(quantities[i], seed ? "" : formula.units[i]);
         if (!read.why.empty())
             throw BadFormula{fmt::format("has '{}'", quantities[i]), read.why, fix};
         if (!std::isfinite(read.value) || read.value < 0.0 || (length && read.value == 0.0))
@@ -88,6 +111,10 @@ std::vector<double> numbers_of(const Formula& formula, const std::string& text,
                 length ? "a length is above zero"
                        : fmt::format("a {}, an amplitude and a seed are zero or more", of.words),
                 fix};
+        if (seed && !(read.value == std::floor(read.value) && read.value <= largest_seed))
+            throw BadFormula{fmt::format("has a seed of {}", quantities[i]),
+                             fmt::format("a seed is a whole number up to {:.0f}", largest_seed),
+                             fix};
         numbers.push_back(read.value);
     }
     return numbers;
@@ -110,9 +137,11 @@ struct Square {
     }
 };
 
-/// Returns the period nearest to one that fits into the box a whole number of times.
+/// Returns the period nearest to one that fits into the box a whole number of times, of two sites
+/// at least.
 double fitting(double period, const Square& box) {
-    return box.edge() / std::max(1.0, std::round(box.edge() / period));
+    const double most = std::floor(0.5 * box.sites);
+    return box.edge() / std::clamp(std::round(box.edge() / period), 1.0, most);
 }
 
 /// Returns a field of random numbers whose autocorrelation is exp(-r^2 / length^2), times a factor.
@@ -144,11 +173,49 @@ std::vector<double> random_field(const Square& box, double length, std::uint64_t
     return field;
 }
 
-/// Returns the values of a formula on the sites of the box. Throws BadFormula.
-std::vector<double> values_of(const Formula& formula, const std::string& text,
+/// Refuses lengths of a formula that the sites do not resolve. Throws BadFormula.
+void refuse_too_fine(const Formula& formula, const std::vector<double>& numbers,
+                     const Square& box) {
+    constexpr double fewest = 2.0; // sites over a length, as for a wave at Nyquist
+    for (const Formula::Extent& extent : formula.extents) {
+        const double length = extent.factor * numbers[extent.number];
+        if (length >= fewest * box.spacing * (1.0 - 1e-9)) continue;
+        throw BadFormula{fmt::format("has {} of {:.6g} Å", extent.words, length),
+                         fmt::format("sites are {:.6g} Å apart (surface.spacing), and a pattern "
+                                     "finer than two of them is another one on the sites",
+                                     box.spacing),
+                         fmt::format("take {} of {:.6g} Å at least, or surface.spacing = {:.4g}",
+                                     extent.words, fewest * box.spacing, length / fewest)};
+    }
+}
+
+/// Returns the mean of a formula over an infinite plane; nothing for discs that overlap.
+std::optional<double> mean_of(const Formula& formula, const std::vector<double>& p) {
+    if (formula.name == "rings") return p[0];
+    if (formula.name != "discs") return 0.5 * (p[0] + p[1]);
+    if (2.0 * p[2] > p[3]) return {};
+    return p[0] + (p[1] - p[0]) * pi * p[2] * p[2] / (p[3] * p[3]);
+}
+
+/// Notes a mean over the sites that is not that of the formula: of a coarse pattern, or of one that
+/// the box cuts.
+void note_other_mean(const Formula& formula, const std::vector<double>& numbers,
+                     const SiteQuantity& of, const std::vector<double>& values,
+                     std::vector<std::string>& notes) {
+    constexpr double part = 0.01;
+    const std::optional<double> asked = mean_of(formula, numbers);
+    const double mean =
+        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+    if (!asked || std::abs(mean - *asked) <= part * *asked) return;
+    notes.push_back(fmt::format("interface.{}: the mean over the sites is {:.4g} {}, and that of "
+                                "\"{}\" without an end {:.4g} {}",
+                                of.name, mean, of.unit, formula.name, *asked, of.unit));
+}
+
+/// Returns the values of a formula with these numbers on the sites of the box. Throws BadFormula.
+std::vector<double> values_of(const Formula& formula, const std::vector<double>& p,
                               const SiteQuantity& of, const Square& box,
                               std::vector<std::string>& notes) {
-    const std::vector<double> p = numbers_of(formula, text, of);
     const auto period_of = [&](double asked) {
         const double used = fitting(asked, box);
         if (asked > box.edge())
@@ -280,7 +347,10 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Pr
     });
     try {
         if (formula != formulas.end()) {
-            map->values = values_of(*formula, text, of, box, c.notes);
+            const std::vector<double> numbers = numbers_of(*formula, text, of);
+            refuse_too_fine(*formula, numbers, box);
+            map->values = values_of(*formula, numbers, of, box, c.notes);
+            note_other_mean(*formula, numbers, of, map->values, c.notes);
         } else {
             const std::size_t colon = text.find(":/");
             map->file = find_beside_scene(c.scene, text.substr(0, colon), key);

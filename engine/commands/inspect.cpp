@@ -64,6 +64,7 @@ io::Json check_json(const Case& c, const Communicator& world) {
         const std::vector<std::string> notes = examine(c, world);
         all["longest_timestep"] = c.longest_timestep;
         all["edge_pinning"] = c.edge_pinning;
+        all["box_softness"] = c.box_jumps() ? c.softness : 0.0;
         all["notes"] = notes;
     } catch (const io::SceneError& error) {
         all["problems"] = io::problems_json(error.problems());

@@ -19,7 +19,8 @@ enum class TheorySpectrum { target, realised };
 struct TheoryOptions {
     std::optional<double> delta_gamma; ///< meV/Å^2; empty: the flat reference
     double beta = 0.45;                ///< correction to the elastic energy
-    AreaFactor area_factor = AreaFactor::gaussian;
+    /// Relation of the true area to the slope; empty: "none" over a wall, "gaussian" over atoms.
+    std::optional<AreaFactor> area_factor;
     TheorySpectrum spectrum = TheorySpectrum::target;
     bool clip = true; ///< clip the target spectrum at Nyquist
 };

@@ -12,8 +12,9 @@ namespace asperity {
 ExpectedPath expected_path(const Case& c, double start) {
     const BlockOptions& block = c.simulation.block;
     const double contact = c.flat.separation - start; // displacement of the top plane
-    const double yields = block.thickness * block.spacing /
-                          block.modulus_of_compression(); // deformation under a pressure
+    // Deformation of the block and of the spring that holds it, under a pressure.
+    double yields = block.thickness * block.spacing / block.modulus_of_compression();
+    if (block.top_spring) yields += c.area() / block.top_spring.stiffness;
     ExpectedPath path;
     path.time = c.simulation.drive.ramp * static_cast<double>(c.path().size() - 1); // turns
     double at = 0.0, pressure = 0.0;
@@ -23,8 +24,8 @@ ExpectedPath expected_path(const Case& c, double start) {
             to = contact;
             pressure = 0.0;
         } else if (segment.kind == Segment::pull_off) {
-            // The block separates when it is stretched by half of the largest tension.
-            way = std::max(-at, 0.5 * c.largest_tension * units::gigapascal * yields);
+            // The block separates when it is stretched by half of the pull-off of smooth surfaces.
+            way = std::max(-at, 0.5 * c.smooth_pull_off() / c.area() * yields);
             to = 0.0;
         } else if (segment.kind == Segment::load) {
             const double asked = segment.amount / c.area();

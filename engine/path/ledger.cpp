@@ -18,7 +18,7 @@ std::optional<double> Ledger::per_area(const std::optional<double>& energy) cons
 }
 
 void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& works,
-                      const std::optional<double>& kinetic) {
+                      const std::optional<EnergyLeft>& left) {
     const Segment& segment = case_.path()[number];
     SegmentResults ended = results_.ended(number, segment, now, works.lateral,
                                           works.distance.value_or(std::abs(segment.amount)));
@@ -28,13 +28,16 @@ void Ledger::conclude(std::size_t number, const StepRecord& now, const Works& wo
     ended.stored = per_area(works.stored);
     ended.settling = per_area(works.settling);
     ended.uncertainty = per_area(works.uncertainty);
-    if (!case_.effects.temperature) ended.energies[Term::kinetic] = per_area(kinetic);
+    if (left && !case_.effects.temperature) {
+        ended.energies[Term::kinetic] = per_area(left->kinetic);
+        if (case_.effects.spring) ended.energies[Term::spring] = per_area(left->spring);
+    }
     results_.segments.push_back(ended);
     results_.begin_segment();
 
     since_apart_ += works.flows;
     if (segment.kind != Segment::pull_off) return;
-    const double moving = kinetic.value_or(0.0);
+    const double moving = left ? left->total() : 0.0;
     // A part of the energy that moved before the cycle is in its losses.
     since_apart_[Term::lost] = since_apart_[Term::lost] + moving - moved_apart_;
     if (results_.last(Segment::approach))

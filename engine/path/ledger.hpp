@@ -4,16 +4,16 @@
 // Works and losses of the segments of a path, dynamic or quasi-static. For an approach from rest
 // beyond the interaction range, and a pull-off that ends at rest beyond the range:
 //
-//     -(work of the drive, approach) = binding energy - lost - kinetic
-//      (work of the drive, pull-off) = binding energy + lost + kinetic there
-//                                      - kinetic of the approach
+//     -(work of the drive, approach) = binding energy - lost - left
+//      (work of the drive, pull-off) = binding energy + lost + left there
+//                                      - left after the approach
 //
 // A segment of a quasi-static path, wherever it starts and ends, satisfies
 //
 //     work of the drive = stored + all losses,
 //
-// stored: the change of the energy of interface and block. Works are done on the solids; "kinetic"
-// is the kinetic energy, and the energy of vibrations about the state, left at the end.
+// stored: the change of the energy of interface and block. Works are done on the solids; "left" is
+// what the end finds in motion (EnergyLeft).
 #pragma once
 
 #include "engine/case/case.hpp"
@@ -52,6 +52,13 @@ struct Works {
 
 /// Returns true for a loss that a thermostat gives back as well: it is no loss of a way or cycle.
 bool is_heat(const io::EnergyTerm& row, const Effects& effects);
+/// Energies above the state in which a segment of a dynamic path ends, eV.
+struct EnergyLeft {
+    double kinetic = 0.0; ///< kinetic energy, and energy of vibrations of the block
+    double spring = 0.0;  ///< energy of the spring that holds the top plane
+    /// Returns the energy that is damped if the drive stops.
+    double total() const { return kinetic + spring; }
+};
 
 /// Works and losses of the segments of a path.
 class Ledger {
@@ -60,10 +67,9 @@ public:
     Ledger(const Case& c, PathResults& results) : case_(c), results_(results) {}
 
     /// Adds the results of a segment that has ended at this step or point. works: from the
-    /// beginning to the end of the segment; kinetic: kinetic and vibrational energy left at the
-    /// end, eV, empty on quasi-static paths or if not known.
+    /// beginning to the end of the segment; left: empty on quasi-static paths or if not known.
     void conclude(std::size_t number, const StepRecord& now, const Works& works,
-                  const std::optional<double>& kinetic);
+                  const std::optional<EnergyLeft>& left);
 
     /// Passes the sums to a visitor, for checkpoints.
     template <class Visitor>
@@ -80,7 +86,7 @@ private:
     const Case& case_;
     PathResults& results_;
     Energies since_apart_; ///< works and losses since the last end of a pull-off, or the start, eV
-    double moved_apart_ = 0.0; ///< kinetic and vibrational energy at that time, eV
+    double moved_apart_ = 0.0; ///< energy left in motion at that time, eV
 };
 
 } // namespace asperity

@@ -140,21 +140,22 @@ void TimePath::conclude() {
     const StepRecord& now = simulation_.now();
     const double energy = now.stored();
     Works end = so_far();
-    std::optional<double> kinetic;
+    std::optional<EnergyLeft> left;
     if (segment.kind == Segment::pull_off) {
         // The path ends apart: the drive stops the block after the last step.
         const double bound = now[Term::interface], moving = kinetic_as_top(now.time);
         end.flows[Term::work_of_interface] =
             simulation_.balance().interface; // to where it is bound so much
         end = at_rest_apart(end, bound, moving);
-        kinetic = energy - bound - moving;
+        left = {energy - bound - moving - now.machine_energy, now.machine_energy};
     } else if (segment.kind == Segment::approach && results_.zero_load &&
                case_.simulation.drive.load_force == 0.0) {
-        kinetic =
-            energy + results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
+        const double state =
+            -results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
+        left = {energy - state - now.machine_energy, now.machine_energy};
     }
     end_.in_contact = now.in_contact; // counted a step later, where it is observed
-    ledger_.conclude(concluded(), end_, end - segment_start_, kinetic);
+    ledger_.conclude(concluded(), end_, end - segment_start_, left);
     results_.segments.back().scatter = scatter_;
     segment_start_ = end;
 }

@@ -159,8 +159,9 @@ Plan make_plan(const Case& c, int threads) {
                            : own.kind == SurfaceKind::flat ? 0.0
                                                            : highest_over_rms * own.rms;
     plan.start = highest + reach_of(c.simulation.interface);
+    const ExpectedPath expected = expected_path(c, plan.start);
     if (c.effects.dynamic) {
-        plan.steps = std::llround(expected_path(c, plan.start).time / c.simulation.dt);
+        plan.steps = std::llround(expected.time / c.simulation.dt);
         if (const auto& most = c.simulation.drive.max_steps)
             plan.steps = std::min(plan.steps, *most);
         // An approach and a pull-off are half of their way beyond the interaction range.
@@ -175,6 +176,11 @@ Plan make_plan(const Case& c, int threads) {
                 std::log(static_cast<double>(piece.sites) / before.sites);
     }
     plan.rest = share * piece.resting * std::pow(wider, std::clamp(grows, least_power, most_power));
+    if (!piece.ended && piece.points > 0 && !c.effects.dynamic) { // the rest takes alike
+        const double way = std::accumulate(expected.ways.begin(), expected.ways.end(), 0.0);
+        const double points = way / c.simulation.drive.displacement_step;
+        plan.rest *= std::max(1.0, points / static_cast<double>(piece.points));
+    }
     if (wider > 1.0)
         plan.factor = pieces.size() > 1 ? 2.0 * std::sqrt(std::max(1.0, wider / 4.0)) : 3.0;
     plan.ended = piece.ended;

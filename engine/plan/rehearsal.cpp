@@ -201,6 +201,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     } catch (const io::PhysicsError&) { // for the run to tell
     }
     done.resting = now() - begun;
+    if (path) done.points = path->steps();
     const VectorPlane<const double> layer =
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
     std::optional<io::PayloadWriter> entry;

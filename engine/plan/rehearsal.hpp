@@ -28,6 +28,7 @@ struct Piece {
     /// Time of a step of a dynamic path beyond the interaction range, and in contact.
     double far_step = 0.0, near_step = 0.0;
     double resting = 0.0; ///< all relaxed states and quasi-static paths
+    long long points = 0; ///< points of a quasi-static path that were made
     bool ended = true;    ///< states and paths were completed within the given time
 };
 /// Makes a piece of `sites` sites across and measures it, on this rank alone. seconds: limit of the

@@ -223,6 +223,8 @@ io::Result surface_result(const Case& c, const Surface& surface) {
 io::Result run_result(const Case& c, const Surface& surface, const PathResults& results) {
     io::Result result = surface_result(c, surface);
     result.set("delta_gamma", c.flat.work_of_adhesion);
+    if (c.box_jumps()) result.set("box.softness", c.softness);
+    result.set("box.flat_loss", c.flat_loss());
     add_path(results, c, result);
     if (results.zero_load) add_zero_load(*results.zero_load, result);
     if (!results.segments.empty()) add_segments(results, c, result);

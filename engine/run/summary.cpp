@@ -138,6 +138,27 @@ double works_in_cycle(const PathResults& results) {
     return sum;
 }
 
+/// Prints what the losses of a quasi-static path leave out, and whether they are those of the box.
+void print_limits_of_losses(std::FILE* to, const Case& c) {
+    if (c.effects.dynamic) return;
+    const Form form(c);
+    const double least = c.tolerance * c.sites() * c.simulation.drive.displacement_step;
+    io::print_text(
+        to,
+        "  Of the energy lost, jumps of less than about {} in a step are left out "
+        "(drive.tolerance for each site and Å): in a large box small patches jump unseen, "
+        "and the energy lost is too small.\n",
+        form.with_unit(units::milli_per_unit * least / c.area()));
+    if (!c.box_jumps()) return;
+    const std::optional<double> loss = c.flat_loss();
+    io::print_text(to,
+                   "  The longest waves of the box jump, however smooth the surfaces are: works "
+                   "and the energy "
+                   "lost are those of a box of this width, not of the surface{}.\n",
+                   loss ? fmt::format("; flat surfaces lose about {} in it", form.with_unit(*loss))
+                        : std::string());
+}
+
 /// Prints works and losses of a whole path.
 void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
@@ -190,11 +211,16 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
             "  The works of the drive on the solids, in and out, add up to {}: energy that is "
             "{}.\n",
             form.with_unit(lost),
-            c.effects.dynamic ? "damped, or left in motion at the end" : "lost at instabilities");
+            !c.effects.dynamic ? "lost at instabilities"
+            : c.effects.spring ? "damped, or left in motion and in the spring at the end"
+                               : "damped, or left in motion at the end");
+    print_limits_of_losses(to, c);
     if (of("lost.approach") && c.simulation.drive.load_force == 0.0)
         io::print_text(
             to, "  Binding energy = -(work of the drive on the approach) + {}{}.\n",
-            c.effects.dynamic ? "energy lost + energy left in motion" : "energy lost there",
+            !c.effects.dynamic ? "energy lost there"
+            : c.effects.spring ? "energy lost + energy left in motion and in the spring"
+                               : "energy lost + energy left in motion",
             c.effects.dynamic ? "" : " = work of the drive on the pull-off - energy lost there");
     if (of("work_of_interface.approach") && c.effects.dynamic)
         io::print_text(to,
@@ -416,6 +442,8 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
         row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
             of("kinetic.pull_off"));
+        row("energy left in the spring", "spring.approach", of("spring.approach"),
+            of("spring.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
             table.row({fmt::format("convergence of the above, {}", form.unit_of_uncertainty()),
                        form.uncertainty(of("work_of_drive.uncertainty.approach")),

@@ -47,8 +47,10 @@ void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
                    const io::Schema::Need& need) {
     key.needs = {need};
     const std::string name = key.name, of = "interface." + name, unit = key.unit;
-    const io::Schema::Need given{[is_met = need.is_met, &map] { return is_met() && map.given(); },
-                                 of + " names no map of a wall"};
+    const io::Schema::Need given = Needs::acting(
+        {[is_met = need.is_met, &map] { return is_met() && map.given(); },
+         of + " names no map of a wall"},
+        "give " + of + " a map or a formula", {of, "interface.kind", "interface.law"});
     schema
         .number_or(name + "_size", map.size, "auto", "Å", positive(),
                    "edge of the map of " + of +
@@ -282,8 +284,7 @@ io::Schema bind(Scene& scene) {
         .count_or_length("thickness", block.thickness, scene.height, between(1, most_layers),
                          "thickness in lattice layers, or a length (\"33 nm\"), rounded to whole "
                          "layers; by default N")
-        .needs = {{[&scene] { return !scene.has_free_edges(); },
-                   "surface.boundary is \"free\", and the block is a half-space"}};
+        .needs = {needs.periodic};
     schema
         .integer("layers_per_level", block.layers_per_level, between(2, 1024),
                  "thickness of each level of the multiscale block, in its own cells")
@@ -390,10 +391,13 @@ io::Schema bind(Scene& scene) {
              {"9-3", WallLawKind::nine_three},
              {"8-2", WallLawKind::eight_two},
              {"table", WallLawKind::table}},
-            "law of a wall: attraction exp(-gap/range), of constant tension up to the range, or "
-            "1/(1 + gap/range)^exponent, with a linear repulsion; powers 9 and 3, or 8 and 2, of "
-            "range/gap, deepest at the range; interface.table; or the substrate's atoms smeared "
-            "over their layer (potential, cutoff, tail)")
+            "law of a wall. With a linear repulsion below a gap of 0: an energy per area of "
+            "-adhesion exp(-gap/range), with a largest tension of T = adhesion/range; a constant "
+            "tension T up to the range (\"dugdale\"); or an energy of -adhesion/(1 + "
+            "gap/range)^exponent, with a largest tension of exponent T (\"power\"). Powers 9 and "
+            "3, or 8 and 2, of range/gap in the energy, which is deepest at the range, with a "
+            "largest tension of 1.466 T and 1.026 T; interface.table; or the substrate's atoms "
+            "smeared over their layer (potential, cutoff, tail)")
         .needs = {needs.wall};
     schema.removed({"interface.law", "lennard-jones",
                     "the smeared atoms have whatever potential interface.potential names",
@@ -407,8 +411,10 @@ io::Schema bind(Scene& scene) {
             "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
             "attraction. A value for each site is given by a map, in a file as for surface.file, "
             "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
-            "\"rings MEAN AMPLITUDE PERIOD\" or \"patches LOW HIGH LENGTH SEED\" (random, with "
-            "this correlation length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\""),
+            "\"rings MEAN AMPLITUDE PERIOD\" (MEAN (1 + AMPLITUDE cos(2 π r/PERIOD)), r from the "
+            "middle of the box) or \"patches LOW HIGH LENGTH SEED\" (random, with this correlation "
+            "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
+            "10 nm\""),
         interface.adhesion_map, needs.adhesion);
     schema
         .number("range", interface.range, "Å", positive(),
@@ -416,7 +422,7 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.ranged};
     schema
         .number("exponent", interface.exponent, "", io::Range{1.0, 100.0},
-                "exponent of law = \"power\"")
+                "exponent of the energy of law = \"power\"; the tension falls with one power more")
         .needs = {needs.power};
     schema
         .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
@@ -467,7 +473,7 @@ io::Schema bind(Scene& scene) {
                        "the surface goes on beyond the box, and displacements are measured from "
                        "far away",
                        "take control = \"top\""),
-        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"}};
+        needs.held};
     schema.removed({"drive.hold", "", "it is called drive.control",
                     "write control = \"top\" or \"mean-height\""});
     schema.removed({"drive.states", "", "a run reports one state at zero load",
@@ -482,7 +488,7 @@ io::Schema bind(Scene& scene) {
                    "stiffness of a spring between drive and top plane, for the whole box, like the "
                    "cantilever of an instrument; \"none\": the drive moves the top plane itself")
         .needs = {
-        {[&scene] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"},
+        needs.held,
         needs.refusing({[&scene] { return scene.drive.control == Control::top; }, ""},
                        "with drive.control = \"mean-height\"",
                        "the mean height is prescribed as by a machine that is hard, whatever holds "
@@ -501,16 +507,15 @@ io::Schema bind(Scene& scene) {
         .number_or("mass", drive.mass, "block", "u", positive(),
                    "mass of the top plane on the spring of drive.stiffness; \"block\": the mass of "
                    "the block's nodes, so that the spring does not oscillate faster than the block")
-        .needs = {
-        needs.dynamic,
-        {[&scene] { return scene.drive.stiffness.has_value(); }, "drive.stiffness = \"none\""}};
+        .needs = {needs.dynamic, needs.spring};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
     schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
         .needs = {needs.dynamic};
     schema
         .number("damping", drive.damping, "1/ps", at_least(0.0),
-                "rate Γ of the damping force -m Γ v, with v relative to the top plane")
+                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
+                "top plane or the far end of its spring (drive.stiffness)")
         .needs = {needs.dynamic};
     schema
         .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
@@ -555,12 +560,16 @@ io::Schema bind(Scene& scene) {
                 "β, correction to the elastic energy of partial contact")
         .needs = {needs.one_layer};
     schema
-        .choice<AreaFactor>("area_factor", theory.area_factor,
-                            {{"gaussian", AreaFactor::gaussian},
-                             {"small-slope", AreaFactor::small_slope},
-                             {"none", AreaFactor::none},
-                             {"lattice", AreaFactor::lattice}},
-                            "relation of the true area to the slope")
+        .choice<std::optional<AreaFactor>>(
+            "area_factor", theory.area_factor,
+            {{"auto", std::nullopt},
+             {"gaussian", AreaFactor::gaussian},
+             {"small-slope", AreaFactor::small_slope},
+             {"none", AreaFactor::none},
+             {"lattice", AreaFactor::lattice}},
+            "area that adheres, over the projected area: 1 (\"none\"), or a factor that follows from "
+            "the slope; \"auto\": \"none\" over a wall, whose law acts on the projected area, and "
+            "\"gaussian\" over atoms")
         .needs = {needs.one_layer};
     schema
         .choice<TheorySpectrum>(

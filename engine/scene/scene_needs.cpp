@@ -23,36 +23,67 @@ std::string shown(const io::Schema::Key& key) {
     return io::json_text(value);
 }
 
+/// A key that the scene sets, one of whose needs is not met.
+struct IdleKey {
+    std::string key, value; ///< the value as a message shows it
+    io::Schema::Need need;
+    /// The key is noted, not refused: it has its default, belongs to another kind of path, or is
+    /// one of the file that --set has switched off.
+    bool is_noted;
+};
+
+/// Returns the keys that the scene sets, that have no effect or are refused.
+std::vector<IdleKey> idle_keys(const Scene& scene) {
+    Scene copy = scene, defaults;
+    const io::Schema schema = bind(copy), of_defaults = bind(defaults);
+    const auto is_override = [&](const std::string& key) {
+        return scene.positions.is_set(key) && scene.positions.where(key).starts_with("--set");
+    };
+    std::vector<IdleKey> idle;
+    for (const io::Schema::Key& key : schema.keys()) {
+        const io::Schema::Need* const need = key.unmet_need();
+        if (!need || !scene.positions.is_set(key.path())) continue;
+        const bool is_default = key.load() == of_defaults.find(key.path())->load();
+        const bool refuses = !need->why.empty();
+        const bool switched_off =
+            !is_override(key.path()) &&
+            std::any_of(need->deciding.begin(), need->deciding.end(), is_override);
+        const bool is_noted = !refuses && (is_default || need->instead.empty() || switched_off);
+        if (!refuses || !is_default) idle.push_back({key.path(), shown(key), *need, is_noted});
+    }
+    return idle;
+}
+
 } // namespace
 
 void refuse_unmet_needs(const Scene& scene, io::Problems& problems) {
-    Scene copy = scene, defaults;
-    const io::Schema schema = bind(copy), of_defaults = bind(defaults);
-    for (const io::Schema::Key& key : schema.keys()) {
-        const io::Schema::Need* const need = key.unmet_need();
-        if (!need || need->why.empty() || !scene.positions.is_set(key.path())) continue;
-        if (key.load() == of_defaults.find(key.path())->load()) continue;
-        const std::string with = need->refused.empty() ? "" : " " + need->refused;
-        problems.add(key.path(), "= " + shown(key) + with, need->why, need->fix);
+    for (const IdleKey& idle : idle_keys(scene)) {
+        const io::Schema::Need& need = idle.need;
+        if (idle.is_noted) continue;
+        if (need.why.empty())
+            problems.add(idle.key, "= " + idle.value + " has no effect", need.otherwise,
+                         fmt::format("{}, or leave {} out", need.instead, idle.key));
+        else
+            problems.add(idle.key,
+                         "= " + idle.value + (need.refused.empty() ? "" : " " + need.refused),
+                         need.why, need.fix);
     }
 }
 
 std::vector<std::string> notes_on_idle_keys(const Scene& scene) {
-    Scene copy = scene;
-    const io::Schema schema = bind(copy);
-    std::vector<std::pair<std::string, std::vector<std::string>>> idle; // by their reasons
-    for (const io::Schema::Key& key : schema.keys()) {
-        const io::Schema::Need* const need = key.unmet_need();
-        if (!need || !need->why.empty() || !scene.positions.is_set(key.path())) continue;
-        auto of_reason = std::find_if(idle.begin(), idle.end(), [&](const auto& reason) {
-            return reason.first == need->otherwise;
+    std::vector<std::pair<std::string, std::vector<std::string>>> noted; // by their reasons
+    for (const IdleKey& idle : idle_keys(scene)) {
+        if (!idle.is_noted) continue;
+        auto of_reason = std::find_if(noted.begin(), noted.end(), [&](const auto& reason) {
+            return reason.first == idle.need.otherwise;
         });
-        if (of_reason == idle.end()) of_reason = idle.insert(idle.end(), {need->otherwise, {}});
-        of_reason->second.push_back(key.path());
+        if (of_reason == noted.end())
+            of_reason = noted.insert(noted.end(), {idle.need.otherwise, {}});
+        of_reason->second.push_back(idle.key);
     }
     std::vector<std::string> notes;
-    notes.reserve(idle.size());
-    for (const auto& [reason, keys] : idle)
+    notes.reserve(noted.size());
+    for (const auto& [reason, keys] : noted)
         notes.push_back(keys.size() == 1
                             ? fmt::format("{} has no effect: {}", keys.front(), reason)
                             : fmt::format("{} and {} have no effect: {}",

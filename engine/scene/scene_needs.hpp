@@ -9,6 +9,7 @@
 
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace asperity {
 
@@ -19,41 +20,65 @@ struct Needs {
     explicit Needs(const Scene& s) : scene(s) {}
     const Scene& scene;
 
-    Need self_affine{[this] { return scene.surface.kind == SurfaceKind::self_affine; },
-                     "surface.kind is not \"self-affine\""};
-    Need map{[this] { return scene.surface.kind == SurfaceKind::file; },
-             "surface.kind is not \"file\""};
-    Need file{[this] { return scene.surface.reads_file(); },
-              "surface.kind is neither \"file\" nor \"atoms\""};
-    Need rough{[this] { return scene.surface.kind != SurfaceKind::flat; },
-               "surface.kind is \"flat\""};
-    Need one_layer{[this] { return scene.surface.kind != SurfaceKind::atoms; },
-                   "surface.kind is \"atoms\""};
-    Need wall{[this] { return scene.interface.kind == InterfaceKind::wall; },
-              "interface.kind is not \"wall\""};
-    Need adhesion{[this] { return scene.interface.has_adhesion(); },
-                  "there is no wall with a law of its own"};
-    Need touched{
-        [this] { return scene.interface.has_adhesion() && !scene.interface.shape_repels(); },
-        "there is no wall with a law that begins where it is touched"};
-    Need ranged{[this] {
-                    return scene.interface.has_adhesion() &&
-                           scene.interface.law != WallLawKind::table;
-                },
-                "there is no wall with a law of a range"};
-    Need power{[this] {
-                   return scene.interface.has_adhesion() &&
-                          scene.interface.law == WallLawKind::power;
-               },
-               "interface.law is not \"power\""};
-    Need table{[this] {
-                   return scene.interface.has_adhesion()
-                              ? scene.interface.law == WallLawKind::table
-                              : scene.interface.potential_name() == Tabulated::name ||
-                                    !scene.interface.pairs.empty();
-               },
-               "neither interface.potential nor interface.law is \"table\""};
-    Need pairs{[this] { return !adhesion.is_met(); }, "the wall has a law of its own"};
+    Need self_affine = acting({[this] { return scene.surface.kind == SurfaceKind::self_affine; },
+                               "surface.kind is not \"self-affine\""},
+                              "take surface.kind = \"self-affine\"", {"surface.kind"});
+    Need map = acting({[this] { return scene.surface.kind == SurfaceKind::file; },
+                       "surface.kind is not \"file\""},
+                      "take surface.kind = \"file\"", {"surface.kind"});
+    Need file = acting({[this] { return scene.surface.reads_file(); },
+                        "surface.kind is neither \"file\" nor \"atoms\""},
+                       "take surface.kind = \"file\" (a map), or \"atoms\"", {"surface.kind"});
+    Need rough = acting(
+        {[this] { return scene.surface.kind != SurfaceKind::flat; }, "surface.kind is \"flat\""},
+        "take surface.kind = \"self-affine\"", {"surface.kind"});
+    Need one_layer = acting(
+        {[this] { return scene.surface.kind != SurfaceKind::atoms; }, "surface.kind is \"atoms\""},
+        "take a surface that is a map", {"surface.kind"});
+    Need wall = acting({[this] { return scene.interface.kind == InterfaceKind::wall; },
+                        "interface.kind is not \"wall\""},
+                       "take interface.kind = \"wall\"", {"interface.kind"});
+    Need adhesion = acting({[this] { return scene.interface.has_adhesion(); },
+                            "there is no wall with a law of its own"},
+                           "take interface.kind = \"wall\" and another interface.law than "
+                           "\"smeared\"",
+                           {"interface.kind", "interface.law"});
+    Need touched = acting(
+        {[this] { return scene.interface.has_adhesion() && !scene.interface.shape_repels(); },
+         "there is no wall with a law that begins where it is touched"},
+        "take interface.kind = \"wall\" and interface.law = \"exponential\", \"dugdale\" or "
+        "\"power\"",
+        {"interface.kind", "interface.law"});
+    Need ranged = acting({[this] {
+                              return scene.interface.has_adhesion() &&
+                                     scene.interface.law != WallLawKind::table;
+                          },
+                          "there is no wall with a law of a range"},
+                         "take interface.kind = \"wall\" and another interface.law than "
+                         "\"smeared\" and \"table\"",
+                         {"interface.kind", "interface.law"});
+    Need power = acting({[this] {
+                             return scene.interface.has_adhesion() &&
+                                    scene.interface.law == WallLawKind::power;
+                         },
+                         "interface.law is not \"power\""},
+                        "take interface.kind = \"wall\" and interface.law = \"power\"",
+                        {"interface.kind", "interface.law"});
+    Need table = acting({[this] {
+                             return scene.interface.has_adhesion()
+                                        ? scene.interface.law == WallLawKind::table
+                                        : scene.interface.potential_name() == Tabulated::name ||
+                                              !scene.interface.pairs.empty();
+                         },
+                         "neither interface.potential nor interface.law is \"table\""},
+                        "take interface.potential = \"table\", or over a wall interface.law = "
+                        "\"table\"",
+                        {"interface.kind", "interface.law", "interface.potential"});
+    Need pairs = acting({[this] { return !adhesion.is_met(); }, "the wall has a law of its own"},
+                        "take interface.law = \"smeared\", or interface.kind = \"atoms\"",
+                        {"interface.kind", "interface.law"});
+    // Keys of one kind of path have no effect on another, and are noted: one scene is led along
+    // several paths.
     Need dynamic{[this] { return scene.is_dynamic(); }, "no time passes on this path"};
     Need time{[this] {
                   return scene.is_dynamic() ||
@@ -61,12 +86,24 @@ struct Needs {
               },
               "no time passes on this path"};
     Need equilibria{[this] { return !scene.is_dynamic(); }, "drive.mode is \"dynamic\""};
-    Need multiscale{[this] { return scene.block_model() == BlockModel::multiscale; },
-                    "block.model is not \"multiscale\""};
-    Need damping{[this] { return scene.drive.damping > 0.0; }, "drive.damping is 0"};
-    Need temperature{[this] { return scene.drive.temperature > 0.0; }, "drive.temperature is 0"};
-    Need trajectory{[this] { return scene.output.trajectory.has_value(); },
-                    "output.trajectory is \"none\""};
+    Need held{[this] { return !scene.only_relaxes(); }, "drive.path relaxes with nothing held"};
+    Need multiscale = acting({[this] { return scene.block_model() == BlockModel::multiscale; },
+                              "block.model is not \"multiscale\""},
+                             "take block.model = \"multiscale\"", {"block.model"});
+    Need damping = acting({[this] { return scene.drive.damping > 0.0; }, "drive.damping is 0"},
+                          "take a drive.damping above 0", {"drive.damping"});
+    Need temperature =
+        acting({[this] { return scene.drive.temperature > 0.0; }, "drive.temperature is 0"},
+               "take a drive.temperature above 0", {"drive.temperature"});
+    Need spring = acting(
+        {[this] { return scene.drive.stiffness.has_value(); }, "drive.stiffness is \"none\""},
+        "take a drive.stiffness", {"drive.stiffness"});
+    Need periodic = acting({[this] { return !scene.has_free_edges(); },
+                            "surface.boundary is \"free\", and the block is a half-space"},
+                           "take surface.boundary = \"periodic\"", {"surface.boundary"});
+    Need trajectory = acting(
+        {[this] { return scene.output.trajectory.has_value(); }, "output.trajectory is \"none\""},
+        "take output.trajectory = 1000, the steps between frames", {"output.trajectory"});
 
     /// Returns the need of a substrate of one layer, for a key that is refused with surface.kind =
     /// "atoms".
@@ -80,13 +117,21 @@ struct Needs {
         need.fix = std::move(fix);
         return need;
     }
+    /// Returns a need with what meets it and the keys that decide it: a key without effect is
+    /// refused.
+    static Need acting(Need need, std::string instead, std::vector<std::string> deciding) {
+        need.instead = std::move(instead);
+        need.deciding = std::move(deciding);
+        return need;
+    }
     /// Returns the need of parameters of a potential: the scene uses the potential.
     Need potential(const std::string& name) const {
-        return {[this, name] {
-                    return scene.interface.potential_name() == name ||
-                           !scene.interface.pairs.empty();
-                },
-                "interface.potential is not \"" + name + "\""};
+        return acting({[this, name] {
+                           return scene.interface.potential_name() == name ||
+                                  !scene.interface.pairs.empty();
+                       },
+                       "interface.potential is not \"" + name + "\""},
+                      "take interface.potential = \"" + name + "\"", {"interface.potential"});
     }
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/script/led_path.hpp"
 
+#include "engine/case/resolving.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/path/guard.hpp"
 #include "engine/path/static_path.hpp"
@@ -63,11 +64,17 @@ void LedPath::set_top(double z) { go_to(Held::top, z); }
 void LedPath::go_to(Held held, double at) {
     require_number(at);
     hold(held);
+    const double from = held == Held::top ? now().top : now().mean_height;
+    if (const auto problem = way_out_of_proportion(case_, at - from))
+        refuse("Statics", fmt::format("{} Å {}", at, problem->what), problem->why, problem->fix);
     target_ = {.at = held == Held::top ? at : at - interface_.reference_height()};
 }
 
 void LedPath::set_load(double pressure) {
     require_number(pressure);
+    if (const auto problem = load_out_of_proportion(case_, pressure))
+        refuse("Statics", fmt::format("a load of {} MPa {}", pressure, problem->what), problem->why,
+               problem->fix);
     target_ = {.load = pressure * units::megapascal * case_.area()};
 }
 

@@ -31,7 +31,6 @@ WallMinimiser::WallMinimiser(Response& block, const Interface& interface,
 }
 
 void WallMinimiser::step() {
-    const auto t = phases_.time(Phase::advance);
     single_ = single_ && estimate_ > Constants::single_precision_error * spring_ * widest_;
     double reversal = 0.0;
     if (single_) { // single precision while it is good enough
@@ -74,6 +73,7 @@ double WallMinimiser::conclude() {
 /// Computes N^2 S (z - mean) at the sites; the field holds z - mean meanwhile.
 template <class T>
 void WallMinimiser::elastic_forces(SiteField<T>& field) {
+    const auto t = phases_.time(Phase::advance);
     const PlaneView<double> u = block_.moving_layer(0);
     const PlaneView<T> z = field[0].plane(0);
     const PlaneView<const float> step = std::as_const(step_).plane(0);
@@ -101,6 +101,7 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
                   .load = 0.0};
     double reversal = 0.0, mean = 0.0;
     const auto relax = [&](double force) {
+        const auto t = phases_.time(Phase::interface);
         rule.load = force;
         OrderedSums sums(block_.slab(), OrderedSums::Over::rows, 2);
         double furthest = 0.0;

@@ -109,6 +109,13 @@ Spectrum spectrum_of(const Case& c, const Surface* surface, TheoryCase& out) {
     return realised_of(c, surface_of(c), out);
 }
 
+/// Returns the area factor of the scene. A wall acts on the gap below each site, and so on the
+/// projected area.
+AreaFactor area_factor_of(const Case& c) {
+    const bool wall = c.simulation.interface.wall.has_value();
+    return c.theory.area_factor.value_or(wall ? AreaFactor::none : AreaFactor::gaussian);
+}
+
 } // namespace
 
 bool theory_needs_surface(const Case& c) {
@@ -131,8 +138,8 @@ TheoryCase theory_case(const Case& c, const Surface* surface) {
         out.contact.work_of_adhesion = out.delta_gamma / units::milli_per_unit;
         out.contact.pressure = c.simulation.drive.load_force / c.area();
         out.contact.beta = c.theory.beta;
-        out.contact.area_factor = c.theory.area_factor;
-        if (c.theory.area_factor == AreaFactor::lattice && !c.simulation.interface.wall)
+        out.contact.area_factor = area_factor_of(c);
+        if (out.contact.area_factor == AreaFactor::lattice && !c.simulation.interface.wall)
             out.contact.tilt_cost =
                 flat_interface(c).tilt_cost(c.flat.separation, c.effects.lateral);
         theory::check(out.contact);
@@ -170,6 +177,7 @@ void record_theory(const TheoryCase& what, const TheoryNumbers& n, io::Result& r
     result.set("theory.persson.rms_slope", n.rms_slope);
     result.set("theory.persson.theta", n.theta);
     result.set("theory.persson.jkr_pull_off_force", n.jkr_pull_off_force);
+    result.set("theory.persson.area_factor", std::string(theory::name(what.contact.area_factor)));
     result.set("theory.persson.status", std::string(theory::name(n.state.status)));
     result.set("theory.persson.converged", n.state.converged);
 }

@@ -183,12 +183,12 @@ SurfaceMatrix Response::acting_stiffness(int nx, int ny) const {
 }
 
 double Response::stiffest_wave() const {
+    if (!pattern_) return factor_ * table_.stiffest();
     double stiffest = 0.0;
-    for (int n = 0; pattern_ && n < slab_.columns(); ++n)
-        for (int m = 0; m < slab_.columns(); ++m)
+    for (int n = 0; n < slab_.columns(); ++n)
+        for (int m = n == 0 ? 1 : 0; m < slab_.columns(); ++m)
             stiffest = std::max(stiffest, acting_stiffness(n, m).zz);
-    if (!pattern_) stiffest = factor_ * table_.stiffest();
-    return std::max(stiffest, constraint_.is_top() ? held_stiffness() : 0.0);
+    return stiffest;
 }
 
 double Response::held_stiffness() const {

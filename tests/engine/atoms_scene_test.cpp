@@ -248,7 +248,8 @@ TEST(AtomsScene, HasPairsByType) {
              {"['Au 0.1 nan', 'C 0.1 3.28']", "\"Au 0.1 nan\""},
              {"['Au 0.1 nm 3.28', 'C 0.1 3.28']", "whose epsilon is '0.1 nm'"},
              {"['Au 0.1 3.28 21', 'C 0.1 3.28']", "cutoff is above 20.8"},
-             {"['Au 0.1 3.28 3.5', 'C 0.1 3 3.2']", "no attraction"}}) {
+             {"['Au 0.1 3.28 3.5', 'C 0.1 3 3.2']", "no attraction"},
+             {"['Au morse 0.1 1.5 3.5 3.5', 'C morse 0.1 1.5 3.25 3.25']", "no attraction"}}) {
         const std::string what = refusal([&, p = pairs] { examine(over_two(p)); });
         EXPECT_NE(what.find(said), std::string::npos) << pairs << "\n" << what;
     }

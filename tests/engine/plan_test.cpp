@@ -3,6 +3,7 @@
 //
 // What a plan says of a run follows the scene, and is what runs take: their time here, their memory
 // in tests/python/test_result.py.
+#include "engine/path/expected_path.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/script/stepped_path.hpp"
 #include "io/terminal.hpp"
@@ -133,4 +134,35 @@ TEST(Plan, PathsAndStatesTakeTheTimeThatItSays) {
         EXPECT_LT(plan.rest, 3.0 * took) << keys.back();
         EXPECT_GT(plan.rest, took / 3.0) << keys.back();
     }
+}
+
+/// The drive stretches a soft spring before the solids part, however little they move; and a path
+/// of which the plan made a piece only takes as much more time as it has more points.
+TEST(Plan, ASoftSpringIsAWay) {
+    const std::vector<std::string> wall = {"surface.sites=16",       "interface.kind=wall",
+                                           "interface.adhesion=3",   "interface.range=3",
+                                           "drive.mode=quasistatic", "block.young=10",
+                                           "block.thickness=16"};
+    const auto with = [&](const std::string& stiffness) {
+        std::vector<std::string> keys = wall;
+        keys.push_back("drive.stiffness=" + stiffness);
+        return case_with(keys);
+    };
+    const Case c = with("2e-3");
+    const BlockOptions& block = c.simulation.block;
+    const double of_block =
+                     block.modulus_of_compression() * c.area() / (block.thickness * block.spacing),
+                 stretch =
+                     c.smooth_pull_off() * (1.0 / block.top_spring.stiffness + 1.0 / of_block);
+    EXPECT_NEAR(c.smooth_pull_off(), 1e-3 * 3.0 / 3.0 * c.area(), 0.02 * c.area() * 1e-3);
+    EXPECT_NEAR(expected_path(c, 10.0).ways.back(), 0.5 * stretch, 1e-9 * stretch);
+    const Case soft = with("1e-4");
+    const Plan plan = make_plan(soft, 1);
+    if (!plan.ended) {
+        EXPECT_GT(plan.rest, 4.0); // a piece has 1.5 s
+    }
+    EXPECT_TRUE(soft.refused.empty());
+    const Case softer = with("1e-6");
+    ASSERT_EQ(softer.refused.size(), 1u);
+    EXPECT_NE(softer.refused[0].what.find("drive.stiffness"), std::string::npos);
 }

@@ -61,6 +61,33 @@ TEST(TheoryOfAScene, TakesFactorAndBetaFromTheScene) {
     EXPECT_LT(solve_theory(theory_case(resolve(s))).gamma_eff, 65.999);
 }
 
+/// Over atoms by default the area that follows the slopes adheres, under each wall the projected
+/// area: full contact binds with Δγ S and Δγ, less the elastic energy. A named factor stays.
+TEST(TheoryOfAScene, AWallActsOnTheProjectedArea) {
+    const auto area_of = [](const Scene& s) {
+        const TheoryCase what = theory_case(resolve(s));
+        const theory::FullContactState full = theory::full_contact(what.contact);
+        return (full.gamma + full.elastic_energy) / what.contact.work_of_adhesion;
+    };
+    Scene atoms = small(3);
+    Scene named = atoms;
+    named.theory.area_factor = AreaFactor::gaussian;
+    EXPECT_GT(area_of(atoms), 1.01);
+    EXPECT_EQ(area_of(atoms), area_of(named));
+    for (const WallLawKind law :
+         {WallLawKind::smeared, WallLawKind::exponential, WallLawKind::dugdale, WallLawKind::power,
+          WallLawKind::nine_three, WallLawKind::eight_two}) {
+        Scene wall = small(3);
+        wall.interface.kind = InterfaceKind::wall;
+        wall.interface.law = law;
+        wall.interface.frictionless = true;
+        wall.drive.path = {"relax"};
+        EXPECT_NEAR(area_of(wall), 1.0, 1e-12);
+        wall.theory.area_factor = AreaFactor::gaussian;
+        EXPECT_NEAR(area_of(wall), area_of(named), 1e-12);
+    }
+}
+
 TEST(TheoryOfAScene, ClipsAtNyquistAndSaysSo) {
     Scene s = paper(3);
     s.theory.clip = true;

@@ -224,6 +224,46 @@ TEST(AdhesionField, Formulas) {
     EXPECT_NE(notes[0].find("27.7333 Å, of which 3 fit"), std::string::npos) << notes[0];
 }
 
+/// A pattern that the sites do not resolve is refused, one whose mean they miss is noted, and a
+/// seed is a whole number: 32 sites, 2.6 Å apart.
+TEST(AdhesionField, FormulasAreResolvedBySites) {
+    struct Row {
+        const char *formula, *words; ///< words of the refusal or the note; "": neither
+    };
+    const Row refused[] = {{"stripes 1 5 2.6", "has a period of 2.6 Å"},
+                           {"stripes 0 2 5.19", "surface.spacing = 2.595"},
+                           {"rings 50 0.5 0.4 nm", "take a period of 5.2 Å at least"},
+                           {"discs 1 9 2 20", "has a diameter of 4 Å"},
+                           {"discs 1 9 3 5", "has a distance of 5 Å"},
+                           {"patches 2 3 1e-10 7", "has a correlation length of 1e-10 Å"},
+                           {"patches 2 3 10 1.5", "has a seed of 1.5"},
+                           {"patches 2 3 10 1e300", "a seed is a whole number"}};
+    for (const Row& row : refused) {
+        const std::string key = std::string("interface.adhesion=") + row.formula;
+        const std::string text = problems_of({key});
+        EXPECT_NE(text.find(row.words), std::string::npos) << row.formula << "\n" << text;
+    }
+    const Row made[] = {{"stripes 1 5 5.2", ""},
+                        {"stripes 3 1 0.52 nm", ""},
+                        {"stripes 1 5 27.8", ""},
+                        {"discs 1 3 10 41.6", ""},
+                        {"discs 1 9 3 10.4", "mean over the sites"},
+                        {"discs 1 9 12 20", ""}, // they overlap
+                        {"rings 10 0.05 20", ""},
+                        {"rings 10 0.4 20", "is 10.12 meV/Å^2, and that of"},
+                        {"rings 10 0.9 150", "that of \"rings\" without an end 10 meV/Å^2"},
+                        {"patches 1 3 5.2 0", ""},
+                        {"patches 1 3 15 9007199254740992", ""}};
+    for (const Row& row : made) {
+        const Case c = case_of({std::string("interface.adhesion=") + row.formula});
+        std::string notes;
+        for (const std::string& note : c.notes)
+            if (note.find("the mean over") != std::string::npos) notes += note;
+        EXPECT_EQ(notes.empty(), std::string(row.words).empty()) << row.formula << notes;
+        EXPECT_NE(notes.find(row.words), std::string::npos) << row.formula << notes;
+    }
+}
+
 TEST(AdhesionField, Files) {
     const io::Scratch scratch;
     const auto keys = [&](const std::string& file, std::vector<std::string> more = {}) {
@@ -265,8 +305,8 @@ TEST(AdhesionField, Files) {
     refused(keys("stripes 1 2 1 ps"), "has '1 ps'");
     refused(keys("stripes 1 2 500"), "a period of 500");
     refused(keys("rings 1 1.5 10"), "would be negative");
-    refused(keys(map, {"interface.law=smeared"}), "the work of adhesion of their potential");
-    refused(keys(map, {"interface.kind=atoms"}), "the work of adhesion of their potential");
+    refused(keys(map, {"interface.law=smeared"}), "there is no wall with a law of its own");
+    refused(keys(map, {"interface.kind=atoms"}), "there is no wall with a law of its own");
     refused(keys("stripes 0 2 10", {"interface.law=9-3"}), "is 0 at some sites");
     refused({"interface.adhesion=0", "interface.law=8-2"}, "repels by itself");
 }

@@ -5,6 +5,7 @@
 // whole well, however soft the block; F is minus the slope of the relaxed energy; what is not lost
 // is the state's energy both ways; the state is the one that a held top plane leads to; levels and
 // waves agree.
+#include "engine/phases.hpp"
 #include "engine/statics/relaxation.hpp"
 #include "engine/units.hpp"
 #include "support/path_case.hpp"
@@ -328,4 +329,24 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     EXPECT_EQ(path.dissipation().total, 0.0);
     EXPECT_NEAR(path.work(Segment::pull_off), bound,
                 1e-4 * c.sites() * (out.back().top - out.front().top));
+}
+
+/// A mean height is met to its rounding, in a few sweeps over the wall for each step of the
+/// minimiser: also where the rounding is that of the height alone, or that of the displacements.
+TEST(MeanHeight, IsMetInFewSweeps) {
+    const ExponentialWall law(0.7, 1.3, 1e3);
+    Solids c(test::paper_block(16, 16, 0), test::self_affine(16, 1.0), law);
+    c.interface.set_reference_height(0.0);
+    for (const double z : {0.0, 1e-14, 3.0}) {
+        c.block.set_uniform(z);
+        RelaxOptions how;
+        how.tolerance = 1e-6;
+        how.scales = test::paper_scales();
+        Phases phases;
+        const RelaxedState s = relax(c.block, c.interface, Constraint::mean_height(z), how, phases);
+        EXPECT_TRUE(s.converged);
+        EXPECT_NEAR(s.mean_height, z, 1e-13);
+        const double sweeps = static_cast<double>(phases[Phase::interface].calls);
+        EXPECT_LT(sweeps / static_cast<double>(s.iterations), 6.0) << z << " " << s.iterations;
+    }
 }

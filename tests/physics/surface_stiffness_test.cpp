@@ -110,3 +110,32 @@ TEST(SurfaceStiffness, EveryWaveLiesBetweenTheLatticeAndTheWorst) {
         }
     }
 }
+
+/// Towards Poisson's ratio 1/2 the stiffness of each wave comes to that of an incompressible block,
+/// of one material or with a layer of it, as 1 - 2 nu: for thick blocks and thin ones.
+TEST(SurfaceStiffness, HasALimitAtPoissonsRatioOneHalf) {
+    const auto normal = [](double poisson, bool layered, int thickness, int nx, int ny) {
+        BlockOptions o = test::paper_block(16, thickness, 0);
+        const Material soft{o.young, poisson};
+        if (layered)
+            o.layers = {{soft, 3}};
+        else
+            o.poisson = poisson;
+        return 1.0 / inverse(o.stiffness(wave_phase(nx, 16), wave_phase(ny, 16))).zz;
+    };
+    for (const bool layered : {false, true})
+        for (const int thickness : {2, 5, 16, 200})
+            for (const auto& [nx, ny] : {std::pair{1, 0}, {1, 1}, {3, 2}, {8, 0}, {8, 8}, {8, 3}}) {
+                if (layered && thickness < 5) continue;
+                const auto at = [&, x = nx, y = ny](double less) {
+                    return normal(0.5 - less, layered, thickness, x, y);
+                };
+                const double limit = at(1e-12), slope = (at(1e-5) - limit) / 1e-5;
+                ASSERT_TRUE(std::isfinite(limit)) << thickness << " " << nx << " " << ny;
+                for (const double less : {1e-15, 1e-10, 1e-8, 1e-7, 1e-6, 2e-5, 4e-4, 6e-4}) {
+                    const double first = slope / limit * less;
+                    EXPECT_NEAR(at(less) / limit, 1.0 + first, 1e-9 + 10.0 * first * first)
+                        << layered << " " << thickness << " " << nx << " " << ny << " " << less;
+                }
+            }
+}

@@ -9,6 +9,7 @@
 #include "support/path_case.hpp"
 #include "support/scratch.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -209,8 +210,9 @@ TEST(WallShape, Keys) {
     }
     const std::string table = "interface.table=" + scratch.write("law.txt", rows);
     const auto resolved = [&](std::vector<std::string> keys) {
-        keys.insert(keys.end(), {"interface.kind=wall", "drive.path=relax",
-                                 "interface.adhesion=31.2", "interface.range=1.7"});
+        keys.insert(keys.end(),
+                    {"interface.kind=wall", "drive.path=relax", "interface.adhesion=31.2"});
+        if (keys[0] != "interface.law=table") keys.push_back("interface.range=1.7");
         return read_case_text("[surface]\nsites = 32\nrms = 1\n", "shape.toml", keys);
     };
     const double area = 2.6 * 2.6, pressure = 31.2e-3 / 1.7 / units::gigapascal;
@@ -228,6 +230,10 @@ TEST(WallShape, Keys) {
     expect({"interface.law=power", "interface.exponent=2"}, 2.0);
     const double nine = 4.5 * (std::pow(2.5, -4.0 / 6.0) - std::pow(2.5, -10.0 / 6.0)),
                  eight = 8.0 / 3.0 * (std::pow(3.0, -0.5) - std::pow(3.0, -1.5));
+    Scene scene; // the description of the key gives the tensions of both
+    const std::string doc = bind(scene).find("interface.law")->doc;
+    for (const double tension : {nine, eight})
+        EXPECT_NE(doc.find(fmt::format("{:.3f} T", tension)), std::string::npos) << doc;
     EXPECT_NEAR(expect({"interface.law=9-3"}, nine).flat.separation, 1.7, 1e-5);
     EXPECT_NEAR(expect({"interface.law=8-2"}, eight).flat.separation, 1.7, 1e-5);
     const Case read = expect({"interface.law=table", table}, nine * 1.7 / 2.0);
@@ -247,6 +253,33 @@ TEST(WallShape, Keys) {
              "interface.table=" + scratch.write("up.txt", "1 -1\n2 -2\n3 -3\n4 -4\n5 -5\n6 -6\n"
                                                           "7 -7\n8 -8\n")},
             "no well and repulsion");
+}
+
+/// Without an attraction a law is its repulsion: the flat reference of each is that of the
+/// exponential law, and a block comes to the same state, bit for bit.
+TEST(WallShape, WithoutAttractionIsTheRepulsion) {
+    const auto of = [](const std::string& law) {
+        return read_case_text("[surface]\nsites = 16\nrms = 0.5\n[interface]\nkind = \"wall\"\n"
+                              "adhesion = 0\nrange = 3\n[drive]\npath = [\"relax\"]\nload = 100\n",
+                              "none.toml", {"interface.law=" + law});
+    };
+    const Case exponential = of("exponential");
+    for (const char* law : {"dugdale", "power"}) {
+        const Case c = of(law);
+        EXPECT_EQ(c.flat.stiffness, exponential.flat.stiffness) << law;
+        EXPECT_EQ(c.flat.work_of_adhesion, 0.0) << law;
+        EXPECT_EQ(c.flat.largest_tension, 0.0) << law;
+        EXPECT_EQ(c.tolerance, exponential.tolerance) << law;
+        const auto state = [](const Case& scene) {
+            test::PathCase solids(scene.simulation.block, surface_of(scene),
+                                  scene.simulation.interface);
+            return solids.relax(Constraint::load(scene.simulation.drive.load_force), 1e-6);
+        };
+        const RelaxedState one = state(c), other = state(exponential);
+        EXPECT_EQ(one.elastic_energy, other.elastic_energy) << law;
+        EXPECT_EQ(one.in_contact, other.in_contact) << law;
+        EXPECT_GT(one.in_contact, 0) << law;
+    }
 }
 
 /// A rough block comes to one state over each shape, whatever is held, without energy that appears.

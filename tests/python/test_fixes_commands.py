@@ -285,6 +285,9 @@ COMMANDS = [
 ]
 PYTHON = [
     ("give a length in Å or a load in MPa", lambda: error(lambda: setattr(statics(), "mean_height", float("nan"))), lambda: setattr(statics(), "mean_height", 5.0)),
+    ("or go there in parts", lambda: error(lambda: setattr(statics(), "top", 1e300)), lambda: setattr(statics(), "top", 5.0)),
+    ("go there in parts", lambda: error(lambda: setattr(statics(), "mean_height", -1e9)), lambda: setattr(statics(), "mean_height", 5.0)),
+    ("take a load below", lambda: error(lambda: setattr(statics(), "load", 1e9)), lambda: setattr(statics(), "load", 10.0)),
     (r"give the block branches \(block.prony\)", lambda: error(lambda: statics().hold(1.0)), lambda: soft().hold(1.0)),
     (r'take drive.path = (\[.*\]) in the scene', lambda: error(lambda: statics(block__prony=[[1.0, "1 ns"]]).hold(1.0)), lambda path: statics(block__prony=[[1.0, "1 ns"]], drive__path=json.loads(path), drive__mode="quasistatic").hold(1.0)),
     ("a time is above 0 ps(?s:.*)give one", lambda: error(lambda: soft().hold(-1.0)), lambda: soft().hold(1.0)),

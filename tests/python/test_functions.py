@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.running import program
 from conftest import ROOT, STATE, command, unfolded
 
 SPOKEN = (  # function, a message in the words of the command line, and in those of Python
@@ -60,10 +61,21 @@ def test_check_returns_the_scene_or_all_mistakes():
     found = asperity.check(SCENE, {"surface.spacing": 2.5})
     assert found.name == "state" and found.scene.surface.spacing == 2.5 and found.scene.block.young == 77.2
     assert 10.0 < found.longest_timestep < 200.0 and found.edge_pinning == 1.0  # fs
-    assert any("has no effect" in note for note in asperity.check(SCENE, {"interface.morse_a": 2.0}).notes)
+    assert any("has no effect" in note for note in asperity.check(SCENE, {"drive.velocity": 2.0}).notes)
+    with pytest.raises(asperity.SceneError, match="morse_a = 2 1/Å has no effect"):
+        asperity.check(SCENE, {"interface.morse_a": 2.0})
     with pytest.raises(asperity.SceneError, match="test_functions.py") as error:
         asperity.check(SCENE, {"block.poisson": 0.6, "surface.rms": -1.0})
     assert error.value.problems == 2
+
+
+def test_the_answer_to_a_refused_scene_has_its_problems(file):
+    # `check --json` answers with exit code 2 if the scene can be read and not run, and says nothing if it cannot be read.
+    found = program.check(file, ['drive.path=["approach"]', "drive.timestep=200"])
+    assert found["scene"]["drive"]["timestep"] == 200.0
+    assert [one["what"] for one in found["problems"]] and "stability limit" in found["problems"][0]["what"]
+    with pytest.raises(asperity.SceneError, match="block.poisson"):
+        program.check(file, ["block.poisson=0.6"])
 
 
 def test_plan_returns_what_the_command_says(file):

@@ -4,6 +4,7 @@
 cycle, and every place that shows one loss shows the others."""
 
 import json
+import math
 import shutil
 
 import matplotlib.pyplot as plt
@@ -141,3 +142,45 @@ def test_every_page_has_all_losses(rubber):
             value = run.number(f"{key}.{way}")
             assert (value is None) == ((key, way) == ("stored", "cycle"))
             assert value is None or f"{value:.2f}" in said, (key, way)
+
+
+@pytest.mark.parametrize("stiffness", ["none", 100.0])
+def test_a_spring_has_its_own_line_in_the_books_of_a_path_in_time(place, stiffness):
+    # The top plane, released by the jump out of contact, oscillates on the spring: its energy is no motion of the block.
+    run = asperity.run({"surface": {"sites": 12, "rms": 0.5}, "block": {"thickness": 12},
+                        "drive": {"velocity": 20.0, "timestep": 15.0, "stiffness": stiffness}, "output": {"series": 1}}, out="run")
+    found = json.loads((run.directory / "result.json").read_text())
+    lines, sprung = found["segments"], stiffness != "none"
+    left = [line["kinetic"] + line.get("spring", 0.0) for line in lines]
+    works = [line["work_of_drive"] - line["lost"] for line in lines]
+    state = found["binding_energy"]
+    assert works[0] == pytest.approx(left[0] - state, abs=1e-3 * state)
+    assert works[1] == pytest.approx(left[1] - left[0] + state, abs=1e-3 * state)
+    assert found["lost"]["cycle"] == pytest.approx(sum(line["work_of_drive"] for line in lines), abs=1e-3 * state)
+    assert [("spring" in line) for line in lines] == [sprung, sprung] and ("spring" in found) == sprung
+    if sprung:  # the last step is the end of the path
+        assert lines[1]["spring"] * (12 * 2.6) ** 2 / 1000 == pytest.approx(found["energy"]["spring"], rel=1e-9)
+
+
+@pytest.mark.parametrize("wide", [0.8, 3.0])
+def test_works_of_a_soft_box_are_said_to_be_its_own(place, wide):
+    # Nearly flat surfaces at a held mean height jump in boxes wider than pi E* rho^2 / w.
+    stiff, work, rho = 30e6 / (1 - 0.22**2), 37e-3, 1.5e-9
+    widest = math.pi * stiff * rho**2 / work
+    scene = {"surface": {"sites": 20, "spacing": f"{wide * widest / 20 * 1e9} nm", "rms": 0.05, "rolloff": 1, "q_max": 4},
+             "block": {"young": "30 MPa", "poisson": 0.22},
+             "interface": {"kind": "wall", "adhesion": "37 mJ/m^2", "range": "1.5 nm"},
+             "drive": {"mode": "quasistatic", "control": "mean-height", "displacement_step": "0.05 nm"}}
+    said = [note for note in asperity.check(scene).notes if "flat surfaces jump" in note]
+    run = asperity.run(scene, out="run")
+    told = " ".join(sentences.results(run))
+    assert bool(said) == ("those of a box" in told) == (run.number("box.softness") is not None) == (wide > 1)
+    loss = run.lost.cycle / run.delta_gamma
+    if wide < 1:
+        assert loss < 1e-4
+        return
+    assert run.number("box.softness") == pytest.approx(wide, rel=0.02)
+    assert run.number("box.flat_loss") / run.delta_gamma == pytest.approx(loss, abs=0.015)
+    assert f"wider than {widest * 1e10:.2g}"[:13] in said[0]
+    scene["drive"]["path"] = ["relax"]
+    assert not [note for note in asperity.check(scene).notes if "flat surfaces jump" in note]

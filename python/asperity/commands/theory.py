@@ -91,6 +91,7 @@ def _text(point: Values) -> str:
             f", {theta * (critical / rms) ** 2:.4f} at the critical rms" if critical is not None and rms else ""))
     if (force := point.number("theory.persson.jkr_pull_off_force")) is not None:
         lines.append(f"  JKR pull-off   {force:.6g} eV/Å with γ_eff, R = {point.number('scene.surface.radius'):.6g} Å")
+    lines.append(f"  area factor    {point.text('theory.persson.area_factor')}")
     lines.append(f"  status         {STATUS[named]}")
     if point.find("theory.persson.converged") is False:
         lines.append("                 NOT converged to 1e-3: see the errors in the table")

@@ -327,6 +327,10 @@ def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
         text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
     else:
         text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
+    if run.number("box.softness") is not None:
+        loss = run.number("box.flat_loss")
+        text += (" These works, and what is lost, are those of a box of this width, not of the surface: its longest waves jump, however "
+                 "smooth the surfaces are" + ("." if loss is None else f", and flat surfaces lose about {energy(loss)} in it."))
     inwards, outwards = (run.number("work_of_interface." + k) for k in ("approach", "pull_off"))
     if inwards is not None and outwards is not None and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
         text += (f" The interface’s force does the work {energy(inwards)} on the approach and {energy(outwards)} on the "

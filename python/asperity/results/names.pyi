@@ -18,6 +18,12 @@ class Failure(Values):
     reason: str
     """error message of the command"""
 
+class Box(Values):
+    softness: float
+    """largest decrease of a wall's attraction with the gap, divided by the stiffness of the longest wave of the ..."""
+    flat_loss: float
+    """meV/Å^2: estimate of the energy that flat surfaces lose in this box in a cycle at a prescribed mean height, with ..."""
+
 class WorkOfInterfaceUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of work_of_interface.approach"""
@@ -44,21 +50,6 @@ class WorkOfDrive(Values):
     """meV/Å^2: work of the drive on the solids during the pull-off, until they are at rest beyond the interaction range"""
     uncertainty: WorkOfDriveUncertainty
 
-class DissipatedInBlockUncertainty(Values):
-    approach: float
-    """meV/Å^2: convergence of dissipated_in_block.approach"""
-    pull_off: float
-    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
-
-class DissipatedInBlock(Values):
-    approach: float
-    """meV/Å^2: energy dissipated by a viscoelastic block, during the approach"""
-    pull_off: float
-    """meV/Å^2: energy dissipated by a viscoelastic block, during the pull-off, with the recovery of the solids after they ..."""
-    cycle: float
-    """meV/Å^2: energy dissipated by a viscoelastic block, in a whole cycle, from and to rest beyond the interaction range"""
-    uncertainty: DissipatedInBlockUncertainty
-
 class LostUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of lost.approach"""
@@ -67,11 +58,11 @@ class LostUncertainty(Values):
 
 class Lost(Values):
     approach: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, during the ..."""
+    """meV/Å^2: energy lost during the approach"""
     pull_off: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, during the ..."""
+    """meV/Å^2: energy lost during the pull-off"""
     cycle: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, in a whole ..."""
+    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off ..."""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
@@ -79,6 +70,27 @@ class Kinetic(Values):
     """meV/Å^2: kinetic and vibrational energy left at the end of the approach"""
     pull_off: float
     """meV/Å^2: kinetic and vibrational energy left at the end of the pull-off"""
+
+class Spring(Values):
+    approach: float
+    """meV/Å^2: energy of the spring that holds the top plane"""
+    pull_off: float
+    """meV/Å^2: energy of the spring that holds the top plane at the end of the pull-off"""
+
+class DissipatedInBlockUncertainty(Values):
+    approach: float
+    """meV/Å^2: convergence of dissipated_in_block.approach"""
+    pull_off: float
+    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
+
+class DissipatedInBlock(Values):
+    approach: float
+    """meV/Å^2: energy dissipated by a viscoelastic block"""
+    pull_off: float
+    """meV/Å^2: energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off"""
+    cycle: float
+    """meV/Å^2: energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"""
+    uncertainty: DissipatedInBlockUncertainty
 
 class Stored(Values):
     approach: float
@@ -127,18 +139,20 @@ class Segment(Values):
     """meV/Å^2: work of the drive on the solids, including work sideways"""
     work_of_interface: float
     """meV/Å^2: work of the interface, ∫ F dz of the mean height"""
-    dissipated_in_block: float
-    """meV/Å^2: energy dissipated by a viscoelastic block, in the segment"""
     lost: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, in the segment"""
+    """meV/Å^2: energy damped in the segment, or dissipated at instabilities"""
+    dissipated_in_block: float
+    """meV/Å^2: energy dissipated by a viscoelastic block in the segment, apart from lost"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
     """meV/Å^2: part of work_of_drive of a slide until steady"""
     kinetic: float
     """meV/Å^2: kinetic and vibrational energy left at the end of an approach or a pull-off of a dynamic path at T = 0, as ..."""
+    spring: float
+    """meV/Å^2: energy of the spring that holds the top plane at the end of an approach or a pull-off of a dynamic path at ..."""
     uncertainty: float
-    """meV/Å^2: convergence of work_of_drive and of the losses"""
+    """meV/Å^2: convergence of work_of_drive, lost and dissipated_in_block"""
     largest_attraction: float
     """eV/Å: largest attraction in the segment"""
     friction: float
@@ -246,6 +260,8 @@ class TheoryPersson(Values):
     """Å: rms height beyond which adhesion vanishes"""
     critical_rms_full_contact: float
     """Å: rms height beyond which adhesion vanishes for complete contact"""
+    area_factor: str
+    """definition of the area that adheres"""
     status: str
     """adhesive', 'pressed' or 'no contact"""
     converged: bool
@@ -330,25 +346,25 @@ class Relaxed(Values):
 
 class Energy(Values):
     balance_error: float
-    """energy balance at the last recorded step"""
-    interface: float
-    """eV: energy of the interface, of pairs or of the law of a wall"""
-    spring: float
-    """eV: part of the elastic energy in the spring that holds the top plane"""
-    branches: float
-    """eV: part of the elastic energy in the branches of a viscoelastic block"""
-    elastic: float
-    """eV: elastic energy"""
-    kinetic: float
-    """eV: kinetic energy"""
-    time_step: float
-    """eV: energy of the time step at a temperature, -"""
+    """energy balance"""
     work: float
     """eV: work of the drive on the solids, counted from rest apart"""
-    dissipated_in_block: float
-    """eV: energy dissipated by a viscoelastic block"""
+    kinetic: float
+    """eV: kinetic energy at the last recorded step"""
+    elastic: float
+    """eV: elastic energy at the last recorded step"""
+    interface: float
+    """eV: energy of the interface at the last recorded step"""
+    time_step: float
+    """eV: at a temperature"""
     damped: float
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy lost since the start"""
+    spring: float
+    """eV: part of energy.elastic in the spring that holds the top plane"""
+    branches: float
+    """eV: part of energy.elastic in the branches of a viscoelastic block"""
+    dissipated_in_block: float
+    """eV: energy dissipated by the branches of a viscoelastic block since the start, apart from energy.damped"""
 
 class Surface(Values):
     rms: float
@@ -438,6 +454,7 @@ class Numbers:
     failure: Failure
     delta_gamma: float
     """meV/Å^2: flat reference Δγ"""
+    box: Box
     binding_energy: float
     """meV/Å^2: -"""
     binding_energy_uncertainty: float
@@ -446,16 +463,13 @@ class Numbers:
     pair_binding_energy: float
     """meV/Å^2: -U_LJ of the relaxed state"""
     work_of_drive: WorkOfDrive
-    dissipated_in_block: DissipatedInBlock
     lost: Lost
     kinetic: Kinetic
+    spring: Spring
+    dissipated_in_block: DissipatedInBlock
     stored: Stored
     contact_fraction: float
     """sites in contact at zero load"""
-    contact_area: float
-    """area in contact with a wall at zero load"""
-    contact_area_uncertainty: float
-    """error of contact_area by the spacing"""
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
@@ -566,7 +580,7 @@ class SceneInterface(Values):
     frictionless: Any
     """no lateral tractions, and normal displacements only"""
     law: Any
-    """law of a wall"""
+    """law of a wall. With a linear repulsion below a gap of 0"""
     adhesion: Any
     """meV/Å^2: work of adhesion of flat surfaces, Δγ, for a wall that is not smeared"""
     adhesion_size: Any
@@ -580,7 +594,7 @@ class SceneInterface(Values):
     range: Any
     """Å: range of the laws except smeared and table"""
     exponent: Any
-    """exponent of law = 'power"""
+    """exponent of the energy of law = 'power"""
     stiffness: Any
     """GPa/Å: stiffness of the linear repulsion"""
     edge_pinning: Any
@@ -604,7 +618,7 @@ class SceneDrive(Values):
     timestep: Any
     """fs: time step of velocity Verlet"""
     damping: Any
-    """1/ps: rate Γ of the damping force -m Γ v, with v relative to the top plane"""
+    """1/ps: rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the top plane or the far end ..."""
     damping_from: Any
     """fraction of the thickness above which damping acts"""
     ramp: Any
@@ -626,7 +640,7 @@ class SceneTheory(Values):
     beta: Any
     """β, correction to the elastic energy of partial contact"""
     area_factor: Any
-    """relation of the true area to the slope"""
+    """area that adheres, over the projected area"""
     spectrum: Any
     """spectrum of the theory"""
     clip: Any
@@ -685,27 +699,27 @@ class SeriesArrays:
     lateral_force_y: np.ndarray
     """eV/Å: force of the substrate on the lowest layer along y"""
     interface_energy: np.ndarray
-    """eV: energy of the interface, of pairs or of the law of a wall"""
-    spring_energy: np.ndarray
-    """eV: part of the elastic energy in the spring that holds the top plane"""
+    """eV: energy of the interface"""
     branch_energy: np.ndarray
-    """eV: part of the elastic energy in the branches of a viscoelastic block"""
+    """eV: part of elastic_energy in the branches of a viscoelastic block"""
+    spring_energy: np.ndarray
+    """eV: part of elastic_energy in the spring that holds the top plane"""
     elastic_energy: np.ndarray
     """eV: elastic energy"""
     kinetic_energy: np.ndarray
     """eV: kinetic energy"""
     time_step_energy: np.ndarray
-    """eV: energy of the time step at a temperature, -"""
+    """eV: at a temperature"""
     work: np.ndarray
-    """eV: work of the drive on the solids, counted from rest apart"""
+    """eV: work of the drive on the solids, counted from rest apart, as energy.work"""
     work_of_interface: np.ndarray
     """eV: work of the interface's force on the mean height since the start, ∫ F dz"""
-    dissipated_in_block: np.ndarray
-    """eV: energy dissipated by a viscoelastic block, since the start"""
     damped: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, since the start"""
+    """eV: energy damped since the start, minus the heat of the thermostat's noise"""
     dissipated: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path, since the start"""
+    """eV: energy dissipated at instabilities since the start"""
+    dissipated_in_block: np.ndarray
+    """eV: energy dissipated by the branches of a viscoelastic block since the start"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray

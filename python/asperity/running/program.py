@@ -217,7 +217,7 @@ def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
     -------
     dict[str, Any]
         The resolved scene: name, scene, sweep, effects, notes, problems, longest_timestep (fs), edge_pinning (the factor by which a
-        coarse spacing increases the pull-off force of a sphere).
+        coarse spacing increases the pull-off force of a sphere), box_softness (if above 1, works of the path are those of the box).
 
     Raises
     ------

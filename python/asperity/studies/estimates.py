@@ -343,6 +343,10 @@ class Estimating(Study):
             self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
                              f"(a sphere's pull-off force is about {pinning:.3g} times too large): take a wider interface.range or a "
                              "smaller surface.spacing")
+        if varied.moves and self.answer.get("box_softness", 0.0) > 1.0 and not self.withheld:
+            widest = keys["surface"]["sites"] * keys["surface"]["spacing"] / self.answer["box_softness"]
+            self.withheld = (f"in boxes wider than {widest:.3g} Å flat surfaces jump, so that works and losses are those of the box, not of "
+                             "the surface (docs/howto/paths.md)")
         of_file = keys["surface"]["kind"] == "file"
         map_parts: tuple[Part, ...] = ()
         self.law_at: Callable[[float], missing_waves.Law | None] | None = None
