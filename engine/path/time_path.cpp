@@ -147,12 +147,12 @@ void TimePath::conclude() {
         end.flows[Term::work_of_interface] =
             simulation_.balance().interface; // to where it is bound so much
         end = at_rest_apart(end, bound, moving);
-        left = {energy - bound - moving - now.machine_energy, now.machine_energy};
+        left = EnergyLeft{energy - bound - moving - now[Term::spring], now[Term::spring]};
     } else if (segment.kind == Segment::approach && results_.zero_load &&
                case_.simulation.drive.load_force == 0.0) {
         const double state =
             -results_.zero_load->binding_energy * case_.area() / units::milli_per_unit;
-        left = {energy - state - now.machine_energy, now.machine_energy};
+        left = EnergyLeft{energy - state - now[Term::spring], now[Term::spring]};
     }
     end_.in_contact = now.in_contact; // counted a step later, where it is observed
     ledger_.conclude(concluded(), end_, end - segment_start_, left);
