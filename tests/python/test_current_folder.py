@@ -32,7 +32,7 @@ def hostile(tmp_path_factory):
 
 def words_of(command: str) -> list[str]:
     """Returns a command line with all arguments that the command needs; its files are missing but for that of `prony`."""
-    needed = [action for action in parsers()[command]._actions if action.required]
+    needed = [action for action in parsers()[command]._actions if action.required or action.dest == "map"]  # without its map `tip` would run
     words = [word for one in needed if one.option_strings for word in (one.option_strings[0], one.metavar)]
     return [command, *("rubber.csv" for one in needed if not one.option_strings), *words]
 
@@ -46,7 +46,7 @@ def test_a_command_imports_nothing_of_the_current_folder(command, hostile, tmp_p
                           env={**os.environ, "PYTHONPATH": "::/nowhere:", "READ": str(read)})
     assert not read.exists(), read.read_text()
     assert done.returncode in (0, 2, 4) and "Traceback" not in done.stderr, done.stderr
-    assert command not in ("prony", "scenes") or done.returncode == 0, done.stderr
+    assert "unrecognized" not in done.stderr and "is not given" not in done.stderr, done.stderr  # it went as far as to read its input
 
 
 def test_the_script_asks_for_modules_outside_of_the_current_folder(hostile, tmp_path):
