@@ -151,7 +151,7 @@ void FileRecord::claim(const std::vector<std::string>& names,
         std::optional<Names> earlier = before;
         for (const std::string& file : passing_)
             if (earlier) earlier->erase(file);
-        if (earlier && earlier->empty()) earlier.reset(); // this command has made the record
+        if (earlier && earlier->empty()) earlier.reset(); // no record but this command's own
         std::vector<Problem> problems;
         for (const std::string& file : names)
             if (const std::string why = reason_to_keep(file, earlier, inputs); !why.empty())
