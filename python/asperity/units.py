@@ -3,6 +3,7 @@
 """Units of the package. Results are in eV, Å, ps, GPa and meV/Å² (shared with engine/units.hpp)."""
 
 import re
+from collections.abc import Iterable
 
 ELECTRONVOLT = 1.602176634e-19
 """J"""
@@ -124,6 +125,13 @@ def in_angstrom(unit: str) -> float:
     if (found := conversion(unit, "Å")) is None:
         raise KeyError(unit)
     return found
+
+
+def size_text(edges: Iterable[float]) -> str:
+    """Returns the edges of a map, Å, in the unit that people give them in: "87.61 x 129.7 µm"."""
+    edges = list(edges)
+    one, unit = next((one, unit) for one, unit in ((1e10, "m"), (1e7, "mm"), (1e4, "µm"), (10.0, "nm"), (0.0, "Å")) if min(edges) >= one)
+    return " x ".join(f"{edge / (one or 1.0):.4g}" for edge in edges) + " " + unit
 
 
 def shown(unit: str) -> str:

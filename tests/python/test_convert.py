@@ -409,5 +409,5 @@ def test_no_size_is_made_up_for_a_map_that_does_not_tell_its_unit(tmp_path):
     """A scene would take the heights for nm and the width for Å."""
     (tmp_path / "m.csv").write_text("x,y,z\n" + "\n".join(f"{x},{y},{x * y % 7}" for x in range(20) for y in range(20)) + "\n")
     said = convert(tmp_path / "m.csv", tmp_path / "m.h5")
-    assert said.startswith("20 x 20 points, 20 x 20 of an unknown unit, heights in an unknown unit (set surface.file_unit)")
+    assert said.startswith(f"{tmp_path / 'm.h5'}: 20 x 20 points, 20 x 20 of an unknown unit, heights in an unknown unit (set surface.file_unit)")
     assert "refuses" not in said and " nm" not in said

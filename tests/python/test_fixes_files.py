@@ -5,6 +5,8 @@ the catalogue on files that a scene names, that `asperity convert` reads and of 
 
 import gzip
 import re
+import sys
+import types
 import zipfile
 from pathlib import Path
 
@@ -62,6 +64,24 @@ def hdf5(sets=None, **attributes):
 
 def npz(**arrays):
     return lambda file: np.savez(file, **arrays)
+
+
+def claimed(*shapes):
+    """Returns what writes an .npz whose headers claim arrays of these shapes; nothing of them is there."""
+    def write(file):
+        with zipfile.ZipFile(file, "w") as out:
+            for k, shape in enumerate(shapes):
+                with out.open(f"{k}.npy", "w") as member:
+                    np.lib.format.write_array_header_1_0(member, {"descr": "<f8", "fortran_order": False, "shape": shape})
+    return write
+
+
+def unwritten(shape):
+    """Returns what writes an HDF5 file with a data set of this shape, of which nothing is on the disk."""
+    def write(file):
+        with h5py.File(file, "w") as out:
+            out.create_dataset("heights", shape, "f8")
+    return write
 
 
 def archive(member):
@@ -235,6 +255,15 @@ OF_FILES = [
     ("is a text of an office program(?s:.*)export the heights as text", as_file, ("m.docx", archive("word/document.xml")), ("m.txt", text())),
     ("is a PDF document(?s:.*)or lines of x, y and z", as_file, ("m.pdf", b"%PDF-1.5\n"), ("m.txt", points())),
     ("is packed by gzip(?s:.*)unpack it", as_file, ("m.txt.gz", gzip.compress(text().encode())), ("m.txt", text())),
+    ("is force curves of JPK(?s:.*)export the height image", as_file, ("m.jpk-force", archive("segments/0/header.properties")), ("m.txt", text())),
+    ("is an archive of contact.engineering(?s:.*)unpack it", as_file, ("m.zip", archive("meta.yml")), ("m.txt", text())),
+    ("is a document of Digital Surf MountainsMap(?s:.*)or as text", as_file, ("m.mnt", b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"), ("m.txt", text())),
+    ("are the limit(?s:.*)save the map alone", as_file, ("m.npz", claimed((16384, 16384), (8, 8))), ("m.npz", npz(a=HEIGHTS))),
+    ("are the limit(?s:.*)cut out the part that is needed", as_map, ("m.h5", unwritten((1 << 15, 1 << 15))), ("m.h5", hdf5(**ANG))),
+    ("take it all the same: --channel (1)", as_file, ("m.txt", text(above="# Channel: Deflection\n" + GWYDDION)),
+     ("m.txt", text(above="# Channel: Deflection\n" + GWYDDION), "{0}")),
+    ("a curve, of force(?s:.*)export the scan of the heights, as a matrix of numbers", as_file,
+     ("m.txt", "".join(f"{0.1 * k} {np.exp(-k)} {0.5 * np.exp(-k)}\n" for k in range(1000)).replace("0.1 ", "0.13 ", 1)), ("m.txt", text())),
     ("is empty(?s:.*)export it again", as_file, ("m.txt", ""), ("m.txt", text())),
     ("is a damaged archive(?s:.*)copy or export it again", as_file, ("m.npz", b"PK\x03\x04 and no more"), ("m.npz", npz(a=HEIGHTS))),
     ("check the path", lambda name: read_heights(name), ("gone.txt",), None),
@@ -271,6 +300,7 @@ OF_FILES = [
     ("say how wide it is: --size", as_map, ("m.h5", hdf5(size_x=0.0, size_y=0.0, **ANG)), ("m.h5", hdf5(size_x=0.0, size_y=0.0, **ANG), {"size": 1000.0})),
     ("name the unit: --unit nm", as_map, ("m.txt", text(), {"unit": "parsec"}), ("m.txt", text(), {"unit": "nm"})),
     ('write the one that is meant: "(.*?)"', scene_of, ("m.npy", npy(ROUGH), {"work": 0.05, **SCAN}), ("m.npy", npy(ROUGH), {"work": "{0}", **SCAN})),
+    ("are too few(?s:.*)or leave it out", scene_of, ("m.npy", npy(ROUGH), {"sites": 3, **SCAN}), ("m.npy", npy(ROUGH), SCAN)),
     ("export the whole map", scene_of, ("m.npy", npy(ROUGH[:8, :8]), SCAN), ("m.npy", npy(ROUGH), SCAN)),
     ('--size "(.*)"', scene_of, ("m.npy", npy(ROUGH), {"unit": "Å"}), ("m.npy", npy(ROUGH), {"unit": "Å", "size": "{0}"})),
     ("export a part that was measured", scene_of, ("m.npy", npy(np.full((64, 64), np.nan)), SCAN), ("m.npy", npy(ROUGH), SCAN)),
@@ -305,6 +335,26 @@ def test_a_fix_of_a_file(says, read, bad, good):
 
     if good:
         done(read, tuple(map(put, good)))
+    followed(said)
+
+
+@pytest.mark.parametrize("name, content, says", [
+    ("m.nid", b"[DataSet]\nGr0-Name=Spec forward\n\0\xff", "a file of Nanosurf in which no map is found(?s:.*)export the scan of the heights"),
+    ("m.zip", archive("data.bin"), "an archive in which no map is found(?s:.*)it holds 1 files: data.bin(?s:.*)unpack it"),
+    ("m.dat", b"\x01\x02\x1b[31mred\0\0\0", r"in no format that a reader of maps knows\n    why: it begins with \.\.\.\[31mred(?s:.*)export the heights as text")])
+def test_a_file_that_no_reader_knows_is_one_line(name, content, says, monkeypatch):
+    class UnknownFileFormat(Exception):
+        pass
+
+    def open_topography(path):
+        raise UnknownFileFormat("No reader takes it:\n" + "\n".join(f"reader {k}: \x1b[31m" for k in range(60)))
+
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", types.SimpleNamespace(open_topography=open_topography))
+    with pytest.raises(asperity.Error) as error:
+        as_file(name, content)
+    said = str(error.value)
+    assert re.search(says, said) and len(said.splitlines()) == 3 and "\x1b" not in said, said
+    as_file("m.txt", text())
     followed(said)
 
 

@@ -4,6 +4,9 @@
 the file says, points without a height, and what may be wrong with a scan."""
 
 import re
+import sys
+import types
+from pathlib import Path
 
 import h5py
 import numpy as np
@@ -11,6 +14,7 @@ import pytest
 
 from asperity.errors import Error, InputOutputError
 from asperity.maps import height_map
+from asperity.maps.channels import Channel
 from asperity.maps.convert import convert, read_heights
 from asperity.running import program
 from conftest import command
@@ -72,7 +76,7 @@ def topostats(file):
 TWO = "# Channel: Height\n" + SIZES + "# Value units: nm\n" + rows(HEIGHT) + "# Channel: Phase\n" + SIZES + "# Value units: deg\n" + rows(PHASE)
 SEVERAL = {  # file: how it is written, its channels, the one that is taken if none is named (from 1)
     "headers.txt": (text(TWO), ["Height", "Phase"], 1),
-    "heights.txt": (text(TWO.replace("Value units: deg", "Value units: nm")), ["Height", "Phase"], None),
+    "heights.txt": (text(TWO.replace("Value units: deg", "Value units: nm")), ["Height", "Phase"], 1),
     "shared.txt": (text("# Channel: Height\n" + SIZES + "# Value units: nm\n" + rows(HEIGHT) + "\n# Channel: Phase\n# Value units: deg\n"
                         + rows(PHASE)), ["Height", "Phase"], 1),
     "german.txt": (text(re.sub(r"(\d)\.(\d)", r"\1,\2", TWO).replace("Channel", "Kanal").replace("Width", "Breite")
@@ -88,7 +92,7 @@ SEVERAL = {  # file: how it is written, its channels, the one that is taken if n
     "stack.h5": (hdf5(stack), ["frames[1]", "frames[2]"], None),
     "scan.h5-jpk": (hdf5(jpk), ["height_trace", "phase_trace"], 1),
     "scan.topostats": (hdf5(topostats), ["grain_masks/above", "image"], 2),
-    "two.npz": (lambda path: np.savez(path, z=HEIGHT, phase=PHASE), ["z", "phase"], None),
+    "two.npz": (lambda path: np.savez(path, z=HEIGHT, phase=PHASE), ["z", "phase"], 1),
     "stack.npy": (lambda path: np.save(path, np.stack([HEIGHT, PHASE])), ["map[1]", "map[2]"], None),
 }
 
@@ -126,6 +130,79 @@ def test_of_several_maps_one_is_taken_by_name(several, tmp_path):
     for wrong in ("Adhesion", "0", "3", "-1", ""):
         with pytest.raises(InputOutputError, match=f"has no channel '{wrong}'\n.*1 .*, 2 .*\n.*--channel 2"):
             convert(path, tmp_path / "no.h5", wrong)
+
+
+def gwyddion(*channels):
+    """A text of several maps, each with its unit: the map of number k is k everywhere but for its first height."""
+    return text("".join(f"# Channel: {name}\n{SIZES}# Value units: {unit}\n" + rows(numbered(k)) for k, (name, unit) in enumerate(channels)))
+
+
+def numbered(k):
+    return np.full((N, N), float(k)) + (np.indices((N, N)).sum(0) == 0)
+
+
+def datasets(*channels):
+    def fill(file):
+        for k, (name, unit) in enumerate(channels):
+            file[name] = numbered(k)
+            file[name].attrs.update({"size_x": EDGE, "size_y": EDGE, "size_unit": "nm"} | ({"unit": unit} if unit else {}))
+    return hdf5(fill)
+
+
+def instrument(*channels):
+    """A file that SurfaceTopography reads, here a double of it."""
+    def write(path):
+        path.write_bytes(b"GWYP\0\0" + repr(channels).encode())
+    return write
+
+
+def open_topography(path):
+    found = []
+    for k, (name, unit) in enumerate(eval(Path(path).read_bytes()[6:])):
+        found.append(types.SimpleNamespace(index=k, name=name, dim=2, unit=unit, physical_sizes=(EDGE, EDGE), heights=lambda k=k: numbered(k).T))
+    return types.SimpleNamespace(channels=found, topography=lambda channel_index: found[channel_index], default_channel=found[0])
+
+
+ASKED = None
+WHICH = [  # file, channels with their units, the one that is taken (from 0), or that must be asked for
+    (instrument, (("Deflection", "m"), ("Height", "m")), 1),
+    (instrument, (("Amplitude", "V"), ("Phase", "deg"), ("Topography", "m")), 2),
+    (instrument, (("Deflection", "m"), ("Z-Axis", "m"), ("Z-Axis Sensor", "m")), 1),
+    (instrument, (("DeflectionTrace", "m"), ("ZSensorRetrace", "m"), ("AmplitudeTrace", "m")), 1),
+    (instrument, (("Deflection", "m"), ("Deformation", "m")), ASKED),
+    (instrument, (("Deflection", "m"),), ASKED),
+    (instrument, (("PeakForce Error", "m"), ("Plane 1", "m")), 1),
+    (instrument, (("Plane 1", "m"), ("Plane 2", "m")), ASKED),
+    (gwyddion, (("Deflection", "nm"), ("Height", "nm")), 1),
+    (gwyddion, (("Höhe Rückwärts", "nm"), ("Auslenkung", "nm")), 0),
+    (gwyddion, (("Current", "nA"), ("Z", "nm"), ("Error", "nm")), 1),
+    (gwyddion, (("Lateral Force", "nm"), ("Adhesion", "nm")), ASKED),
+    (gwyddion, (("Deflection", "m"),), ASKED),
+    (datasets, (("deflection", "nm"), ("scan/measuredHeight_trace", "nm"), ("tip_sample_separation", "nm")), 1),
+    (datasets, (("amplitude", None), ("topography", None)), 1),
+    (datasets, (("a", "nm"), ("b", "nm")), ASKED),
+    (datasets, (("deflection", "nm"),), ASKED),
+    (datasets, (("Height Error", "nm"), ("Height", "V"), ("surface", "nm")), 2),
+]
+
+
+@pytest.mark.parametrize("case", WHICH, ids=range(len(WHICH)))
+def test_one_rule_says_which_map_is_the_height(case, tmp_path, monkeypatch):
+    """For all readers; a map that is called another quantity is never taken without being asked for, and can be asked for."""
+    monkeypatch.setitem(sys.modules, "SurfaceTopography", types.SimpleNamespace(open_topography=open_topography))
+    made, channels, taken = case
+    path = tmp_path / {instrument: "m.gwy", gwyddion: "m.txt", datasets: "m.h5"}[made]
+    made(*channels)(path)
+    order = sorted(range(len(channels)), key=lambda k: channels[k][0]) if made is datasets else range(len(channels))
+    try:
+        found = height_map.read_map(str(path), assumed="nm")
+        assert taken is not ASKED and found.heights[-1, -1] / (found.heights[0, 0] - found.heights[-1, -1]) == pytest.approx(taken)
+    except InputOutputError as error:
+        assert taken is ASKED and " --channel " in str(error), error
+        said = str(error).rpartition("--channel ")[2].split()[0]
+        assert height_map.read_map(str(path), channel=said, assumed="nm").heights.shape == (N, N)
+        others = [Channel(name, dict).is_other for name, _ in channels]
+        assert not others[order[int(said) - 1]] or all(others), error
 
 
 def found_unit(path):

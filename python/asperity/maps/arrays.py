@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
+import math
+import zipfile
 from pathlib import Path
 from typing import Any
 
 import h5py
 import numpy
 
-from .channels import Channel, frames, refuse, text_of
+from .channels import MOST_POINTS, Channel, frames, refuse, require_size, text_of
 
 MAGIC = {"HDF5": b"\x89HDF\r\n\x1a\n", ".npy": b"\x93NUMPY"}
 JPK_HEIGHTS = ("height", "measuredheight")
@@ -97,6 +99,27 @@ def of_hdf5(file: h5py.File) -> tuple[list[Channel], int | None, bool]:
     return channels, next((k for k, channel in enumerate(channels) if channel.name == first), None), first is not None
 
 
+def _headers(path: Path) -> list[tuple[int, ...]]:
+    """Returns the shapes that the headers of the arrays of .npy or .npz tell. Raises ValueError for a file without them."""
+    def shape(file: Any) -> tuple[int, ...]:
+        version = numpy.lib.format.read_magic(file)
+        read = numpy.lib.format.read_array_header_1_0 if version == (1, 0) else numpy.lib.format.read_array_header_2_0
+        return read(file)[0]
+
+    if not zipfile.is_zipfile(path):
+        with path.open("rb") as file:
+            return [shape(file)]
+    found = []
+    with zipfile.ZipFile(path) as archive:
+        for name in archive.namelist():
+            with archive.open(name) as file:
+                found.append(shape(file))
+    if sum(map(math.prod, found)) > MOST_POINTS:
+        raise refuse(path, "is too large", f"its {len(found)} arrays are {sum(map(math.prod, found))} numbers, and {MOST_POINTS} are the limit",
+                     "save the map alone")
+    return found
+
+
 def of_numpy(path: Path) -> tuple[list[Channel], bool]:
     """Returns the maps of a file of numpy.
 
@@ -110,6 +133,9 @@ def of_numpy(path: Path) -> tuple[list[Channel], bool]:
     tuple[list[Channel], bool]
         The maps, and True if the program reads the file itself.
     """
+    shapes = _headers(path)
+    for shape in shapes:
+        require_size(path, shape)
     found = numpy.load(path, allow_pickle=False)
     arrays = {name: found[name] for name in found.files} if hasattr(found, "files") else {"map": found}
     channels = []

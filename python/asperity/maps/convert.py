@@ -32,18 +32,23 @@ from ..errors import Error, to_install
 from ..files import store
 from ..running import program
 from ..running.scene import toml_of
-from ..units import in_angstrom, is_length
+from ..units import in_angstrom, is_length, size_text
 from . import arrays as map_arrays
 from .atoms import extended_xyz, folded, lammps
-from .channels import NO_HEIGHT, Channel, factor, refuse, select, text_of
+from .channels import NO_HEIGHT, Channel, factor, first_line, refuse, select, text_of
 from .text import of_text
 
 PICTURES = {"PNG": b"\x89PNG", "JPEG": b"\xff\xd8\xff", "GIF": b"GIF8", "BMP": b"BM"}
 """How files of colours begin. TIFF is one of the formats of instruments."""
-PACKED = {"a PDF document": b"%PDF", "packed by gzip": b"\x1f\x8b", "packed by xz": b"\xfd7zXZ", "a file of MS Office": b"\xd0\xcf\x11\xe0"}
+OLE = b"\xd0\xcf\x11\xe0"
+"""How files of Microsoft's compound format begin, which Office and some programs of instruments write."""
+PACKED = {"a PDF document": b"%PDF", "packed by gzip": b"\x1f\x8b", "packed by xz": b"\xfd7zXZ", "a file of MS Office": OLE}
 """How files begin in which no reader looks for heights."""
-OFFICE = {"a spreadsheet": ("xl/", "content.xml"), "a text of an office program": ("word/",)}
-"""What the archives of office programs hold."""
+AS_TEXT = "export the heights as text: a matrix of numbers, or lines of x, y and z"
+ARCHIVES = {"a spreadsheet": (("xl/", "content.xml"), AS_TEXT), "a text of an office program": (("word/",), AS_TEXT),
+            "force curves of JPK": (("segments/", "shared-header/", "data-image.force"), "export the height image of the scan (.jpk, .h5-jpk)"),
+            "an archive of contact.engineering": (("meta.yml",), "unpack it, and convert the file of one of its topographies")}
+"""What archives hold, by the names in them, and what to do."""
 
 
 def _refuse_other_files(path: Path, head: bytes) -> None:
@@ -55,24 +60,48 @@ def _refuse_other_files(path: Path, head: bytes) -> None:
     if not head:
         raise refuse(path, "is empty", "it has no bytes", "export it again")
     found = next((kind for kind, first in PACKED.items() if head.startswith(first)), None)
+    fix = AS_TEXT
     if head.startswith(b"PK"):
         if not zipfile.is_zipfile(path):
             raise refuse(path, "is a damaged archive", "it begins as a zip file and does not end as one", "copy or export it again")
-        names = zipfile.ZipFile(path).namelist()
-        found = next((kind for kind, parts in OFFICE.items() if any(name.startswith(parts) for name in names)), None)
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+        found = next((kind for kind, (parts, _) in ARCHIVES.items() if any(name.startswith(parts) for name in names)), None)
+        fix = ARCHIVES[found][1] if found else fix
+    if head.startswith(OLE) and path.suffix.lower() == ".mnt":
+        found, fix = "a document of Digital Surf MountainsMap", "save the surface in it as .sur (Digital Surf), or as text"
     if found:
-        raise refuse(path, f"is {found}, not a map of heights", "", "unpack it" if "packed" in found else
-                     "export the heights as text: a matrix of numbers, or lines of x, y and z")
+        raise refuse(path, f"is {found}, not a map of heights", "", "unpack it" if "packed" in found else fix)
 
 
-def _instrument(path: Path) -> tuple[list[Channel], int]:
-    """Returns the channels of an instrument's file, and the number of the reader's first choice."""
+def _unknown(path: Path, content: bytes, error: Exception) -> Error:
+    """Makes the error of a file that no reader of maps takes: what it is, in one line, and what to do."""
+    if content.startswith(b"[DataSet]"):
+        curves = b"spec" in content[:1 << 16].lower()
+        return refuse(path, "is a file of Nanosurf in which no map is found", "it holds spectroscopy" if curves else first_line(error),
+                      "export the scan of the heights" if curves else AS_TEXT)
+    if content.startswith(b"PK"):
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+        return refuse(path, "is an archive in which no map is found", f"it holds {len(names)} files: {', '.join(names[:3])}"
+                      + ", ..." * (len(names) > 3), "unpack it, and convert the file of the heights")
+    known = type(error).__name__ not in ("UnknownFileFormat", "CannotDetectFileFormat")
+    begins = "".join(c if c.isprintable() else "." for c in content[:24].decode("latin-1"))
+    return refuse(path, "cannot be read" if known else "is in no format that a reader of maps knows",
+                  first_line(error) if known else f"it begins with {begins}", AS_TEXT)
+
+
+def _instrument(path: Path, content: bytes) -> list[Channel]:
+    """Returns the channels of an instrument's file."""
     try:
         from SurfaceTopography import open_topography
     except ImportError as error:
         raise refuse(path, "is in no format that is read without SurfaceTopography", error,
                      to_install("SurfaceTopography") + "; or export it as text with a header") from None
-    reader = open_topography(str(path))
+    try:
+        reader = open_topography(str(path))
+    except Exception as error:  # its message may list all readers, with bytes of the file
+        raise _unknown(path, content, error) from None
 
     def load(number: int, name: str) -> dict[str, Any]:
         topography = reader.topography(channel_index=number)
@@ -85,8 +114,8 @@ def _instrument(path: Path) -> tuple[list[Channel], int]:
         heights: numpy.ndarray = numpy.ma.filled(numpy.ma.asarray(topography.heights(), dtype=float), numpy.nan).T
         return {"heights": heights, "unit": topography.unit, "size": topography.physical_sizes}
 
-    names = [str(channel.name) for channel in reader.channels]
-    return [Channel(name, partial(load, k, name)) for k, name in enumerate(names)], reader.default_channel.index
+    named = [(str(channel.name), channel.unit if isinstance(channel.unit, str) else None) for channel in reader.channels]
+    return [Channel(name, partial(load, k, name), unit) for k, (name, unit) in enumerate(named)]
 
 
 def _text_in(raw: bytes) -> str:
@@ -114,7 +143,8 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
             elif known or (head.startswith(b"PK") and all(n.endswith(".npy") for n in zipfile.ZipFile(path).namelist())):
                 channels, own = map_arrays.of_numpy(path)
             else:
-                content, own = _text_in(path.read_bytes()), False
+                raw = path.read_bytes()
+                content, own = _text_in(raw), False
                 if path.suffix.lower() == ".toml":
                     raise refuse(path, "is a scene, not a map of heights", "its name ends in .toml",
                                  "name the map that the scene names: surface.file")
@@ -122,9 +152,7 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
                     return folded(path, lammps(path, content))
                 if path.suffix.lower() in (".xyz", ".extxyz") and re.match(r"\s*\d+\s*\n", content):
                     return folded(path, extended_xyz(path))
-                channels = of_text(path, content)
-                if not channels:
-                    channels, default = _instrument(path)
+                channels = of_text(path, content) or _instrument(path, raw)
             if own and channel is None and not as_it_is:
                 raise refuse(path, "needs no conversion", f"the program reads {known}", "name it in the scene")
             found = select(path, channels, channel, default, unit)
@@ -134,7 +162,7 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
     except FileNotFoundError:
         raise refuse(source, "cannot be read", "there is no such file", "check the path") from None
     except Exception as error:  # every library has its own
-        raise refuse(source, "cannot be read", f"{type(error).__name__}: {error}") from None
+        raise refuse(source, "cannot be read", first_line(error)) from None
 
 
 def read_heights(source: str, channel: str | None = None, unit: str | None = None) -> dict[str, Any]:
@@ -249,15 +277,17 @@ def convert(source: str | Path, target: str | Path, channel: str | None = None) 
                 size = _size(source, found)
                 attributes.update(dict(zip(("size_x", "size_y"), size)))
                 unit = found.get("unit") or "an unknown unit (set surface.file_unit)"
-                said = " x ".join(f"{s:g}" for s in size) + " " + (found.get("size_unit") or found.get("unit") or "of an unknown unit")
-                text = (f"{heights.shape[1]} x {heights.shape[0]} points, "
+                across = found.get("size_unit") or found.get("unit")
+                said = size_text(s * in_angstrom(str(across)) for s in size) if size and is_length(across) else \
+                    " x ".join(f"{s:.4g}" for s in size) + (f" {across}" if across else " of an unknown unit")
+                text = (f"{target}: {heights.shape[1]} x {heights.shape[0]} points, "
                         f"{said if size else 'of unknown size (set surface.file_size)'}, heights in {unit}; points without "
                         f"a height: {int(numpy.isnan(heights).sum())}")
             else:
                 for name, kind in (("position", "f8"), ("box", "f8"), ("type", "i4")):
                     file[name] = numpy.array(found[name], kind)
                     file[name].attrs.update({"names": " ".join(found["names"])} if name == "type" else {"unit": "Å"})
-                text = (f"{len(found['position'])} atoms of type {', '.join(found['names'][:20])}, in a box of "
+                text = (f"{target}: {len(found['position'])} atoms of type {', '.join(found['names'][:20])}, in a box of "
                         f"{found['box'][0]:.8g} x {found['box'][1]:.8g} Å; {found['outside']} coordinates of atoms lay "
                         "outside of the box and were folded back")
         store.seal_hdf5(beside)

@@ -138,14 +138,14 @@ def _column(cell: str, below: str) -> _Column:
     logarithm = re.match(r"\s*(log|lg)(10)?\b[\s_(]*", name, re.I)
     name = name[logarithm.end():] if logarithm else name
     low = name.lower().strip(" ()_:")
-    letter = re.search(r"(?<![a-z])([eg])'", low)
+    letter = re.search(r"(?<![a-z])([eg])('|_?stor|_?loss)", low)
     kind = letter[1].upper() if letter else "G" if "shear" in low else "E" if re.search(r"young|tensile", low) else ""
-    frequency = re.search(r"freq|omega|ω|^[fw](_?red)?$", low)
+    frequency = re.search(r"freq|omega|ω|^[fw](_?(red|set))?$", low)
     if "tan" in low:
         role = "tan"
     elif re.search(r"''|loss|verlust", low):
         role = "loss"
-    elif re.search(r"'|storage|speicher", low):
+    elif re.search(r"'|storage|speicher|^[eg]_?stor$", low):
         role = "storage"
     elif frequency and re.search(r"red|shifted|a_?t\b", low):
         role = "reduced"
@@ -166,7 +166,8 @@ def _named(columns: list[_Column]) -> bool:
 
 
 def _header(lines: list[str], first: int, separator: str | None) -> list[_Column]:
-    """Returns the columns that the lines before the first row name; none if they do not."""
+    """Returns the columns that the lines before the first row name; none if they do not. Files of RepTate begin with a line of
+    parameters, and their columns are ω (rad/s), G' (Pa) and G'' (Pa) unless a line names them."""
     cells = []
     for line in lines[:first]:
         text = line.strip()
@@ -179,6 +180,8 @@ def _header(lines: list[str], first: int, separator: str | None) -> list[_Column
         found = [_column(cell, below[i] if of_units and i < len(below) else "") for i, cell in enumerate(cells[k])]
         if _named(found):
             return found
+    if first and re.fullmatch(r"\s*(\w+=[^;=]*;)+\s*", lines[0]):
+        return [_Column("angular", "", False, "rad/s", "ω"), _Column("storage", "G", False, "Pa", "G'"), _Column("loss", "G", False, "Pa", "G''")]
     return []
 
 

@@ -24,6 +24,8 @@ OF_ALL = ("width", "height", "edge", "x-length", "y-length", "x-unit", "y-unit",
 """Headers of the first map that hold for later ones which do not have them."""
 MOST_COLUMNS = 10
 """Of points without names: x, y and what was measured there."""
+NARROWEST = 20
+"""Rows over columns, from which a matrix of few columns is a curve."""
 
 
 class Text:
@@ -102,13 +104,13 @@ class Text:
     def translate(self) -> str | None:
         """Returns the title and gives the headers their English names. Gwyddion writes them in the language of its user,
         always in this order: title, width, height, unit of the heights."""
-        if {"width", "height", "value units"} & self.header.keys():
+        if {"width", "height", "value units"} <= self.header.keys():
             return self.header.get("channel")
         said = list(self.header.items())
         for k, ((_, width), (_, height), (_, unit)) in enumerate(zip(said, said[1:], said[2:])):
             sizes = [re.fullmatch(SIZE, text) for text in (width, height)]
             if re.fullmatch(r"[^\s\d]\S{0,7}", unit) and all(size and is_length(size[2]) for size in sizes):
-                self.header |= {"width": width, "height": height, "value units": unit}
+                self.header = {"width": width, "height": height, "value units": unit} | self.header
                 return said[k - 1][1] if k else None
         return self.header.get("channel")
 
@@ -297,8 +299,11 @@ def _matrix_or_points(text: Text) -> list[Channel]:
                     return _points(text, (0, 1, k), columns) | {"unit": unit, "notes": notes}
 
                 return [Channel(f"column {k + 1}", partial(column, k), unit) for k in range(2, columns)]
-        if columns == 3:
-            notes.append("its three columns are rows of a map: as points x, y and height they are on no grid")
+    if columns <= MOST_COLUMNS and rows > NARROWEST * columns:
+        raise refuse(text.path, "is no map of heights", f"it is {rows} lines of {columns} numbers, which lie on no grid as points x, y and height: "
+                     "a curve, of force over distance for example", "export the scan of the heights, as a matrix of numbers")
+    if columns == 3:
+        notes.append("its three columns are rows of a map: as points x, y and height they are on no grid")
     return [Channel(text.header.get("channel") or "map", lambda: found, unit)]
 
 

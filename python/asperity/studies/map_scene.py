@@ -233,6 +233,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = read_square(file, unit, keys.number("surface.file_size"), channel)
     points = len(heights)
+    if sites is not None and sites < height_map.FEWEST:
+        raise SceneError(f"sites = {sites}", "are too few", "", f"take {height_map.FEWEST} or more, or leave it out")
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
     most = min(points, sites or SITES, int(math.sqrt(memory / (2 * 4 * SITE_BYTES))))
     n = _smooth_below(max(most, height_map.FEWEST))
