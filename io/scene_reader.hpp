@@ -134,8 +134,8 @@ public:
         /// default is refused if the need is not met. `refused` follows the value in the message:
         /// "on a dynamic path".
         std::string refused{}, why{}, fix{};
-        /// What makes a key act that is only without effect, "take surface.kind = \"file\"", and
-        /// the keys that decide it. Empty: such a key is noted in place of refused.
+        /// Remedy for a key that is only without effect, "take surface.kind = \"file\"", and the
+        /// keys on which the need depends. Empty: such a key is noted in place of refused.
         std::string instead{};
         std::vector<std::string> deciding{};
     };

@@ -58,17 +58,7 @@ const std::vector<std::pair<std::string, std::string>>& scenes() {
         {"state of a lattice over a wall", solid + "model = \"lattice\"\n[output]\nfields = []\n" +
                                                wall + "[drive]\npath = [\"relax\"]\n"},
         {"path over a wall", small + wall + "law = \"power\"\n" + still},
-        {"state over atoms", small + "[drive]\npath = [\"relax\"]\n"},
-        {"path over atoms", small + still + "stiffness = 50\n"},
-        {"path in time", small + "[drive]\nmax_steps = 30\nstiffness = 50\n"},
-        {"path of rubber", solid + "prony = [[1.0, \"1 ns\"]]\n[output]\nfields = []\n" + wall +
-                               still +
-                               "path = [\"approach\"]\nvelocity = 0.1\n"
-                               "control = \"mean-height\"\n"},
-        {"path of a sphere", "[surface]\nkind = \"flat\"\nsites = 16\nradius = 400\n"
-                             "boundary = \"free\"\nspacing = 6\n[block]\nyoung = 20\n"
-                             "poisson = 0.3\n[output]\nfields = []\n" +
-                                 wall + still}};
+        {"path over atoms", small + still + "stiffness = 50\n"}};
     return all;
 }
 
