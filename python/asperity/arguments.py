@@ -9,11 +9,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import difflib
 import functools
 import inspect
+import numbers
+import os
+import types
 from collections.abc import Callable, Mapping
-from typing import Any, TypeVar, cast
+from pathlib import Path
+from typing import Any, TypeVar, Union, cast, get_args, get_origin
 
 from .errors import SceneError, WrongCall
 
@@ -81,8 +86,59 @@ def _wrong_call(signature: inspect.Signature, where: str, given: tuple[Any, ...]
                      names, "")
 
 
+NAMED = {int: "a whole number", float: "a number", bool: "True or False", str: "a text", type(None): "None"}
+"""How messages call the kinds of values."""
+
+
+def _is_of(value: Any, kind: Any) -> bool:
+    """Returns True if a value is of an annotated kind, or if that cannot be told. A quantity that is a text may be a number: functions
+    say more on a number without a unit."""
+    if get_origin(kind) in (Union, types.UnionType):
+        is_path = {Path, os.PathLike} & {*get_args(kind)} and isinstance(value, numbers.Real)
+        return any(_is_of(value, one) for one in get_args(kind) if not (one is str and is_path))
+    kind = get_origin(kind) or kind
+    if kind is Any:
+        return True
+    numbers_of = {int: numbers.Integral, float: numbers.Real, str: (str, numbers.Real)}
+    if kind in numbers_of:
+        return isinstance(value, numbers_of[kind]) and not isinstance(value, bool)
+    if kind is bool:
+        return isinstance(value, bool) or type(value).__name__ == "bool_"
+    return not isinstance(kind, type) or isinstance(value, kind)
+
+
+def _called(kind: Any) -> list[str]:
+    """Returns the words for an annotated kind."""
+    if get_origin(kind) in (Union, types.UnionType):
+        return [word for one in get_args(kind) for word in _called(one)]
+    kind = get_origin(kind) or kind
+    return [NAMED.get(kind, getattr(kind, "__name__", str(kind)))]
+
+
+@functools.cache
+def _kinds(function: Callable[..., Any]) -> dict[str, Any]:
+    """Returns the annotated kinds of a function's arguments; those that stand for type checkers alone are left out."""
+    found = {}
+    for name, written in getattr(function, "__annotations__", {}).items():
+        with contextlib.suppress(Exception):  # names of `if TYPE_CHECKING`
+            found[name] = eval(written, function.__globals__) if isinstance(written, str) else written
+    return found
+
+
+def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundArguments) -> WrongCall | None:
+    """Returns the error of an argument that is not of the kind that the function takes."""
+    for name, value in bound.arguments.items():
+        kind, one = _kinds(function).get(name, Any), bound.signature.parameters[name]
+        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) or _is_of(value, kind) or value is one.default:
+            continue
+        words = [word for word in dict.fromkeys(_called(kind)) if word != "None"]
+        return WrongCall(where, f"{name} is {value!r:.60}", f"it is of type {type(value).__name__}", f"give {' or '.join(words)}")
+    return None
+
+
 def checks_call(function: F) -> F:
-    """Makes a function of the package raise WrongCall, with the names of its arguments, if it is called with others.
+    """Makes a function of the package raise WrongCall, with the names of its arguments, if it is called with others, or with a value
+    of another kind than the one annotated.
 
     Parameters
     ----------
@@ -99,11 +155,13 @@ def checks_call(function: F) -> F:
 
     @functools.wraps(function)
     def checked(*given: Any, **named: Any) -> Any:
+        where = function.__qualname__.removesuffix(".__init__").rpartition("<locals>.")[2] + "()"
         try:
-            signature.bind(*given, **named)
+            bound = signature.bind(*given, **named)
         except TypeError:
-            where = function.__qualname__.removesuffix(".__init__")
-            raise _wrong_call(signature, where.rpartition("<locals>.")[2] + "()", given, named, first) from None
+            raise _wrong_call(signature, where, given, named, first) from None
+        if wrong := _wrong_kind(function, where, bound):
+            raise wrong
         return function(*given, **named)
 
     return cast("F", checked)

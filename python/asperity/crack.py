@@ -13,11 +13,13 @@ prony: pairs (r, τ), as block.prony. Numbers are in the package's units (ps, m/
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from .arguments import checks_call
+from .errors import SceneError, WrongValue
 from .running.engine import quantity
 from .theories import viscoelastic
 from .units import ANGSTROM_PER_PS
@@ -27,8 +29,14 @@ Prony = Sequence[tuple[float, "float | str"]]
 
 
 def _branches(prony: Prony) -> list[tuple[float, float]]:
-    """Returns ratios and times, ps."""
-    return [(ratio, quantity("prony", time, "ps")) for ratio, time in prony]
+    """Returns ratios and times, ps. Raises SceneError for anything but pairs."""
+    found = []
+    for pair in prony:
+        if not isinstance(pair, (Sequence, np.ndarray)) or isinstance(pair, (str, bytes)) or len(pair) != 2 or not isinstance(pair[0], Real):
+            raise SceneError("prony", f"has the branch {pair!r:.60}", "a branch is a modulus over the relaxed one, and a relaxation time",
+                             'for example [(2.0, "1 ns")]')
+        found.append((float(pair[0]), quantity("prony", pair[1], "ps")))
+    return found
 
 
 def _numbers(where: str, given: Any, unit: str) -> np.ndarray:
@@ -80,14 +88,17 @@ def opening_factor(prony: Prony, velocity: Iterable[float | str] | float | str, 
 
     Raises
     ------
-    ValueError
-        If there is no branch, or a ratio, time or the radius is not positive.
+    WrongValue
+        If there is no branch, or a ratio, time, the radius or a velocity is not positive.
     """
     prony, tip_radius = _branches(prony), quantity("tip_radius", tip_radius, "Å")
     way = _numbers("velocity", velocity, "m/s") * ANGSTROM_PER_PS
     times = [tau for _, tau in prony]
     if not times or min(times) <= 0 or min(r for r, _ in prony) <= 0 or not tip_radius > 0:
-        raise ValueError("a crack in a viscoelastic solid has branches (ratio, time) and a tip_radius, all above 0")
+        raise WrongValue("opening_factor()", "is given branches or a tip_radius that are not above 0", "a crack in a viscoelastic solid has "
+                         "branches (ratio, time) and a tip", 'for example [(2.0, "1 ns")] and tip_radius="10 nm"')
+    if not (way > 0).all():
+        raise WrongValue("opening_factor()", f"is given the velocity {way.min():g} Å/ps", "a crack that opens moves", 'for example "1 m/s"')
     stiffest = 1 + sum(r for r, _ in prony)
     cut = np.geomspace(1e-6 / max(times) / stiffest, 1e8 / min(times), 1500)  # ω_c
     s = np.linspace(-35, 0, 3501)  # ln ω/ω_c

@@ -141,6 +141,10 @@ class WrongCall(SceneError, TypeError):
     Python expects of calls."""
 
 
+class WrongValue(SceneError, ValueError):
+    """Error of an argument whose value has no meaning. It is a ValueError too, as Python expects of values."""
+
+
 class Named:
     """Base class of results whose wrong attributes raise UnknownName with the existing names."""
 

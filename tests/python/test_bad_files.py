@@ -35,7 +35,6 @@ OBJECTS = {
     "pipe": os.mkfifo,
     "folder": lambda path: path.mkdir(),
     "device": lambda path: path.symlink_to("/dev/zero"),
-    "empty file": write(""),
     "other text": write("host foo\n  HostName bar\n"),
 }
 RECORDS = {
@@ -64,9 +63,9 @@ def made(inputs, tmp_path_factory):
 
 READERS = {
     "stopped": [["run", "again.toml", "--out", "stopped", "--resume", "auto"], ["run", "again.toml", "--out", "stopped", "--restart"],
-                ["report", "stopped"], ["hold", "stopped"]],
+                ["hold", "stopped"]],
     "ended": [["run", "q.toml", "--out", "ended"], ["report", "ended"], ["export", "ended", "--to", "xyz"]],
-    "sweep": [["report", "sweep"], ["sweep", "q.toml", "--set", "surface.rms=0.5,0.6", "--out", "sweep"]],
+    "sweep": [["report", "sweep"]],
     "states": [["states", "q.toml", "--starts", "1", "--out", "states"]],
 }
 """Commands that read the files of a directory."""

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 
 import asperity
+import asperity.crack
 import asperity.terminal
 import test_fixes_files
 import test_fixes_rubber
@@ -440,6 +441,33 @@ def test_a_number_of_a_tip():
     with pytest.raises(asperity.SceneError, match="is none of a tip") as error:
         found.number("losses")
     assert found.number("lost").value == 1.0
+    followed(str(error.value))
+
+
+@pytest.mark.parametrize("name, make, says", [
+    ("run.lock", os.mkfifo, "is no regular file\n    why: it is a pipe\n    fix: move it away, or name another file"),
+    (store.RECORD, lambda name: (Path(name).touch(), os.truncate(name, 1 << 29)), "bytes, and 268435456 are the limit\n    fix: move it away")])
+def test_an_object_in_the_way_is_moved_away(name, make, says):
+    Path("t.toml").write_text(STILL)
+    os.mkdir("o")
+    make(f"o/{name}")
+    said = bad("run", "t.toml", "--out", "o", code=4)
+    assert says in said, said
+    os.rename(f"o/{name}", "mine")
+    good("run", "t.toml", "--out", "o")
+    followed(said)
+
+
+@pytest.mark.parametrize("wrong, right", [
+    (lambda: asperity.states("t.toml", starts=-1), lambda: asperity.states("t.toml", starts=0)),
+    (lambda: asperity.Simulation("d.toml", comm=3), lambda: asperity.Simulation("d.toml")),
+    (lambda: asperity.crack.modulus([2.0], 1.0), lambda: asperity.crack.modulus([(2.0, "1 ns")], 1.0))], ids=["starts", "comm", "branches"])
+def test_a_fix_of_an_argument(wrong, right):
+    Path("t.toml").write_text(STILL)
+    Path("d.toml").write_text(TINY)
+    with pytest.raises(asperity.SceneError) as error:
+        wrong()
+    right()
     followed(str(error.value))
 
 

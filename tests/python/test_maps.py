@@ -12,6 +12,7 @@ import h5py
 import numpy as np
 import pytest
 
+import asperity
 from asperity.errors import Error, InputOutputError
 from asperity.maps import height_map
 from asperity.maps.channels import Channel
@@ -381,3 +382,13 @@ def test_nonsense_ends_in_a_map_or_a_sentence(tmp_path):
                 assert str(error).count("\n") >= 1, error
                 kinds.add("refused")
     assert kinds == {2, "refused"}
+
+
+def test_a_map_with_holes_is_scaled_to_an_rms(place):
+    heights = np.round(10 * HEIGHT, 3)
+    heights[:3, :2] = np.nan
+    np.save("m.npy", heights)
+    scene = {"surface": {"kind": "file", "file": "m.npy", "file_missing": "hole", "sites": N, "file_unit": "Å"}, "interface": {"kind": "wall"},
+             "drive": {"mode": "quasistatic"}}
+    found = asperity.surface(scene, {"surface.rms": 2.5, "surface.detrend": "none"})
+    assert np.isnan(found.heights).sum() == 6 and np.nanstd(found.heights) == pytest.approx(2.5, rel=1e-9)

@@ -177,9 +177,12 @@ def _bar(steps: int) -> Iterator[Callable[[Simulation, int], None]]:
 
 
 def _number(comm: Any) -> int | None:
-    """Returns the number of mpi4py's communicator for the engine. Raises SceneError if its MPI is not that of the engine."""
+    """Returns the number of mpi4py's communicator for the engine. Raises SceneError for another object, or if its MPI is not that of
+    the engine."""
     if comm is None:
         return None
+    if not (hasattr(comm, "py2f") and hasattr(comm, "size")):
+        raise SceneError("comm", f"is {comm!r:.60}", "it is no communicator of mpi4py", "give one, MPI.COMM_WORLD for example, or leave it out")
     from mpi4py import MPI
 
     theirs, ours = MPI.Get_library_version().splitlines()[0], program.mpi()

@@ -327,6 +327,8 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
         The scene is refused, or the directory holds a result or the search of another scene.
     """
     program.refuse_ranks()
+    if starts < 0:
+        raise SceneError(f"starts = {starts}", "is no number of starts", "", "take 0 or more")
     place = None if out is None else store.chosen(os.fspath(out), "")
     written: store.Outputs | None = None
     with contextlib.ExitStack() as stack:
