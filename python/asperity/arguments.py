@@ -168,45 +168,44 @@ NAMED = {int: "a whole number", float: "a number", bool: "True or False", str: "
 
 
 def _is_of(value: Any, kind: Any) -> bool:
-    """Returns True if a value is of an annotated kind, or if that cannot be told. A quantity that is a text may be a number: functions
+    """Returns True if a value is of an annotated kind, which is plain. A quantity that is a text may be a number: functions
     say more on a number without a unit."""
     if get_origin(kind) in (Union, types.UnionType):
         is_path = {Path, os.PathLike} & {*get_args(kind)} and isinstance(value, numbers.Real)
         return any(_is_of(value, one) for one in get_args(kind) if not (one is str and is_path))
-    kind = get_origin(kind) or kind
-    if kind is Any:
-        return True
     numbers_of = {int: numbers.Integral, float: numbers.Real, str: (str, numbers.Real)}
     if kind in numbers_of:
         return isinstance(value, numbers_of[kind]) and not isinstance(value, bool)
     if kind is bool:
         return isinstance(value, bool) or type(value).__name__ == "bool_"
-    return not isinstance(kind, type) or isinstance(value, kind)
+    return isinstance(value, kind)
 
 
 def _called(kind: Any) -> list[str]:
     """Returns the words for an annotated kind."""
     if get_origin(kind) in (Union, types.UnionType):
         return [word for one in get_args(kind) for word in _called(one)]
-    kind = get_origin(kind) or kind
-    return [NAMED.get(kind, getattr(kind, "__name__", str(kind)))]
+    return [NAMED.get(kind, kind.__name__)]
 
 
 @functools.cache
 def _kinds(function: Callable[..., Any]) -> dict[str, Any]:
-    """Returns the annotated kinds of a function's arguments; those that stand for type checkers alone are left out."""
+    """Returns the annotated kinds of a function's arguments that are plain: numbers, texts, paths. Of others, scenes and executors for
+    example, the functions themselves say what is needed."""
     found = {}
     for name, written in getattr(function, "__annotations__", {}).items():
         with contextlib.suppress(Exception):  # names of `if TYPE_CHECKING`
-            found[name] = eval(written, function.__globals__) if isinstance(written, str) else written
+            kind = eval(written, function.__globals__) if isinstance(written, str) else written
+            if {*(get_args(kind) or [kind])} <= {*NAMED, Path, os.PathLike}:
+                found[name] = kind
     return found
 
 
 def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundArguments) -> WrongCall | None:
     """Returns the error of an argument that is not of the kind that the function takes."""
     for name, value in bound.arguments.items():
-        kind, one = _kinds(function).get(name, Any), bound.signature.parameters[name]
-        if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) or _is_of(value, kind) or value is one.default:
+        kind, one = _kinds(function).get(name), bound.signature.parameters[name]
+        if kind is None or one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) or value is one.default or _is_of(value, kind):
             continue
         words = [word for word in dict.fromkeys(_called(kind)) if word != "None"]
         return WrongCall(where, f"{name} is {value!r:.60}", f"it is of type {type(value).__name__}", f"give {' or '.join(words)}")

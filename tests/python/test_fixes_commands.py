@@ -234,7 +234,7 @@ COMMANDS = [
     ("write the unit behind the number: (3nm)", lambda: bad("theory", "t.toml", "--set", "surface.rms=3", "nm"), lambda value: good("theory", "t.toml", "--set", f"surface.rms={value}")),
     ("name the map that the scene names", lambda: bad("convert", "t.toml", "x.h5"), None),
     ("asperity (adhesion) (--help)", lambda: bad("adhesion", "map.npy", "--E", "1GPa", "--nu", "x"), lambda *words: good(*words)),
-    ("leave it out for 8", lambda: error(lambda: asperity.estimate("t.toml", seeds="many")), None),
+    ("leave it out for 8", lambda: error(lambda: asperity.estimate("t.toml", seeds=1)), None),
     ("give a file, \"scene.toml\", or a dictionary: (.*)", lambda: error(lambda: asperity.check(None)), lambda scene: asperity.check(eval(scene))),
     ("name a directory that asperity estimate", lambda: error(lambda: asperity.load_estimate("done")), None),
     ("two files to write(?s:.*)leave one out", lambda: (np.savetxt("m.txt", np.eye(4)), bad("convert", "m.txt", "a.h5", "-o", "b.h5"))[1], lambda: good("convert", "m.txt", "-o", "b.h5")),
