@@ -67,8 +67,7 @@ private:
     void record_slide();
     SlideAverage::Lengths lengths() const {
         const SurfaceOptions& map = case_.surface;
-        const bool known = case_.simulation.block.continuum &&
-                           case_.scene.surface.kind == SurfaceKind::self_affine;
+        const bool known = case_.simulation.block.continuum && map.kind == SurfaceKind::self_affine;
         return {correlation_length(surface_), block_.options().spacing,
                 known ? map.length / std::min(map.cutoff, 0.5 * map.sites) : 0.0};
     }
