@@ -87,8 +87,8 @@ Option out(const std::string& otherwise);
 
 /// Replaces this process by Python if argv names a command of the Python package (python/asperity),
 /// which finds this program through $ASPERITY_PROGRAM. Python does not look for modules in the
-/// current folder. Returns nothing if argv names another command. If Python or the package was not found, prints the reason and returns the
-/// exit code. Must be called before MPI is initialised.
+/// current folder. Returns nothing if argv names another command. If Python or the package was not
+/// found, prints the reason and returns the exit code. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
 /// Returns true for calls by programs, with --json, --progress json, `theory-points` or `hold`,

@@ -567,7 +567,8 @@ io::Schema bind(Scene& scene) {
              {"small-slope", AreaFactor::small_slope},
              {"none", AreaFactor::none},
              {"lattice", AreaFactor::lattice}},
-            "area that adheres, over the projected area: 1 (\"none\"), or a factor that follows from "
+            "area that adheres, over the projected area: 1 (\"none\"), or a factor that follows "
+            "from "
             "the slope; \"auto\": \"none\" over a wall, whose law acts on the projected area, and "
             "\"gaussian\" over atoms")
         .needs = {needs.one_layer};

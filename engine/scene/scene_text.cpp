@@ -95,7 +95,8 @@ std::string scene_markdown() {
            "number in the unit named, or a string with a unit of the same kind (\"0.3 nm\", \"100 "
            "meV\", "
            "\"5 m/s\", \"77.2 GPa\"). Every key may be left out. `--set section.key=value` "
-           "overrides one. A key that has no effect in a scene is refused, with the key on which it "
+           "overrides one. A key that has no effect in a scene is refused, with the key on which "
+           "it "
            "depends; it is only noted if it has its default, belongs to another kind of path "
            "(drive.mode, drive.path), or if `--set` changes the key on which it depends.\n" +
            bind(defaults).markdown();

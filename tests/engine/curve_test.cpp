@@ -59,7 +59,7 @@ double averaged(std::size_t from, std::size_t count, io::Key key) {
     result.set("work_of_drive.pull_off", 1.0);
     add_sphere_path(path, cycle, 1331.2, 100.0, result);
     const std::optional<double> value = result.number(key);
-    EXPECT_TRUE(value) << key.quantity->name << " is missing";
+    EXPECT_TRUE(value) << key.name << " is missing";
     return value.value_or(std::nan(""));
 }
 
@@ -67,14 +67,12 @@ TEST(Curve, TheRunningMeanIsOverTwoPicoseconds) {
     for (const io::Key key : {io::Key("jkr.approach_averaged"), io::Key("jkr.pull_off_averaged")}) {
         // A force of JKR's pull-off, 3/2 pi w R, in meV/Å^2.
         const double whole = 1e3 / (1.5 * std::acos(-1.0) * 100.0);
-        EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key.quantity->name;
-        EXPECT_NEAR(averaged(50, 20, key), whole, 1e-12 * whole)
-            << key.quantity->name << ": 20 rows fill it";
-        EXPECT_NEAR(averaged(50, 19, key), 0.95 * whole, 1e-12 * whole) << key.quantity->name;
+        EXPECT_NEAR(averaged(0, 200, key), whole, 1e-12 * whole) << key.name;
+        EXPECT_NEAR(averaged(50, 20, key), whole, 1e-12 * whole) << key.name << ": 20 rows fill it";
+        EXPECT_NEAR(averaged(50, 19, key), 0.95 * whole, 1e-12 * whole) << key.name;
         EXPECT_NEAR(averaged(0, 10, key), 0.5 * whole, 1e-12 * whole)
-            << key.quantity->name << ", the first rows";
-        EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole)
-            << key.quantity->name << ", the last";
+            << key.name << ", the first rows";
+        EXPECT_NEAR(averaged(190, 10, key), 0.5 * whole, 1e-12 * whole) << key.name << ", the last";
     }
 }
 

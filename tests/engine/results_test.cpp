@@ -243,8 +243,8 @@ TEST(Results, AColumnOfSitesIsOfItsOwnStep) {
     constexpr auto all = [](const Effects&) { return true; };
     const SeriesColumn sites = {all, {"series/f", "eV/Å", "", ""}, force_of_sites, "", true};
     const SeriesColumn step = {all,
-                                   {"series/g", "eV/Å", "", ""},
-                                   [](const Path&, const StepRecord& now) { return now.force; }};
+                               {"series/g", "eV/Å", "", ""},
+                               [](const Path&, const StepRecord& now) { return now.force; }};
     for (const char* mode : {"dynamic", "quasistatic"}) {
         const Case c = resolve(read_scene_text(
             "surface.sites = 16\nblock.thickness = 8\ndrive.velocity = 100\ndrive.timestep = 40\n"

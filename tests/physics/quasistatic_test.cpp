@@ -66,12 +66,12 @@ const Cycle cycles[] = {
     {"pressed", nullptr, 10, 3, top, nullptr, 1.0, 2.0, 0.0, 1e-5},
     {"pulled", nullptr, 10, 3, top, nullptr, 1.0, -2.0, 0.0, 1e-5}};
 
-class Balance : public testing::TestWithParam<Cycle> {};
+class CycleBalance : public testing::TestWithParam<Cycle> {};
 
 } // namespace
 
 /// What the work brings is stored or lost, on each branch and step by step.
-TEST_P(Balance, WorkIsEnergyPlusLoss) {
+TEST_P(CycleBalance, WorkIsEnergyPlusLoss) {
     const Cycle& cycle = GetParam();
     Solids c = cycle.solids();
     const double load = cycle.pressure * units::gigapascal * 6.76 * c.sites();
@@ -122,7 +122,7 @@ TEST_P(Balance, WorkIsEnergyPlusLoss) {
         }
 }
 
-INSTANTIATE_TEST_SUITE_P(Quasistatic, Balance, testing::ValuesIn(cycles));
+INSTANTIATE_TEST_SUITE_P(Quasistatic, CycleBalance, testing::ValuesIn(cycles));
 
 TEST(ForceTrail, ErrorFallsWithTheFourthPowerOfTheStep) {
     const auto error = [](int steps) {
