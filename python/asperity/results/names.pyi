@@ -50,6 +50,21 @@ class WorkOfDrive(Values):
     """meV/Å^2: work of the drive on the solids during the pull-off, until they are at rest beyond the interaction range"""
     uncertainty: WorkOfDriveUncertainty
 
+class DissipatedInBlockUncertainty(Values):
+    approach: float
+    """meV/Å^2: convergence of dissipated_in_block.approach"""
+    pull_off: float
+    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
+
+class DissipatedInBlock(Values):
+    approach: float
+    """meV/Å^2: energy dissipated by a viscoelastic block, during the approach"""
+    pull_off: float
+    """meV/Å^2: energy dissipated by a viscoelastic block, during the pull-off, with the recovery of the solids after they ..."""
+    cycle: float
+    """meV/Å^2: energy dissipated by a viscoelastic block, in a whole cycle, from and to rest beyond the interaction range"""
+    uncertainty: DissipatedInBlockUncertainty
+
 class LostUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of lost.approach"""
@@ -58,11 +73,11 @@ class LostUncertainty(Values):
 
 class Lost(Values):
     approach: float
-    """meV/Å^2: energy lost during the approach"""
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
     pull_off: float
-    """meV/Å^2: energy lost during the pull-off"""
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
     cycle: float
-    """meV/Å^2: energy lost in a whole cycle, from and to rest beyond the interaction range, including kinetic.pull_off ..."""
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
@@ -76,21 +91,6 @@ class Spring(Values):
     """meV/Å^2: energy of the spring that holds the top plane"""
     pull_off: float
     """meV/Å^2: energy of the spring that holds the top plane at the end of the pull-off"""
-
-class DissipatedInBlockUncertainty(Values):
-    approach: float
-    """meV/Å^2: convergence of dissipated_in_block.approach"""
-    pull_off: float
-    """meV/Å^2: convergence of dissipated_in_block.pull_off"""
-
-class DissipatedInBlock(Values):
-    approach: float
-    """meV/Å^2: energy dissipated by a viscoelastic block"""
-    pull_off: float
-    """meV/Å^2: energy dissipated by a viscoelastic block during the pull-off, apart from lost.pull_off"""
-    cycle: float
-    """meV/Å^2: energy dissipated by a viscoelastic block in a whole cycle, apart from lost.cycle"""
-    uncertainty: DissipatedInBlockUncertainty
 
 class Stored(Values):
     approach: float
@@ -139,10 +139,10 @@ class Segment(Values):
     """meV/Å^2: work of the drive on the solids, including work sideways"""
     work_of_interface: float
     """meV/Å^2: work of the interface, ∫ F dz of the mean height"""
-    lost: float
-    """meV/Å^2: energy damped in the segment, or dissipated at instabilities"""
     dissipated_in_block: float
-    """meV/Å^2: energy dissipated by a viscoelastic block in the segment, apart from lost"""
+    """meV/Å^2: energy dissipated by a viscoelastic block, in the segment"""
+    lost: float
+    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
@@ -152,7 +152,7 @@ class Segment(Values):
     spring: float
     """meV/Å^2: energy of the spring that holds the top plane at the end of an approach or a pull-off of a dynamic path at ..."""
     uncertainty: float
-    """meV/Å^2: convergence of work_of_drive, lost and dissipated_in_block"""
+    """meV/Å^2: convergence of work_of_drive and of the losses"""
     largest_attraction: float
     """eV/Å: largest attraction in the segment"""
     friction: float
@@ -166,19 +166,23 @@ class Segment(Values):
     steady_friction: float
     """eV/Å: mean force against the slide"""
     steady_friction_error: float
-    """eV/Å: standard error of steady_friction, by blocking, as for the following values"""
+    """eV/Å: error of steady_friction"""
     friction_stress: float
     """MPa: steady_friction divided by the area of the box"""
     friction_coefficient: float
     """steady_friction divided by the normal force"""
     friction_coefficient_error: float
-    """standard error of friction_coefficient"""
+    """error of friction_coefficient, as steady_friction_error"""
     steady_pressure: float
     """MPa: mean normal force of the substrate on the lowest layer, divided by the area of the box"""
     steady_contact_fraction: float
     """mean contact fraction"""
     steady_contact_fraction_error: float
     """standard error of steady_contact_fraction"""
+    steady_contact_area: float
+    """mean area in contact with the wall, as contact_area"""
+    steady_contact_area_uncertainty: float
+    """error of steady_contact_area"""
     steady_mean_height: float
     """Å: average of the mean height of the lowest layer"""
     steady_dissipated_in_block: float
@@ -346,25 +350,25 @@ class Relaxed(Values):
 
 class Energy(Values):
     balance_error: float
-    """energy balance"""
+    """energy balance at the last recorded step"""
+    interface: float
+    """eV: energy of the interface, of pairs or of the law of a wall"""
+    spring: float
+    """eV: part of the elastic energy in the spring that holds the top plane"""
+    branches: float
+    """eV: part of the elastic energy in the branches of a viscoelastic block"""
+    elastic: float
+    """eV: elastic energy"""
+    kinetic: float
+    """eV: kinetic energy"""
+    time_step: float
+    """eV: energy of the time step at a temperature, -"""
     work: float
     """eV: work of the drive on the solids, counted from rest apart"""
-    kinetic: float
-    """eV: kinetic energy at the last recorded step"""
-    elastic: float
-    """eV: elastic energy at the last recorded step"""
-    interface: float
-    """eV: energy of the interface at the last recorded step"""
-    time_step: float
-    """eV: at a temperature"""
-    damped: float
-    """eV: energy lost since the start"""
-    spring: float
-    """eV: part of energy.elastic in the spring that holds the top plane"""
-    branches: float
-    """eV: part of energy.elastic in the branches of a viscoelastic block"""
     dissipated_in_block: float
-    """eV: energy dissipated by the branches of a viscoelastic block since the start, apart from energy.damped"""
+    """eV: energy dissipated by a viscoelastic block"""
+    damped: float
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
 
 class Surface(Values):
     rms: float
@@ -463,13 +467,17 @@ class Numbers:
     pair_binding_energy: float
     """meV/Å^2: -U_LJ of the relaxed state"""
     work_of_drive: WorkOfDrive
+    dissipated_in_block: DissipatedInBlock
     lost: Lost
     kinetic: Kinetic
     spring: Spring
-    dissipated_in_block: DissipatedInBlock
     stored: Stored
     contact_fraction: float
     """sites in contact at zero load"""
+    contact_area: float
+    """area in contact with a wall at zero load"""
+    contact_area_uncertainty: float
+    """error of contact_area by the spacing"""
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
@@ -699,27 +707,27 @@ class SeriesArrays:
     lateral_force_y: np.ndarray
     """eV/Å: force of the substrate on the lowest layer along y"""
     interface_energy: np.ndarray
-    """eV: energy of the interface"""
-    branch_energy: np.ndarray
-    """eV: part of elastic_energy in the branches of a viscoelastic block"""
+    """eV: energy of the interface, of pairs or of the law of a wall"""
     spring_energy: np.ndarray
-    """eV: part of elastic_energy in the spring that holds the top plane"""
+    """eV: part of the elastic energy in the spring that holds the top plane"""
+    branch_energy: np.ndarray
+    """eV: part of the elastic energy in the branches of a viscoelastic block"""
     elastic_energy: np.ndarray
     """eV: elastic energy"""
     kinetic_energy: np.ndarray
     """eV: kinetic energy"""
     time_step_energy: np.ndarray
-    """eV: at a temperature"""
+    """eV: energy of the time step at a temperature, -"""
     work: np.ndarray
-    """eV: work of the drive on the solids, counted from rest apart, as energy.work"""
+    """eV: work of the drive on the solids, counted from rest apart"""
     work_of_interface: np.ndarray
     """eV: work of the interface's force on the mean height since the start, ∫ F dz"""
-    damped: np.ndarray
-    """eV: energy damped since the start, minus the heat of the thermostat's noise"""
-    dissipated: np.ndarray
-    """eV: energy dissipated at instabilities since the start"""
     dissipated_in_block: np.ndarray
-    """eV: energy dissipated by the branches of a viscoelastic block since the start"""
+    """eV: energy dissipated by a viscoelastic block, since the start"""
+    damped: np.ndarray
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    dissipated: np.ndarray
+    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray
