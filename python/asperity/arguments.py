@@ -181,10 +181,10 @@ def _is_of(value: Any, kind: Any) -> bool:
     return isinstance(value, kind)
 
 
-def _called(kind: Any) -> list[str]:
+def _words_of(kind: Any) -> list[str]:
     """Returns the words for an annotated kind."""
     if get_origin(kind) in (Union, types.UnionType):
-        return [word for one in get_args(kind) for word in _called(one)]
+        return [word for one in get_args(kind) for word in _words_of(one)]
     return [NAMED.get(kind, kind.__name__)]
 
 
@@ -207,7 +207,7 @@ def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundAr
         kind, one = _kinds(function).get(name), bound.signature.parameters[name]
         if kind is None or one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) or value is one.default or _is_of(value, kind):
             continue
-        words = [word for word in dict.fromkeys(_called(kind)) if word != "None"]
+        words = [word for word in dict.fromkeys(_words_of(kind)) if word != "None"]
         return WrongCall(where, f"{name} is {value!r:.60}", f"it is of type {type(value).__name__}", f"give {' or '.join(words)}")
     return None
 

@@ -42,7 +42,7 @@ def main() -> None:
     missed: list[float] = []
     for number in range(asked.first, asked.first + asked.scenes):
         keys = scene(number)
-        stated, tight = (asperity.run({}, keys | more, out=f"{asked.out}/{number}-{name}", progress="off")
+        stated, tight = (asperity.run({}, keys | more, out=f"{asked.out}/{number}-{name}", progress=False)
                          for name, more in (("stated", {}), ("tight", {"drive.tolerance": asked.tight})))
         here = [(getattr(getattr(stated, what), way) - getattr(getattr(tight, what), way))
                 / max(getattr(getattr(stated, what).uncertainty, way), 1e-9)

@@ -51,7 +51,7 @@ def main() -> None:
         runs, off = [], 0.0
         for name, loads in (("largest", up[-1:]), ("up", up), ("back", up + up[-2::-1])):
             run = asperity.run({}, keys | {"drive.path": [f"load {p:.6g} MPa" for p in loads]}, out=f"{asked.out}/{number}-{name}",
-                               progress="off")
+                               progress=False)
             ends = [segment["pressure"] for segment in run["segments"]]
             off = max(off, *(abs(end / p - 1.0) for end, p in zip(ends, loads)))
             runs.append(run["run"])

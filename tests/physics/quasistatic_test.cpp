@@ -277,16 +277,13 @@ TEST(Dissipation, SaysWhichSitesMovedAndHowFar) {
 
 TEST(Dissipation, KeepsTheStrongestInstabilitiesInTheOrderOfThePath) {
     Dissipation lost;
-    double sum = 0.0;
     for (int i = 0; i < 30; ++i) {
         Instability jump;
         jump.energy = (7 * i) % 30 + 1.0; // 1 to 30, each once
         jump.segment = i < 15 ? 0 : 1;
         jump.top = -i;
         lost.add(jump);
-        sum += jump.energy;
     }
-    EXPECT_EQ(lost.total, sum);
     EXPECT_EQ(lost.events, 30);
     ASSERT_EQ(lost.jumps.size(), 20u);
     for (std::size_t i = 0; i < lost.jumps.size(); ++i) {

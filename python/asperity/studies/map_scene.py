@@ -23,7 +23,7 @@ from ..maps import height_map, missing_waves
 from ..results.result import Values
 from ..running import program
 from ..running.scene import scene_file, toml_of
-from ..units import GIGAPASCAL, MILLIJOULE, conversion
+from ..units import GIGAPASCAL, MILLIJOULE, conversion, quantity
 from .estimate_parts import SpacingAlso
 from .estimates import surface_made
 from .variations import Setting
@@ -86,6 +86,14 @@ def named(text: str) -> str:
     for key, name in ARGUMENTS.items():
         text = text.replace(key, name)
     return text
+
+
+def edge_of(size: object) -> float:
+    """Returns the edge of a map, Å. Raises SceneError if it is no length above zero."""
+    edge = quantity(with_unit("size", size), "Å")
+    if edge is None or not edge > 0.0:
+        raise SceneError(f"size = {size}", "is no length above zero", "it is the edge of the map", 'for example "500 nm"')
+    return edge
 
 
 def with_unit(name: str, value: object) -> str:
@@ -245,11 +253,13 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         No scene can be made of the map or an argument; nothing is written.
     """
     sections: dict[str, dict[str, Any]] = {"block": {"young": with_unit("young", young), "poisson": poisson},
-                "surface": {"kind": "flat", "sites": 32, "line_noise": line_noise},
+                "surface": {"kind": "flat", "sites": 32},
                 "interface": {"kind": "wall", "adhesion": with_unit("adhesion", adhesion),
                               "range": with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
-    if size is not None:
-        sections["surface"]["file_size"] = with_unit("size", size)
+    asked = None if size is None else edge_of(size)
+    choices = [None, *program.schema()["surface.line_noise"]["choices"]]
+    if line_noise not in choices:
+        raise SceneError(f'line_noise = "{line_noise}"', "is no treatment of the noise between lines", "", f"take one of {', '.join(choices[1:])}")
     try:
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
@@ -257,7 +267,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         raise SceneError.of([{**one, "where": "", "what": named(one["what"])} for one in error.listed]) from None
     if not keys.needed("interface.adhesion") > 0.0:
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
-    heights, edge, notes = read_square(file, unit, keys.number("surface.file_size"), channel)
+    heights, edge, notes = read_square(file, unit, asked, channel)
     points = len(heights)
     if sites is not None and sites < height_map.FEWEST:
         raise SceneError(f"sites = {sites}", "are too few", "", f"take {height_map.FEWEST} or more, or leave it out")

@@ -29,7 +29,7 @@ from ..running import program
 from ..running.scene import scene_file, toml_of
 from ..theories.sphere import RATIOS, jkr, maugis
 from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
-from .map_scene import named, read_square, with_unit
+from .map_scene import edge_of, named, read_square, with_unit
 from .stated_number import NAN, Found, Number
 
 FEWEST, MOST = 64, 256
@@ -196,10 +196,9 @@ class Tip(Named):
         return f"<Tip {self.directory}: {self.numbers[0]}>"
 
 
-def _checked(given: dict[str, Any], channel_keys: dict[str, Any]) -> Values:
+def _checked(given: dict[str, Any]) -> Values:
     """Returns the keys of a scene with these quantities, in the scene's units. Raises SceneError that names the arguments."""
-    return Values(_asked({"surface": {"kind": "flat", "sites": 32, "boundary": "free", "radius": with_unit("radius", given["radius"]),
-                                      **channel_keys},
+    return Values(_asked({"surface": {"kind": "flat", "sites": 32, "boundary": "free", "radius": with_unit("radius", given["radius"])},
                           "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
                           "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
                                         "range": with_unit("range", given["range"] or RANGE)},
@@ -323,7 +322,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     SceneError
         An argument or the map is refused; nothing is written.
     """
-    keys = _checked(given, {"file_size": with_unit("size", given["size"])} if given["size"] is not None else {})
+    keys, size = _checked(given), None if given["size"] is None else edge_of(given["size"])
     for name, key in (("radius", "surface.radius"), ("adhesion", "interface.adhesion"), ("stiffness", "drive.stiffness")):
         if not keys.number(key, 0.0) > 0.0:
             raise SceneError(f"{name} = {given[name]}", "is not above zero", {"radius": "a tip is a sphere", "stiffness": "the tip is held by "
@@ -340,7 +339,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     notes: list[str] = []
     sample, rms = None, 0.0
     if file is not None:
-        heights, edge, notes = read_square(file, given["unit"], keys.number("surface.file_size"), given["channel"])
+        heights, edge, notes = read_square(file, given["unit"], size, given["channel"])
         sample = _Sample(0.1 * height_map.filled(heights), 0.1 * edge / len(heights))
     reach = contact.radius_at(load)
     _refuse_steep(contact, load)
