@@ -196,7 +196,8 @@ def _kinds(function: Callable[..., Any]) -> dict[str, Any]:
     for name, written in getattr(function, "__annotations__", {}).items():
         with contextlib.suppress(Exception):  # names of `if TYPE_CHECKING`
             kind = eval(written, function.__globals__) if isinstance(written, str) else written
-            if {*(get_args(kind) or [kind])} <= {*NAMED, Path, os.PathLike}:
+            parts = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else [kind]
+            if {*parts} <= {*NAMED, Path, os.PathLike}:
                 found[name] = kind
     return found
 

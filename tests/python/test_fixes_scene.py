@@ -299,7 +299,7 @@ CASES = [
     ("or a shorter way", {"interface.range": "2e-5", "drive.path": '["height 20 Å", "height 0 Å", "height 20 Å"]'}, {"drive.path": '["height 1 Å"]', "surface.rms": "0.1"}, PULLED),
     ("take (.*) or less", {"drive.damping": "50 1/fs"}, {"drive.damping": "{0}"}, MOVING),
     ("take (.*) or less with this time step", {"drive.temperature": "300 MK"}, {"drive.temperature": "{0}"}, MOVING),
-    ("take a load below (.*)", {"drive.load": "100 TPa"}, {"drive.load": "{0}"}, STILL),
+    (r"take a load below (\S+ MPa)", {"drive.load": "100 TPa"}, {"drive.load": "{0}"}, STILL),
     ("take 2.5e-4, the default", {"drive.tolerance": "2"}, {"drive.tolerance": "2.5e-4"}, STILL),
     # Resolving
     ("give the path of a height map", {"surface.file": "gone.h5"}, {"surface.file": "map.txt"}, MAP),
@@ -434,6 +434,9 @@ def test_a_fix_of_the_file(tmp_path):
     said = ask("check", tmp_path)[1]
     assert "name a .toml file in it" in said and ask("check", tmp_path / "x.toml")[0] == 0
     followed(said)
+    said = ask("check", tmp_path / "x")[1]
+    assert f"did you mean {tmp_path / 'x.toml'}" in said.replace("\n", " ")
+    followed(said)
     (tmp_path / "large.toml").write_text("#" * (5 << 20))
     said = ask("check", tmp_path / "large.toml")[1]
     assert "a text of a few kB" in said
@@ -453,7 +456,8 @@ def test_a_fix_of_the_theory(place, says, bad, good, base):
     def theory(settings):
         return ask("theory", "-", "--out", "out", "--set", *(f"{k}={v}" for k, v in settings.items() if v is not None), given=TEXT)
 
-    Path("atoms.h5").symlink_to(FOLDER[0] / "atoms.h5")
+    for name in ("atoms.h5", "plane.txt", "map.txt"):
+        Path(name).symlink_to(FOLDER[0] / name)
     code, said = theory({**base, **bad})
     found = re.search(says, said)
     assert code == 2 and found, said
