@@ -116,20 +116,6 @@ def test_a_table_takes_some_rows_and_columns(tmp_path):
         assert written(mark).returncode == 1 and page.read_text().count("|") == 0, mark
 
 
-def test_pages_are_short():
-    """Counts the words of the pages that people write. The limit was 18 800 before the records of files, several channels
-    of a map, line noise, missing waves, bounds, columns of tables, starts of states and the energies of the time step and
-    of a viscoelastic block were described, and 19 400 before the validation of free edges, the page of the friction of rubber, the
-    shapes of the law of a wall and fields of the work of adhesion, and 20 360 before the tip, master curves and the theory of
-    rubber friction, the wheel, the questions that users ask, the Challenge and the validation of springs, and 22 700 before that of
-    rings of adhesion, layers with free edges and the friction of 256 sites."""
-    written_whole = {f"docs/reference/{name}.md" for name in ("python", "command-line", "result", "scene")} | {"docs/reports/performance.md"}
-    read = [ROOT / "README.md", ROOT / "ARCHITECTURE.md", *(page for page in PAGES if page.is_relative_to(ROOT / "docs"))]
-    words = {str(page.relative_to(ROOT)): len(page.read_text().split()) for page in read}
-    assert written_whole < set(words)
-    assert sum(count for page, count in words.items() if page not in written_whole) <= 23050, words
-
-
 WORDS_OF_THE_FIELD = ("adhesion", "contact mechanics", "rough surface", "friction", "rubber", "viscoelastic", "AFM", "tip", "sphere",
                       "JKR", "Persson", "pull-off", "contact area", "hysteresis", "atomistic", "continuum", "periodic", "molecular dynamics",
                       "elastic", "quasi-static", "GPU", "CUDA", "MPI", "SLURM", "memory", "wheel", "Python", "load", "spectrum",
