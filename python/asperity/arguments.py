@@ -19,7 +19,7 @@ import numbers
 import os
 import re
 import types
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
 from pathlib import Path
 from typing import Any, TypeVar, Union, cast, get_args, get_origin
@@ -165,6 +165,8 @@ def _wrong_call(signature: inspect.Signature, where: str, given: tuple[Any, ...]
 
 NAMED = {int: "a whole number", float: "a number", bool: "True or False", str: "a text", type(None): "None"}
 """How messages call the kinds of values."""
+HOLDING = {list: "a list", tuple: "a tuple", dict: "a dict", Sequence: "a list", Iterable: "a list", Mapping: "a dict", Callable: "a function"}
+"""How messages call the kinds of values that hold others, and functions."""
 
 
 def _is_of(value: Any, kind: Any) -> bool:
@@ -178,26 +180,26 @@ def _is_of(value: Any, kind: Any) -> bool:
         return isinstance(value, numbers_of[kind]) and not isinstance(value, bool)
     if kind is bool:
         return isinstance(value, bool) or type(value).__name__ == "bool_"
-    return isinstance(value, kind)
+    return isinstance(value, get_origin(kind) or kind)
 
 
 def _words_of(kind: Any) -> list[str]:
     """Returns the words for an annotated kind."""
     if get_origin(kind) in (Union, types.UnionType):
         return [word for one in get_args(kind) for word in _words_of(one)]
-    return [NAMED.get(kind, kind.__name__)]
+    return [NAMED.get(kind, HOLDING.get(get_origin(kind) or kind, getattr(kind, "__name__", "")))]
 
 
 @functools.cache
 def _kinds(function: Callable[..., Any]) -> dict[str, Any]:
-    """Returns the annotated kinds of a function's arguments that are plain: numbers, texts, paths. Of others, scenes and executors for
-    example, the functions themselves say what is needed."""
+    """Returns the annotated kinds of a function's arguments that are numbers, texts, paths, lists, dicts or functions. Of others,
+    scenes and executors for example, the functions themselves say what is needed."""
     found = {}
     for name, written in getattr(function, "__annotations__", {}).items():
         with contextlib.suppress(Exception):  # names of `if TYPE_CHECKING`
             kind = eval(written, function.__globals__) if isinstance(written, str) else written
             parts = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else [kind]
-            if {*parts} <= {*NAMED, Path, os.PathLike}:
+            if {get_origin(part) or part for part in parts} <= {*NAMED, *HOLDING, Path, os.PathLike}:
                 found[name] = kind
     return found
 

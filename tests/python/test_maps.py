@@ -115,7 +115,7 @@ def test_of_several_maps_one_is_taken_by_name(several, tmp_path):
         for wanted in (name, str(k), None):
             out = tmp_path / f"{wanted}.h5".replace("/", "-")
             if wanted is None and first is None:
-                with pytest.raises(InputOutputError, match=r"holds 2 maps\n.*its channels: 1 .*, 2 .*\n.*--channel 1"):
+                with pytest.raises(InputOutputError, match=r"holds 2 maps\n.*its channels: 1 .*, 2 .*\n.*channel=\"1\""):
                     convert(path, out)
                 with pytest.raises(InputOutputError, match="holds 2 maps"):
                     height_map.read_map(str(path), "nm", 10 * EDGE)
@@ -129,7 +129,7 @@ def test_of_several_maps_one_is_taken_by_name(several, tmp_path):
             again = height_map.read_map(str(out), None if found_unit(path) else "nm", 10 * EDGE)
             np.testing.assert_array_equal(again.heights, found.heights)
     for wrong in ("Adhesion", "0", "3", "-1", ""):
-        with pytest.raises(InputOutputError, match=f"has no channel '{wrong}'\n.*1 .*, 2 .*\n.*--channel 2"):
+        with pytest.raises(InputOutputError, match=f"has no channel '{wrong}'\n.*1 .*, 2 .*\n.*channel=\"2\""):
             convert(path, tmp_path / "no.h5", wrong)
 
 
