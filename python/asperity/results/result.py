@@ -100,7 +100,8 @@ def expect(directory: Path, *files: str) -> None:
                                "it is a file" if directory.exists() else "there is no such directory", meant(directory) or example)
     if any((directory / file).exists() for file in files):
         return
-    own, runs = kinds_in(directory), [place for place, kinds in results_below(directory).items() if "result.json" in kinds]
+    own = [file for file in kinds_in(directory) if file != "result.json"]  # without run.h5: of a theory, or unfinished
+    runs = [place for place, kinds in results_below(directory).items() if "result.json" in kinds and place != directory]
     which = " or ".join(map(str, runs[:LISTED])) + f", one of {len(runs)}" * (len(runs) > LISTED)
     if own:
         whole = "; in Python asperity.load_sweep() takes it whole" if own[0] == "sweep.json" else ""
