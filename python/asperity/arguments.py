@@ -239,13 +239,15 @@ def checks_call(function: F) -> F:
             bound = signature.bind(*given, **named)
         except TypeError:
             raise _wrong_call(signature, where, given, named, first) from None
-        if wrong := _wrong_kind(function, where, bound):
-            raise wrong
         try:
             with _calls(function):
                 return function(*given, **named)
         except Error as error:
             error.rewrite(lambda text: spoken(text, function))
+            raise
+        except (TypeError, AttributeError, ValueError) as error:  # of a value that the function does not look at itself
+            if wrong := _wrong_kind(function, where, bound):
+                raise wrong from error
             raise
 
     return cast("F", checked)

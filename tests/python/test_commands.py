@@ -165,7 +165,7 @@ def test_tables_fit_a_hundred_columns(work, light, words):
 
 @pytest.mark.parametrize("keys", [[], ["surface.radius=100"], ["interface.kind=wall", "interface.adhesion=50 mJ/m2"],
                                   ["drive.path=[\"approach\",\"load 100 MPa\",\"slide x 5 Å\",\"pull-off\"]"],
-                                  ["drive.mode=dynamic", "drive.velocity=100", "interface.morse_a=2"]], ids=str)
+                                  ["drive.mode=dynamic", "drive.velocity=100", "drive.displacement_step=0.1"]], ids=str)
 def test_the_text_of_a_run_fits_eighty_columns(work, light, keys):
     """Opening, notes and summary; a number stays on the line of its unit. Tables are wider, and quiet runs print nothing else."""
     (work / "p.toml").write_text(PATH)

@@ -75,7 +75,7 @@ def test_values_out_of_proportion(kind):
     ("wall", "interface.range", "3 mm", "wider than the box")])
 def test_a_wrong_unit_is_refused_and_its_remedy_followed_runs(kind, key, value, says):
     code, said = checked(kind, key, value)
-    assert code == 2 and says in said, said
+    assert code == 2 and says in " ".join(said.split()), said
     if found := re.search(r"fix: take (\S+) (\S+?)[,;\s]", said):
         number, unit = found.groups()
         code, said = checked(kind, key, f"{number} {unit}" if unit not in ("or", "the") else number.rstrip(","))

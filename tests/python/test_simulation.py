@@ -343,7 +343,7 @@ def test_bad_use(tmp_path):
     with pytest.raises(ValueError, match="broadcast"):
         sim.u.z[...] = numpy.zeros((3, 3))
     for many in ("many", 1.5):
-        with pytest.raises(TypeError, match="integer"):
+        with pytest.raises(TypeError, match="whole number"):
             sim.step(many)
     for thing, misspelt in ((sim, "extrenal"), (sim.top, "velocty"), (asperity.Statics(STATIC), "mean_heigth")):
         with pytest.raises(AttributeError, match=misspelt):
@@ -563,7 +563,7 @@ def test_statics_goes_on_after_a_load_that_it_cannot_reach():
     statics = asperity.Statics({"surface": {"sites": 16, "rms": 0.6}, "block": {"thickness": 16}})
     statics.mean_height = 5.0
     before, u = statics.relax(), statics.copy()
-    for load in ("-1e5 MPa", -1e6):
+    for load in ("-1e5 MPa", -5e4):
         statics.load = load
         with pytest.raises(asperity.PhysicsError, match="did not reach the pull"):
             statics.relax()
