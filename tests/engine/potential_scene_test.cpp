@@ -92,7 +92,8 @@ TEST(PotentialOfAScene, FlatReferenceAndTheoryAgree) {
     const std::string file = "interface.table=" + table(scratch, 300, 0.2);
     for (const char* potential : {"lennard-jones", "morse", "table"})
         for (const char* ratio : {"surface.lattice_ratio=1", "surface.lattice_ratio=1.6"}) {
-            std::vector<std::string> keys = {std::string("interface.potential=") + potential, ratio};
+            std::vector<std::string> keys = {std::string("interface.potential=") + potential,
+                                             ratio};
             if (keys.front().ends_with("table")) keys.push_back(file);
             const Case c = case_of(keys);
             const theory::FlatInterface flat = flat_interface(c);
