@@ -100,9 +100,9 @@ inline constexpr auto energy_terms = std::to_array<EnergyTerm>({
     dissipated(Term::in_block, "dissipated_in_block", "viscoelastic block",
                "energy dissipated by a viscoelastic block"),
     {Term::lost, EnergyTerm::lost, "damped", "lost", "damped", "",
-     "energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path "
-     "(jumps of less than drive.tolerance for each site and Å of a step are left out, of which "
-     "there are more in larger boxes)",
+     "energy damped, less the heat of noise, or of a quasi-static path dissipated at "
+     "instabilities: "
+     "what steps gain less than their work",
      "dissipated"},
 });
 

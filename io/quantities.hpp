@@ -135,7 +135,23 @@ inline constexpr Quantity written_quantities[] = {
      "contact_fraction counts sites at the edges of contacts whole, and is too large by a multiple "
      "of the spacing"},
     {"contact_area_uncertainty", "1", per::area,
-     "error of contact_area by the spacing: half of the difference from contact_fraction"},
+     "error of contact_area by the spacing: half of the difference from contact_fraction, and more "
+     "where rows of sites hold the edge of a contact"},
+    {"mesh_error.binding_energy", "meV/Å^2", per::area,
+     "error of binding_energy by the spacing of a continuum over a wall, by a rule that many "
+     "scenes "
+     "meet (docs/reports/mesh.md): from the sites at the edges of contacts, contact_fraction less "
+     "contact_area, and from the width of the strip beside an edge in which the attraction acts"},
+    {"mesh_error.work_of_drive.approach", "meV/Å^2", per::area,
+     "error of work_of_drive.approach and lost.approach by the spacing, as "
+     "mesh_error.binding_energy"},
+    {"mesh_error.work_of_drive.pull_off", "meV/Å^2", per::area,
+     "error of work_of_drive.pull_off and lost.pull_off by the spacing, as "
+     "mesh_error.binding_energy"},
+    {"mesh_error.approach_force", "eV/Å", per::block,
+     "error of approach_force by the spacing, as mesh_error.binding_energy"},
+    {"mesh_error.pull_off_force", "eV/Å", per::block,
+     "error of pull_off_force by the spacing, as mesh_error.binding_energy"},
     {"repulsive_fraction", "1", per::sites,
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},

@@ -97,6 +97,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     record_.step = 0;
     record_[Term::work] = here.from_apart ? state.stored() : 0.0;
     balance_.begin(state.stored() - record_[Term::work]);
+    owed_ = 0.0;
     set_record(state, top);
     trail_.begin(top, state.top_force);
     if (!here.from_apart) turn();

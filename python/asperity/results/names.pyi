@@ -73,11 +73,11 @@ class LostUncertainty(Values):
 
 class Lost(Values):
     approach: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     pull_off: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     cycle: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
@@ -97,6 +97,21 @@ class Stored(Values):
     """meV/Å^2: change of the energy of interface and block"""
     pull_off: float
     """meV/Å^2: change of the energy of interface and block"""
+
+class MeshErrorWorkOfDrive(Values):
+    approach: float
+    """meV/Å^2: error of work_of_drive.approach and lost.approach by the spacing, as mesh_error.binding_energy"""
+    pull_off: float
+    """meV/Å^2: error of work_of_drive.pull_off and lost.pull_off by the spacing, as mesh_error.binding_energy"""
+
+class MeshError(Values):
+    binding_energy: float
+    """meV/Å^2: error of binding_energy by the spacing of a continuum over a wall, by a rule that many scenes meet"""
+    work_of_drive: MeshErrorWorkOfDrive
+    approach_force: float
+    """eV/Å: error of approach_force by the spacing, as mesh_error.binding_energy"""
+    pull_off_force: float
+    """eV/Å: error of pull_off_force by the spacing, as mesh_error.binding_energy"""
 
 class Jkr(Values):
     approach: float
@@ -142,7 +157,7 @@ class Segment(Values):
     dissipated_in_block: float
     """meV/Å^2: energy dissipated by a viscoelastic block, in the segment"""
     lost: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
@@ -368,7 +383,7 @@ class Energy(Values):
     dissipated_in_block: float
     """eV: energy dissipated by a viscoelastic block"""
     damped: float
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
 
 class Surface(Values):
     rms: float
@@ -478,6 +493,7 @@ class Numbers:
     """area in contact with a wall at zero load"""
     contact_area_uncertainty: float
     """error of contact_area by the spacing"""
+    mesh_error: MeshError
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
@@ -725,9 +741,9 @@ class SeriesArrays:
     dissipated_in_block: np.ndarray
     """eV: energy dissipated by a viscoelastic block, since the start"""
     damped: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     dissipated: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray
