@@ -44,7 +44,8 @@ def options_of(text):
 def words_of(value, explanation):
     """Fixed words that an option takes: those of its explanation, and of a value such as "auto|FILE"; "": others."""
     listed = LISTED.search(re.sub(r" \([^:]*?\)", "", explanation))
-    return " ".join(one for one in re.findall(r"[\w-]+", listed[1]) if one != "or") if listed else " ".join(one for one in value.split("|") if "|" in value and one.islower())
+    words = re.findall(r"[\w-]+", listed[1]) if listed else [one for one in value.split("|") if "|" in value and one.islower()]
+    return " ".join(one for one in words if one != "or")
 
 
 def roff(text):

@@ -310,9 +310,12 @@ class Command:
         return parser
 
     def given(self, words: list[str]) -> tuple[Options, Voice]:
-        """Returns the options and the voice of a call. Raises SceneError."""
+        """Returns the options and the voice of a call. Raises SceneError; SystemExit after --help."""
         parser = self.parser()
         parser.refuse_unknown(words)
+        if {"-h", "--help"} & {*words}:  # argparse leaves out what stands without an option while it reads options
+            parser.print_help()
+            parser.exit()
         found = vars(parser.parse_intermixed_args(spelt_out(words)))  # options and scenes in any order
         voice = Voice(found.pop("quiet"), found.pop("json"), found.pop("progress", None))
         return self.options(**found), voice
