@@ -13,7 +13,7 @@ from pathlib import Path
 
 from .arguments import checks_call
 from .commands.adhesion import Adhesion, adhesion
-from .commands.tip import Tip, tip
+from .commands.tip import tip
 from .files import store
 from .results.frames import Frames
 from .results.result import Group, Result, Values, load
@@ -24,6 +24,7 @@ from .studies.prony import Prony, prony
 from .studies.stated_number import Number
 from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
+from .studies.tip import Tip
 from .terminal import html_table
 
 __all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
