@@ -190,7 +190,7 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     return found, complete
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity adhesion`. Returns the exit code."""
     from ..reports import estimate as report_estimate
     from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions
@@ -212,6 +212,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, more=(
+COMMAND = Command(Options, _carry_out, more=(
     "An elastic half-space on the rigid map, bound by an exponential attraction: run, path at a held mean height, estimate, report. The "
     "same command goes on where it stopped."))

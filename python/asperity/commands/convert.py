@@ -21,7 +21,7 @@ class Options(WithTarget):
     channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity convert`. Returns the exit code."""
     from ..maps.convert import convert
 
@@ -34,6 +34,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, progress=False, more=(
+COMMAND = Command(Options, _carry_out, progress=False, more=(
     "Maps: text with headers, ESRI grids, XYZ, and by SurfaceTopography Gwyddion and instruments' files. Atoms: LAMMPS data, and by ASE "
     "extended XYZ."))

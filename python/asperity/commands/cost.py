@@ -23,7 +23,7 @@ class Options(OfScene):
     plan: bool = plan()
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity cost`. Returns the exit code: 75 if stopped early, that of the reference if it failed, 3 if nothing keeps the
     target."""
     from ..reports.cost import FILES, answer_of, json_of, text_of, write
@@ -60,4 +60,4 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0 if target is None or cost.chosen else PHYSICS
 
 
-COMMAND = Command(Options, carry_out, more="The same command goes on where it stopped.")
+COMMAND = Command(Options, _carry_out, more="The same command goes on where it stopped.")

@@ -22,7 +22,7 @@ class Options(OfScene):
     plan: bool = plan()
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity estimate`. Returns the exit code: 75 if stopped early, that of the scene if it failed."""
     from ..reports import estimate as report_estimate
     from ..running import lock
@@ -49,6 +49,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, more=(
+COMMAND = Command(Options, _carry_out, more=(
     "Parts of the error: convergence, tail, spacing, levels, timestep, thickness, width, edge (of a map), rate, seeds, places (of a map). "
     "The same command goes on where it stopped."))

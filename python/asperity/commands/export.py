@@ -20,7 +20,7 @@ class Options(Base):
     out: str | None = out("DIR/export", "directory of the files")
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity export`. Returns the exit code."""
     from ..reports.export import export
 
@@ -30,4 +30,4 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, progress=False)
+COMMAND = Command(Options, _carry_out, progress=False)

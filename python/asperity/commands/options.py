@@ -8,7 +8,7 @@ completion, and the checks of the arguments of its function in Python follow fro
         out: str | None = out("results/<scene>-states")
         starts: int = option("N", "states from so many layers ... (default: 20)", 20, limits=COUNT)
 
-    COMMAND = Command(Options, carry_out, more="A path at a held mean height goes inwards and back ...")
+    COMMAND = Command(Options, _carry_out, more="A path at a held mean height goes inwards and back ...")
 
 The command's name is that of its module, and its purpose stands in table.txt. Modules of commands import what needs numpy inside
 their functions, so that --help needs none.
@@ -20,7 +20,7 @@ import argparse
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
-from numbers import Integral, Real
+from numbers import Integral
 from pathlib import Path
 from types import NoneType
 from typing import Any, NamedTuple, Self, get_args, get_origin, get_type_hints
@@ -33,7 +33,7 @@ from .command_line import Parser
 
 
 class Limits(NamedTuple):
-    """What a whole number counts, for messages, and between which limits, inclusive."""
+    """Limits of a whole number, inclusive, and a noun for what it counts."""
 
     what: str
     least: int
@@ -44,7 +44,7 @@ COUNT, SITES = Limits("number", 1, 1024), Limits("number of sites", 16, 32768)
 
 
 class About(NamedTuple):
-    """How an option is spelt, what its help says, and what it takes."""
+    """Spelling of an option, its help, and the values that it takes."""
 
     value: str
     help: str
@@ -196,8 +196,6 @@ class Options:
                                      "leave it out for the default")
             elif about.choices and value not in about.choices:
                 raise SceneError(f"{name} = {value!r:.60}", "is no choice", "they are " + ", ".join(about.choices), "name one of them")
-            elif kind is float and not isinstance(value, Real):
-                raise SceneError(f"{name} = {value!r:.60}", "is no number", "", f"for example {example}")
             found[name] = os.fspath(value) if isinstance(value, os.PathLike) else value
         return cls(**found)
 

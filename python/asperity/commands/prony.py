@@ -46,7 +46,7 @@ def _text(found: Prony) -> str:
         f"  fit            {found.errors}"])
 
 
-def carry_out(given: Options, voice: terminal.Voice) -> int:
+def _carry_out(given: Options, voice: terminal.Voice) -> int:
     """Carries out `asperity prony`. Returns the exit code."""
     from ..plots.prony import moduli
     from ..plots.style import make, picture
@@ -70,6 +70,6 @@ def carry_out(given: Options, voice: terminal.Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, progress=False, more=(
+COMMAND = Command(Options, _carry_out, progress=False, more=(
     "Text of columns: frequency, storage and loss modulus (or tan δ), maybe a shift factor aT; names and units stand above. OUT.toml is "
     "what block.prony of a scene names; OUT.svg shows the fit."))

@@ -20,7 +20,7 @@ class Options(Base):
     out: str | None = out("DIR", "directory of report.html and its figures")
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity report`. Returns the exit code."""
     from ..reports.sweep import write_page
 
@@ -33,4 +33,4 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, progress=False)
+COMMAND = Command(Options, _carry_out, progress=False)

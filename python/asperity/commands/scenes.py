@@ -45,7 +45,7 @@ class Options(WithTarget):
     out: str | None = same_as_option("FOLDER")
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Copies the scenes and examples into a folder and prints a list of the scenes. Returns the exit code. Raises InputOutputError if
     the folder has a scenes/ or examples/ already."""
     source, target = folder(), Path(given.place("folders") or ".")
@@ -62,4 +62,4 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, more="Nothing is replaced.", progress=False)
+COMMAND = Command(Options, _carry_out, more="Nothing is replaced.", progress=False)

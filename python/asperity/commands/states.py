@@ -22,7 +22,7 @@ class Options(OfScene):
     starts: int = option("N", "states from so many layers laid on the substrate at random heights (default: 20)", 20, limits=COUNT)
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity states`. Returns the exit code."""
     from ..studies.states import NEAR, NUMBERS, RESULT, states
 
@@ -60,6 +60,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, more=(
+COMMAND = Command(Options, _carry_out, more=(
     "A path at a held mean height goes inwards and back; the states are told with the pressures between them. The same command goes on "
     "where it was stopped."))

@@ -19,7 +19,7 @@ EARLY = "Stopped early: the same command goes on from here."
 
 @contextlib.contextmanager
 def on_workers(executor: str, options: PoolOptions) -> Iterator[bool]:
-    """Lets the runs be made by the workers of --executor, "" for none. Yields False in a rank that has been a worker of the first one."""
+    """Starts the workers of --executor, "" for none, for the runs. Yields False in a rank that has been a worker of the first one."""
     from ..running.pool import executor_of
 
     with executor_of(executor) if executor else contextlib.nullcontext() as workers:

@@ -26,7 +26,7 @@ class Options(OfScene):
     plan: bool = plan()
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity sweep`. Returns the exit code: 75 if stopped early, else that of the first failure."""
     from ..plots.sweep import plot_files, write_plots
     from ..running.pool import DONE, FAILED, STOPPED, PoolOptions
@@ -68,6 +68,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return next((outcome.exit_code for _, outcome in failed), 0)
 
 
-COMMAND = Command(Options, carry_out, more=(
+COMMAND = Command(Options, _carry_out, more=(
     "--set key=v1,v2,..., key=start:stop:step or key=start:stop:xFACTOR sweeps a key, beside those of the scene's [sweep]; with several, "
     "every combination. The same command goes on where a sweep stopped. Several scenes share one set of plots."))

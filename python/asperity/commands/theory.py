@@ -188,7 +188,7 @@ def computed(file: str, overrides: list[str]) -> Computed:
     return Computed(Values(json.loads(json.dumps(point), object_hook=Values)), profile, [note for note in notes if note], text)
 
 
-def carry_out(given: Options, voice: terminal.Voice) -> int:
+def _carry_out(given: Options, voice: terminal.Voice) -> int:
     """Carries out `asperity theory`; with --json it writes files only with --out. Returns the exit code."""
     if given.points is not None:
         raise SceneError("--points", "is no option of theory any more", "it is for programs", "asperity theory-points SCENE --points FILE")
@@ -210,4 +210,4 @@ def carry_out(given: Options, voice: terminal.Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, progress=False, writes="; writes files only with --out")
+COMMAND = Command(Options, _carry_out, progress=False, writes="; writes files only with --out")

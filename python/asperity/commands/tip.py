@@ -173,7 +173,7 @@ def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[s
     return found
 
 
-def carry_out(given: Options, voice: Voice) -> int:
+def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity tip`. Returns the exit code."""
     from ..reports import tip as report_tip
     from ..running.pool import STOPPED, PoolOptions
@@ -202,6 +202,6 @@ def carry_out(given: Options, voice: Voice) -> int:
     return 0
 
 
-COMMAND = Command(Options, carry_out, more=(
+COMMAND = Command(Options, _carry_out, more=(
     "A rigid sphere on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without periodic "
     "images: force curve, pull-off and jump-in with their errors, JKR's fit. The same command goes on where it stopped."))
