@@ -166,17 +166,13 @@ void check_hardness(const Case& c, io::Problems& problems) {
         problems.add("interface.hardness", with, why, fix);
     };
     if (!c.scene.block.prony.empty())
-        refuse("with block.prony",
-               "a set that grows in time with a block that relaxes in time is not computed",
+        refuse("with block.prony", "the set of a surface on a viscoelastic block is not computed",
                "leave hardness or block.prony out");
     if (c.has(Segment::relax))
         refuse("with \"relax\" in drive.path",
                "the set depends on the path of the load, and a relaxation has none",
                "take drive.mode = \"quasistatic\" and path = [\"approach\"], which finds the "
                "state at zero load as well");
-    if (c.scene.block.strain == Strain::finite)
-        refuse("with block.strain = \"finite\"", "a wall has small strains only",
-               "leave hardness out, or take block.strain = \"linear\"");
 }
 
 /// Checks what a substrate of atoms anywhere cannot have.
@@ -421,7 +417,8 @@ void refuse_above_hardness(const Case& c, io::Problems& refused) {
                     "take a smaller load or a larger hardness");
     };
     if (c.has(Segment::approach))
-        check("drive.load", "is not below the hardness", c.simulation.drive.load_force);
+        check("drive.load", fmt::format("= {:.6g} MPa", c.scene.drive.load),
+              c.scene.drive.load * units::megapascal * c.area());
     for (const Segment& segment : c.path())
         if (segment.kind == Segment::load)
             check("drive.path", fmt::format("has \"{}\"", segment.text), segment.amount);

@@ -171,7 +171,8 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
 void add_yielding(const Case& c, const Surface& surface, const PathResults& results,
                   io::Result& result) {
     const auto& map = c.simulation.interface.hardness_map;
-    const double softest = map ? map->least : *c.scene.interface.hardness;
+    const double softest =
+        map ? map->least : c.simulation.interface.mean_hardness() / units::gigapascal;
     result.set("yielding.tension_over_hardness", c.largest_tension / softest);
     if (results.segments.empty()) return;
     const auto n = static_cast<std::size_t>(surface.sites);

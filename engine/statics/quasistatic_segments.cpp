@@ -30,6 +30,8 @@ namespace {
 /// largest attraction. Collective.
 void refuse_deep(double height, const Interface& interface, const SpectralBlock& block,
                  const Scales& scales) {
+    if (interface.yielding_wall())
+        return; // the pressure has a bound, which refuse_whole_yield() tells
     const BlockOptions& options = block.options();
     const double n = options.sites, area = options.spacing * options.spacing;
     double mean = 0.0;

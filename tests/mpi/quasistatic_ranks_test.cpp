@@ -139,6 +139,7 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
         last = contact.advance();
         points.push_back(contact.trace());
     }
+    EXPECT_EQ(contact.path.now().largest_set > 0.0, kind.hardness.has_value()) << kind.name;
     const bool snaps = kind.along == Constraint::Of::top && kind.branches.empty();
     EXPECT_GT(contact.path.dissipation().events, snaps ? 0 : -1)
         << kind.name << " is meant to snap";

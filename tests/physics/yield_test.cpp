@@ -339,7 +339,7 @@ TEST(Yield, BooksOfCyclesBalance) {
         for (const char* segment : {"approach", "load 200 MPa", "pull-off"})
             path.push_back(segment);
     const test::Written run(scene_of(rough, "adhesion = 5\nrange = 2\nhardness = 0.8",
-                                     "control = \"mean-height\"\ntolerance = 1e-5", path));
+                                     "control = \"mean-height\"", path));
     ASSERT_EQ(run.json["segments"].size(), path.size());
     std::vector<double> plastic;
     for (std::size_t cycle = 0; cycle < 3; ++cycle) {
@@ -425,29 +425,29 @@ TEST(Yield, HardnessMayDifferFromSiteToSite) {
 /// From a hundredth of the hardness to 0.99 of it, with and without attraction.
 TEST(Yield, ConvergesUpToTheHardness) {
     int seed = 0;
-    for (const double ratio : {0.01, 0.3})
-        for (const double slope : {0.05, 0.4}) {
-            const double hardness = ratio * modulus;
-            std::vector<std::string> path = {"approach"};
-            for (const double part : {0.01, 0.3, 0.9, 0.99})
-                path.push_back(load_of(1e3 * part * hardness));
-            for (const bool attracts : {false, true}) {
-                SCOPED_TRACE(fmt::format("{} {} {}", ratio, slope, attracts));
-                const std::string attraction =
-                    attracts ? fmt::format("adhesion = {:.6g}\nrange = 2\nedge_pinning = \"allow\"",
-                                           units::milli_per_unit * units::gigapascal * 2.0 * 0.3 *
-                                               hardness)
-                             : "adhesion = 0";
-                const test::Written run(
-                    scene_of(fmt::format("sites = 32\nspacing = 2\nrms = {}\nseed = {}",
-                                         6.0 * slope, ++seed),
-                             fmt::format("{}\nhardness = {}", attraction, hardness),
-                             "control = \"mean-height\"", path));
-                const std::size_t last = path.size() - 1;
-                EXPECT_GT(of_segment(run, last, "yielding_fraction"), 0.8);
-                EXPECT_NEAR(of_segment(run, last, "pressure"), 990.0 * hardness, 1.5 * hardness);
-            }
-        }
+    struct Map {
+        double ratio, slope; ///< hardness over the modulus, rms slope about
+        bool attracts;
+    };
+    for (const auto& [ratio, slope, attracts] : {Map{0.01, 0.05, true}, Map{0.01, 0.4, false},
+                                                 Map{0.3, 0.05, false}, Map{0.3, 0.4, true}}) {
+        SCOPED_TRACE(fmt::format("{} {} {}", ratio, slope, attracts));
+        const double hardness = ratio * modulus;
+        std::vector<std::string> path = {"approach"};
+        for (const double part : {0.01, 0.3, 0.99})
+            path.push_back(load_of(1e3 * part * hardness));
+        const std::string attraction =
+            attracts ? fmt::format("adhesion = {:.6g}\nrange = 2\nedge_pinning = \"allow\"",
+                                   units::milli_per_unit * units::gigapascal * 0.6 * hardness)
+                     : "adhesion = 0";
+        const test::Written run(scene_of(
+            fmt::format("sites = 24\nspacing = 2\nrms = {}\nseed = {}", 5.0 * slope, ++seed),
+            fmt::format("{}\nhardness = {}", attraction, hardness), "control = \"mean-height\"",
+            path));
+        const std::size_t last = path.size() - 1;
+        EXPECT_GT(of_segment(run, last, "yielding_fraction"), 0.8);
+        EXPECT_NEAR(of_segment(run, last, "pressure"), 990.0 * hardness, 1.5 * hardness);
+    }
 }
 
 /// What a surface that yields cannot have is refused by its name.
@@ -481,7 +481,7 @@ TEST(Yield, WholeSurfaceYieldsNoFurther) {
     const io::Scratch scratch;
     const Case c =
         read_case_text(scene_of(rough, "adhesion = 0\nhardness = 0.05", "control = \"mean-height\"",
-                                {"approach", "height -3 Å"}),
+                                {"approach", "height -4 Å"}),
                        "yield.toml");
     RunOptions options;
     options.out = scratch / "run";
