@@ -44,6 +44,7 @@ const std::vector<Topic>& result_topics() {
          {"approach_force", "pull_off_force", "jkr", "contact_radius", "instrument"}},
         {"Segments, slides and friction", {"segments"}},
         {"Instabilities", {"dissipated"}},
+        {"A surface that yields", {"yielding"}},
         {"Theories", {"theory"}},
         {"Energy balance", {"energy"}},
         {"Surface, block and interface", {"surface", "block", "interface"}},

@@ -5,6 +5,7 @@
 #include "engine/case/spacing_limits.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/run/series.hpp"
+#include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -184,9 +185,31 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
+        if (c.effects.yielding) {
+            result.set("segments[].yielding_fraction", i, c.fraction(s.yielding.at_hardness));
+            result.set("segments[].mean_set", i, s.yielding.mean_set);
+            result.set("segments[].largest_set", i, s.yielding.largest_set);
+        }
         if (c.effects.sliding)
             result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
     }
+}
+
+/// Adds what a surface that yields was, and has become at the end of the last segment.
+void add_yielding(const Case& c, const Surface& surface, const PathResults& results,
+                  io::Result& result) {
+    const auto& map = c.simulation.interface.hardness_map;
+    const double softest =
+        map ? map->least : c.simulation.interface.mean_hardness() / units::gigapascal;
+    result.set("yielding.tension_over_hardness", c.largest_tension / softest);
+    if (results.segments.empty()) return;
+    const auto n = static_cast<std::size_t>(surface.sites);
+    const double a = c.simulation.block.spacing;
+    const MapStatistics before = map_statistics(surface.height, n, n, a, a, !c.effects.free_edges);
+    result.set("yielding.rms_before", before.rms_height);
+    result.set("yielding.rms_after", results.segments.back().yielded_rms);
+    result.set("yielding.slope_before", before.rms_slope);
+    result.set("yielding.slope_after", results.segments.back().yielded_slope);
 }
 
 void add_dissipation(const PathResults& results, const Case& c, io::Result& result) {
@@ -258,6 +281,7 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     add_mesh_errors(c, result);
     if (!results.segments.empty()) add_segments(results, c, result);
     if (results.dissipated) add_dissipation(results, c, result);
+    if (c.effects.yielding) add_yielding(c, surface, results, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
     if (c.in_newtons() && results.dissipated)

@@ -224,6 +224,32 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                            "(block.thickness) less so.\n");
 }
 
+/// Prints what became of a surface that yields.
+void print_yielding(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of) {
+    const Form form(c);
+    const SegmentResults& most =
+        *std::max_element(results.segments.begin(), results.segments.end(),
+                          [](const SegmentResults& a, const SegmentResults& b) {
+                              return a.yielding.at_hardness < b.yielding.at_hardness;
+                          });
+    const YieldState& last = results.segments.back().yielding;
+    io::print_text(
+        to,
+        "  The surface yields: {} % of its sites are at the hardness at the end of \"{}\". At the "
+        "end the mean set is {}, the largest {} {}, and the rms slope has become {} (before {}). "
+        "The plastic work is the energy dissipated in the surface. A cap on the pressure: no "
+        "pile-up and no hardening.\n",
+        io::number(100.0 * c.fraction(most.yielding.at_hardness), 2), c.path()[most.number].text,
+        form.height(last.mean_set), form.height(last.largest_set), form.unit_of_height(),
+        io::number(*of("yielding.slope_after"), 4), io::number(*of("yielding.slope_before"), 4));
+    if (const double tension = *of("yielding.tension_over_hardness"); tension > 1.0)
+        io::print_text(to,
+                       "  The largest tension of flat surfaces is {} times the hardness: beside "
+                       "contacts the attraction is more than such a solid bears, and tension does "
+                       "not yield here.\n",
+                       io::number(tension, 2));
+}
+
 /// Returns the number and the first words of a segment: "1 slide x 128 nm".
 std::string short_name(const Case& c, const SegmentResults& s) {
     std::string text = c.path()[s.number].text;
@@ -262,6 +288,13 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                     [&](const SegmentResults& s) { return form.height(s.mean_height); }});
     rows.push_back(
         {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
+    if (c.effects.yielding) {
+        rows.push_back({"at the hardness", [&](const SegmentResults& s) {
+                            return number(c.fraction(s.yielding.at_hardness), 4);
+                        }});
+        rows.push_back({form.named("mean set", "segments[].mean_set"),
+                        [&](const SegmentResults& s) { return form.height(s.yielding.mean_set); }});
+    }
     if (c.effects.sliding)
         rows.push_back(
             {newtons ? std::string("friction, nN") : form.named("friction", "segments[].friction"),
@@ -513,6 +546,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             "a wider box (surface.sites).\n",
             io::cell(*edge));
     if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
+    if (c.effects.yielding && !results.segments.empty()) print_yielding(to, c, results, of);
     if (const Number residual = of("energy.balance_error")) {
         std::string losses = of("dissipated.energy") ? "dissipated" : "damped";
         for (const io::EnergyTerm& row : io::energy_terms)

@@ -97,6 +97,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             continue;
         }
         if (state.converged) {
+            refuse_whole_yield(state, t.there);
             const StepDecision step = judge(state, t);
             // A force that has fallen further than was known asks for a smaller tolerance.
             const bool loose = !t.last && 2.0 * tolerance_at(state.force) < t.tolerance;

@@ -67,6 +67,10 @@
 
 namespace asperity {
 
+/// Gives a block over a surface that yields the memory of its set (plastic_set.hpp). Keeps
+/// references to both.
+void remember_set(SpectralBlock& block, Interface& interface);
+
 /// A quasi-static path of a block over an interface.
 class QuasistaticPath {
 public:
@@ -226,6 +230,8 @@ private:
     Outcome come_to_rest();
     Outcome settle();
     void refuse_to_creep(double way);
+    /// Throws io::PhysicsError if the mean pressure of a state is the hardness.
+    void refuse_whole_yield(const RelaxedState& state, double at) const;
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }
