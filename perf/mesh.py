@@ -5,7 +5,7 @@
 Tamaas and ContactMechanics on the same maps: mesh.py ENV [--only CASE] [--out FOLDER] [--plot FILE]
 
 ENV is the environment of the others, as peers.py makes it. Cases: a rough wall that repels, under a load of 0.01 E*, and one with an
-exponential attraction, without a load (a box of 640 Å, shortest wave 40 Å, 4 to 32 sites); a smooth tip; sliding rubber of four to 32
+exponential attraction, without a load (a box of 640 Å, shortest wave 40 Å, 4 to 32 sites); a smooth tip; sliding rubber of four to 16
 sites in the shortest wave. The truth is the continuum on a mesh twice as fine as the finest. The others find the state of a rough wall at
 the mean gap that Asperity found on the same mesh.
 """
@@ -27,9 +27,9 @@ ROUGH = WALL | {"surface.rms": 3, "surface.hurst": 0.8, "surface.rolloff": 2, "s
 CASES = {
     "repulsion": (EDGE, (64, 128, 256, 512), ROUGH | {"interface.adhesion": 0, "drive.load": 10}, {"area": "contact_area"}),
     "adhesion": (EDGE, (64, 128, 256, 512), ROUGH | {"interface.adhesion": 0.5}, {"area": "contact_area", "energy": "binding_energy"}),
-    "tip": (600.0, (32, 48, 64, 96, 128), WALL | {"surface.kind": "flat", "surface.radius": 1000, "surface.boundary": "free", "interface.adhesion": 0.3,
+    "tip": (600.0, (32, 48, 64, 96), WALL | {"surface.kind": "flat", "surface.radius": 1000, "surface.boundary": "free", "interface.adhesion": 0.3,
                                             "interface.range": 3, "output.fields": "[]"}, {"pull-off force": "pull_off_force"}),
-    "slide": (320.0, (32, 64, 128, 256), WALL | {
+    "slide": (320.0, (32, 64, 128), WALL | {
         "surface.rms": 3, "surface.hurst": 0.8, "surface.rolloff": 2, "surface.q_max": 8, "interface.adhesion": 0, "drive.control": "mean-height",
         "block.prony": '[[3.0, "10 ns"]]', "drive.velocity": 0.3, "drive.load": 30, "output.fields": "[]",
         "drive.path": '["relax", "slide x 320 Å under load until steady"]'}, {"friction": "steady_friction"})}

@@ -6,7 +6,7 @@
     scenes/validation/mesh.py [--first 0] [--scenes 30] [--jobs 1] [--out results/mesh]
 
 Scenes are drawn at random by their number: rough walls with and without a coating, smooth and rough tips, sliding rubber; walls by
-the exponential law, Dugdale's and powers. The same call goes on where it stopped. About an hour of two cores.
+the exponential law, Dugdale's and powers. The same call goes on where it stopped. Half an hour of one core.
 """
 import argparse
 import concurrent.futures
@@ -118,9 +118,9 @@ def main() -> None:
                 print(f"{r['scene']:3} {r['kind']:9} {r['law']:11} {r['number']:28} {r['value']:11.5g} ± {r['error']:8.2g}  "
                       f"quarter {r['quarter']:11.5g}  {r['off']:+6.2f} errors", flush=True)
     with open(given.out / "mesh.csv", "w", newline="") as file:
-        writer = csv.DictWriter(file, rows[0])
+        writer = csv.DictWriter(file, rows[0], lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows({name: f"{value:.5g}" if isinstance(value, float) else value for name, value in row.items()} for row in rows)
     for path in STATED:
         some = [r for r in rows if r["number"] == path and not math.isnan(r["error"])]
         off = np.array([abs(r["off"]) for r in some])
