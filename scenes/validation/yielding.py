@@ -44,7 +44,7 @@ def main() -> None:
     print("map  H/E*    slope   attraction  at H    set/rms  points  iterations  over elastic  balance")
     for number in range(asked.first, asked.first + asked.maps):
         keys, hardness = keys_of(number, asked.sites)
-        path = ["approach", *(f"load {part * hardness * 1000:.8g} MPa" for part in (0.01, 0.1, 0.5, 0.9, 0.99)), "pull-off"]
+        path = [*(f"load {part * hardness * 1000:.8g} MPa" for part in (0.01, 0.1, 0.5, 0.9, 0.99)), "pull-off"]
         runs = [asperity.run({}, keys | {"drive.path": path, "interface.hardness": value}, out=f"{asked.out}/{number}-{name}",
                              progress=False) for name, value in (("yields", f"{hardness:.8g} GPa"), ("elastic", "none"))]
         full = runs[0]["segments"][-2]

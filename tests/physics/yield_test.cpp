@@ -390,6 +390,25 @@ TEST(Yield, SameHeightSetsNothingAnew) {
         EXPECT_NEAR(fine[i], coarse[i], 1e-3 * fine[i]) << i;
 }
 
+/// The heights less the set are a map for another scene: the dented surface bears the load that has
+/// dented it elastically, in the same contact at the same height.
+TEST(Yield, DentedSurfaceIsElasticUnderItsLoad) {
+    const std::string drive = "control = \"mean-height\"";
+    const std::vector<std::string> path = {"load 200 MPa"};
+    const test::Written dented(scene_of(rough, "adhesion = 0\nhardness = 0.5", drive, path) +
+                               "[output]\nfields = [\"segments\"]\n");
+    EXPECT_GT(dented("yielding.largest_set"), 1.0);
+    const test::Written again(scene_of(
+        fmt::format("kind = \"file\"\nfile = \"{}/run.h5:/fields/segment-0/yielded_height\"\nsites "
+                    "= 32\nspacing = 2",
+                    dented.directory),
+        "adhesion = 0", drive, path));
+    EXPECT_NEAR(again("surface.rms"), dented("yielding.rms_after"), 1e-9);
+    EXPECT_NEAR(of_segment(again, 0, "mean_height"), of_segment(dented, 0, "mean_height"), 1e-3);
+    EXPECT_NEAR(of_segment(again, 0, "contact_fraction"), of_segment(dented, 0, "contact_fraction"),
+                0.002);
+}
+
 /// A hardness that no site reaches changes no bit of an elastic run.
 TEST(Yield, HardIsElastic) {
     const std::vector<std::string> path = {"approach", "load 200 MPa", "pull-off"};
