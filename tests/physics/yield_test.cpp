@@ -273,6 +273,33 @@ TEST(Yield, SphereYieldsAsRingsDo) {
     }
 }
 
+/// A sphere that was pressed until it was at the hardness everywhere comes off as a body that is
+/// flat under its contact (Mesarovic and Johnson, J. Mech. Phys. Solids 48, 2009 (2000)), with a
+/// range of w/H.
+TEST(Yield, PullOffGrowsWithThePreload) {
+    constexpr double hardness = 0.01, a = 10.0, om = 0.3;
+    constexpr int n = 48;
+    constexpr double edge = n * a, contact = 15.0 * a;
+    const double ratio = hardness / modulus, radius = contact / (12.83 * ratio);
+    const double work = om * hardness * ratio * contact; // GPa Å
+    const double load = pi * contact * contact * hardness;
+    double pull_off = 0.0;
+    for (double x = 0.0; x <= 1.0; x += 1e-3)
+        pull_off = std::max(pull_off, std::sqrt(8.0 * om / pi) * std::pow(x, 1.5) -
+                                          2.0 / pi * (std::asin(x) - x * std::sqrt(1.0 - x * x)));
+    const test::Written run(scene_of(
+        fmt::format("kind = \"flat\"\nsites = {}\nspacing = {}\nboundary = \"free\"\nradius = "
+                    "{:.17g}",
+                    n, a, radius),
+        fmt::format("adhesion = {:.17g}\nrange = {:.17g}\nhardness = {}\nedge_pinning = \"allow\"",
+                    work * units::gigapascal * units::milli_per_unit, work / hardness, hardness),
+        fmt::format("displacement_step = {:.6g}", 0.5 * work / hardness),
+        {"approach", load_of(1e3 * load / (edge * edge)), "pull-off"}));
+    const double force = of_segment(run, 2, "largest_attraction") / units::gigapascal; // GPa Å^2
+    EXPECT_NEAR(force / load, pull_off, 0.05 * pull_off);
+    EXPECT_NEAR(run("yielding.tension_over_hardness"), 1.0, 1e-3);
+}
+
 /// A map of three octaves against a solver of another kind (projected conjugate gradients for the
 /// pressures between 0 and H, of the same half-space and 128 x 128 sites).
 TEST(Yield, RoughMapIsThatOfAnotherSolver) {
