@@ -30,7 +30,7 @@ void PlasticSet::accept() {
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < u.ny; ++y)
         for (int x = 0; x < u.nx; ++x)
-            set(x, y) += 0.97 * wall.growth(x, y, reference + u(x, y));
+            set(x, y) += wall.growth(x, y, reference + u(x, y));
 }
 
 StepEnergies PlasticSet::energies() const {
