@@ -96,7 +96,7 @@ def python() -> str:
     import asperity
 
     out = ["\n", prose(asperity.__doc__)]
-    for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "tip", "Tip", "Result", "Sweep", "Estimate",
+    for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "tip", "stress", "Tip", "Stress", "Result", "Sweep", "Estimate",
                  "Adhesion", "Simulation", "Statics", "states", "check", "plan", "surface", "defaults", "theory", "cost", "convert",
                  "prony", "export"):
         thing = getattr(asperity, name)

@@ -112,6 +112,16 @@ std::vector<Command> all_commands() {
              points.scene = scene_file(given, points.overrides);
              return on_root(world, [&] { return theory_points_command(points); });
          }},
+        {"stress-below",
+         "for programs: the stresses below a state of a run, as HDF5",
+         {takes::scene,
+          takes::set,
+          {"--points", "FILE", "the state: {\"file\": run.h5, \"state\": name, \"slid\": false}",
+           &Arguments::points},
+          {"--out", "FILE", "the file to write", &Arguments::out}},
+         [](const Arguments& given, const Communicator& world) {
+             return on_root(world, [&] { return stress_below_command(case_of(given, 1), given); });
+         }},
         {"hold",
          "for programs: the lock of a result directory, sent through the socket that is the "
          "standard input",
@@ -133,6 +143,7 @@ std::vector<Command> all_commands() {
         {"adhesion", "from a measured map of heights to its adhesion with an error", {}},
         {"tip", "the force curve of a tip on a sample, with an error", {}},
         {"states", "the stable states of a contact under its load", {}},
+        {"stress", "the stresses below the surface of a run, and the largest with an error", {}},
         {"report", "a run or a sweep as one self-contained HTML page", {}},
         {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
         {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},

@@ -81,8 +81,8 @@ std::vector<WaveStress> subsurface_stress(std::span<const SolidLayer> layers, do
     std::vector<std::size_t> ends;
     ends.reserve(depths.size());
     const std::vector<SolidLayer> parts = cut(layers, depths, ends);
-    // From the clamped surface downwards: the matrices of each part, the stiffness between it and
-    // what is above it, and the stiffness at its lower surface.
+    // The sums begin at the clamped surface: the matrices of each part, the stiffness between it
+    // and the parts above it, and the stiffness at its lower surface.
     const std::size_t count = parts.size();
     std::vector<LayerMatrices> matrices(count);
     std::vector<PlaneMatrix> between(count), stiffness(count);
@@ -93,8 +93,8 @@ std::vector<WaveStress> subsurface_stress(std::span<const SolidLayer> layers, do
         between[i] = stiffness_between(matrices[i], stiffness[i + 1]);
         stiffness[i] = stiffness_below(matrices[i], stiffness[i + 1]);
     }
-    // From the loaded surface upwards. The first vector is of a pressure, of (0, i P), and carries
-    // a number across the wave beside; the second is of a traction along the wave.
+    // The vectors lead from the loaded surface upwards. The first one is that of a pressure,
+    // (0, i P), with a number across the wave beside; the second one that of a traction along.
     PlaneVector f[2] = {{0.0, 1.0, 1.0}, {1.0, 0.0, 0.0}}, u[2];
     for (int k : {0, 1})
         u[k] = product(inverse(stiffness[0]), f[k]);

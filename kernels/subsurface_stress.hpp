@@ -35,13 +35,13 @@ struct WaveStress {
     double poisson = 0.0; ///< Poisson's ratio at this depth
     struct {
         double zz = 0.0, xx = 0.0, xz = 0.0;
-    } pressure; ///< by a pressure; xz times i
+    } pressure; ///< stress by a pressure; xz times i
     struct {
         double xz = 0.0, xx = 0.0, zz = 0.0;
-    } shear; ///< by a traction along x on the solid; xx and zz times i
+    } shear; ///< stress by a traction along x on the solid; xx and zz times i
     struct {
         double yz = 0.0, xy = 0.0;
-    } across; ///< by a traction along y on the solid; xy times i
+    } across; ///< stress by a traction along y on the solid; xy times i
 };
 
 /// Returns the stresses of a wave q > 0, 1/Å, at depths in ascending order, Å, each less than the

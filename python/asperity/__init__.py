@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         Adhesion as Adhesion,
         Estimate as Estimate,
         Result as Result,
+        Stress as Stress,
         Sweep as Sweep,
         Tip as Tip,
         adhesion as adhesion,
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         load_sweep as load_sweep,
         prony as prony,
         run as run,
+        stress as stress,
         sweep as sweep,
         tip as tip,
     )
@@ -53,8 +55,8 @@ if TYPE_CHECKING:
     from .running.engine import Simulation as Simulation, State as State, Statics as Statics
     from .studies.states import states as states
 
-_LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Sweep", "adhesion", "estimate", "load", "load_estimate",
-                          "load_sweep", "prony", "run", "sweep", "Tip", "tip"), ".forms"),
+_LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Stress", "Sweep", "adhesion", "estimate", "load", "load_estimate",
+                          "load_sweep", "prony", "run", "stress", "sweep", "Tip", "tip"), ".forms"),
          **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}

@@ -3,7 +3,7 @@
 """The command line. The program starts Python with start() (engine/commands/python_commands.cpp), without the current folder in
 the search path; `python3 -m asperity` looks there for modules.
 
-theory, sweep, cost, estimate, adhesion, tip, states, report, export, convert and scenes are carried out here; the program hands them over.
+theory, sweep, cost, estimate, adhesion, tip, states, stress, report, export, convert and scenes are carried out here; the program hands them over.
 Every other command is handed to the program. In a wheel the program is entry(): the compiled module carries out the others.
 """
 
@@ -82,6 +82,10 @@ def _carry_out(given: argparse.Namespace) -> int:
             raise InputOutputError(given.directory, "the page shows only a part of the result", "\n".join(page.unread),
                                    "run the scene again, or take a copy of the file that is whole")
         return 0
+    if given.command == "stress":
+        from .commands.stress import stress_command
+
+        return stress_command(given.directory, given.state, given.friction, given.depth, given.volume, given.out, voice)
     if given.command == "export":
         from .reports.export import export
 

@@ -39,7 +39,7 @@ os.execv(sys.argv[1], sys.argv[1:])
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["relax"]}}
 
 
-OF_PYTHON = ("theory", "sweep", "report", "export", "convert", "adhesion", "tip", "states", "estimate", "cost", "prony", "scenes")
+OF_PYTHON = ("theory", "sweep", "report", "export", "convert", "adhesion", "tip", "states", "stress", "estimate", "cost", "prony", "scenes")
 """Commands of the package, which the program starts."""
 
 

@@ -18,10 +18,10 @@ SUBPACKAGES = {
     "maps": ("channels", "arrays", "text", "master_curve", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),
     "studies": ("grid", "tables", "forecast", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
-                "estimates", "map_scene", "tip", "prony", "states"),
-    "plots": ("style", "run", "prony", "tip", "sweep"),
-    "reports": ("page", "sentences", "run", "cost", "estimate", "tip", "sweep", "export"),
-    "commands": ("command_line", "scenes", "studies", "theory", "adhesion", "tip", "prony"),
+                "estimates", "map_scene", "tip", "prony", "states", "stress"),
+    "plots": ("style", "run", "prony", "tip", "stress", "sweep"),
+    "reports": ("page", "sentences", "export", "stress", "run", "cost", "estimate", "tip", "sweep"),
+    "commands": ("command_line", "scenes", "studies", "theory", "adhesion", "tip", "stress", "prony"),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()

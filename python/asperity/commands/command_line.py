@@ -250,6 +250,17 @@ def parsers() -> dict[str, Parser]:
     states.add_argument("--starts", type=_many, default=20, metavar="N",
                         help="states from so many layers laid on the substrate at random heights (default: 20)")
     _voice(states)
+    stress = add("stress", "the stresses below the surface of a run, and the largest with an error",
+                 "Of a quasi-static run over a wall: von Mises, Tresca and the largest tension in each layer with their places, a section, and "
+                 "stress.vti for ParaView.")
+    stress.add_argument("directory", metavar="DIR", help="the result directory")
+    stress.add_argument("--state", metavar="NAME", help="the state (default: relaxed, or the last one)")
+    stress.add_argument("--friction", type=_number, metavar="0.3",
+                        help="coefficient of a friction in phase with the pressure (default: that of a slide)")
+    stress.add_argument("--depth", metavar="5nm", help="largest depth of the section (default: three times that of the largest stress)")
+    stress.add_argument("--volume", action="store_true", help="all points at all depths of the section too")
+    _out(stress, "DIR/stress", "directory of the files")
+    _voice(stress, progress=False)
     report = add("report", "a run or a sweep as one self-contained HTML page")
     report.add_argument("directory", metavar="DIR", help="the result directory")
     _out(report, "DIR", "directory of report.html and its figures")
