@@ -436,10 +436,11 @@ inline constexpr Quantity run_quantities[] = {
      "largest stresses in each layer of the block, that of the surface first: [layer][von Mises, "
      "Tresca, largest principal stress]; tension is positive"},
     {"stress/*/largest_error", "GPa", "",
-     "change of largest between the depths of the search, from the sites to twice the points, and "
-     "with a constant pressure on each site; NaN: the value is not to be quoted, because it lies "
-     "less than half a "
-     "spacing below the surface or at the end of the search"},
+     "sum of the changes of largest between the depths of the search, from the sites to twice the "
+     "points, with a constant pressure on each site, and by images of free edges; NaN: the value "
+     "is "
+     "not to be quoted, because it lies less than half a spacing below the surface or at the end "
+     "of the search"},
     {"stress/*/largest_place", "Å", "", "places of largest: [layer][measure][x, y, depth]"},
     {"stress/*/layers", "Å", "", "depths of the searched part of each layer: [layer][from, to]"},
     {"stress/*/profile_depth", "Å", "", "depths of profile"},

@@ -44,6 +44,7 @@ Json largest_json(const LargestStress& largest) {
             {"between_depths", largest.between_depths},
             {"between_points", largest.between_points},
             {"within_site", largest.within_site},
+            {"images", largest.images},
             {"error", largest.error()},
             {"reason", largest.reason}};
 }

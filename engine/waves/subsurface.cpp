@@ -178,14 +178,15 @@ void interpolate(const Waves<double>& sites, int factor, Waves<double>& finer) {
 } // namespace
 
 Subsurface::Subsurface(const BlockOptions& block, const SurfaceTractions& tractions, int refinement,
-                       WithinSite within)
+                       WithinSite within, int padding)
     : layers_(solid_of(block)), free_edges_(block.free_edges), points_(block.sites * refinement),
-      step_(block.spacing / refinement), slab_(block.grid() * refinement, Communicator()),
+      step_(block.spacing / refinement),
+      slab_((block.free_edges ? padding : 1) * block.sites * refinement, Communicator()),
       transform_(slab_, 3), tractions_(slab_, 3) {
     if (within == WithinSite::constant || refinement == 1) {
         tractions_ = waves_of(tractions, block.sites, refinement, slab_, transform_);
     } else {
-        const Slab sites(block.grid(), Communicator());
+        const Slab sites(slab_.sites / refinement, Communicator());
         interpolate(waves_of(tractions, block.sites, 1, sites, SurfaceTransform<double>(sites, 3)),
                     refinement, tractions_);
     }
@@ -371,6 +372,9 @@ StressSearch search_stresses(const BlockOptions& block, const SurfaceTractions& 
         }
     }
     std::map<double, std::pair<Extremes, Extremes>> finer; // for waves and constant tractions
+    std::map<double, Extremes> farther;                    // with images twice as far
+    std::optional<Subsurface> wide;
+    if (block.free_edges) wide.emplace(block, tractions, 1, WithinSite::waves, 4);
     for (LayerStresses& layer : search.layers)
         for (std::size_t m = 0; m < stress_measures.size(); ++m) {
             LargestStress& largest = layer.largest[m];
@@ -384,6 +388,12 @@ StressSearch search_stresses(const BlockOptions& block, const SurfaceTractions& 
                 largest.within_site =
                     std::max(largest.within_site, std::abs(constant.value[k] - waves.value[k]));
             largest.value = waves.value[m];
+            if (wide) { // a change by images halves at least with twice the distance
+                const auto [far, unknown] = farther.try_emplace(largest.depth);
+                if (unknown) far->second = extremes(wide->at(largest.depth));
+                largest.images =
+                    4.0 / 3.0 * std::abs(far->second.value[m] - all.at(largest.depth).value[m]);
+            }
             const auto n = static_cast<std::size_t>(fine.points());
             largest.x = fine.place(static_cast<int>(waves.point[m] % n));
             largest.y = fine.place(static_cast<int>(waves.point[m] / n));

@@ -48,9 +48,10 @@ enum class WithinSite { waves, constant };
 /// The stresses below a surface, on one rank.
 class Subsurface {
 public:
-    /// Computes the waves of the tractions. refinement: number of points along the edge of a site.
+    /// Computes the waves of the tractions. refinement: number of points along the edge of a site;
+    /// padding: with free edges, the edge of the grid over that of the box.
     Subsurface(const BlockOptions& block, const SurfaceTractions& tractions, int refinement = 1,
-               WithinSite within = WithinSite::waves);
+               WithinSite within = WithinSite::waves, int padding = 2);
 
     /// Returns the number of points along the edge of the box.
     int points() const { return points_; }
@@ -86,9 +87,10 @@ struct LargestStress {
     double between_depths = 0.0; ///< change with depths between those of the search
     double between_points = 0.0; ///< change from the sites to twice the points
     double within_site = 0.0;    ///< change of a measure there with tractions constant on each site
+    double images = 0.0;         ///< change by images of the contact; 0 in a periodic box
     std::string reason;          ///< reason why the value is not to be quoted; empty: none
 
-    double error() const { return between_depths + between_points + within_site; }
+    double error() const { return between_depths + between_points + within_site + images; }
 };
 
 /// The largest stresses in a layer of the block.

@@ -12,6 +12,7 @@ import pytest
 
 import asperity
 from asperity.studies.stress import COMPONENTS, largest_tension, stresses_in, von_mises
+from asperity.units import GIGAPASCAL
 from conftest import command
 
 SPACING, SITES, POISSON = 2.0, 32, 0.3
@@ -125,6 +126,21 @@ def test_friction_raises_the_stress(rough, tmp_path):
     np.testing.assert_allclose(sheared, 0.5 * np.maximum(-normal, 0), atol=1e-4 * np.abs(normal).max())  # the block slides to +x
     with pytest.raises(asperity.SceneError, match="friction=3"):
         asperity.stress(rough, friction=3.0, out=tmp_path / "no")
+
+
+def test_of_a_slide_bears_its_friction(tmp_path):
+    """The mean shear at each depth is the lateral force of the series over the area."""
+    rubber = {**ROUGH, "block": {"young": 0.5, "poisson": POISSON, "prony": [[3.0, 100.0]]},
+              "drive": {"mode": "quasistatic", "path": ["load 100 MPa", "slide x 20 Å"], "velocity": 0.05},
+              "interface": {**ROUGH["interface"], "adhesion": 0.1}}
+    run = asperity.run(rubber, {"output.fields": ["segments"], **DEPTHS}, out=tmp_path / "run")
+    found = {one.state: one for one in stresses_in(run)}["segment-1"]
+    lateral = run.series["lateral_force_x"][-1] / run.edge**2 / GIGAPASCAL
+    assert found.slid and lateral < 0  # the block slides to +x
+    for shear in found.volume["xz"]:
+        assert shear.mean() == pytest.approx(-lateral, rel=1e-5)
+    computed = asperity.stress(run, out=tmp_path / "out")  # of the last state
+    assert computed.slid and computed.of("von_mises").value == pytest.approx(found.of("von_mises").value, rel=1e-6)
 
 
 @pytest.mark.parametrize("change, word", [

@@ -42,8 +42,8 @@ def conditions(found: Stress) -> str:
     str
         The lateral condition of the mean pressure, and the tractions.
     """
-    sides = ("The sides are free, and the mean pressure is that of a box without images: images of the contact change stresses by up to 1 % of "
-             "the pressure." if found.free_edges else "The sides are held: the mean pressure strains the block along z alone.")
+    sides = ("The sides are free, and the mean pressure is that of a box without images: the change by images of "
+             "the contact is a part of the error." if found.free_edges else "The sides are held: the mean pressure strains the block along z alone.")
     if found.slid:
         return sides + " The friction of the slide acts as the pressure times the slope of the wall."
     if found.friction:

@@ -28,8 +28,8 @@ UNRESOLVED = ("it lies less than half a spacing below the surface, where the pre
 @dataclass
 class LargestStress(Named):
     """Largest value of a measure in a layer: value (GPa), place x, y and depth (Å), and its error (GPa), the sum of its parts: the
-    change between the depths of the search, from the sites to twice the points, and with a pressure that is constant on each site; without
-    an error the reason."""
+    change between the depths of the search, from the sites to twice the points, with a pressure that is constant on each site, and by
+    images of a contact with free edges; without an error the reason."""
 
     measure: str
     layer: int
@@ -162,7 +162,7 @@ def _read(file: RunFile, run: Result, state: str, told: dict[str, Any] | None = 
         for m, measure in enumerate(MEASURES):
             one = told["layers"][layer][measure] if told else {}
             reason = one.get("reason", "" if np.isfinite(errors[layer, m]) else UNRESOLVED)
-            parts = {name: one[name] for name in ("between_depths", "between_points", "within_site") if name in one}
+            parts = {name: one[name] for name in ("between_depths", "between_points", "within_site", "images") if name in one}
             error = None if reason else float(one.get("error", errors[layer, m]))
             x, y, depth = (float(v) for v in places[layer, m])
             largest.append(LargestStress(measure, layer, float(of_layer[m]), error, x, y, depth, reason, parts))
