@@ -96,9 +96,7 @@ def python() -> str:
     import asperity
 
     out = ["\n", prose(asperity.__doc__)]
-    for name in ("run", "load", "sweep", "load_sweep", "estimate", "load_estimate", "adhesion", "tip", "stress", "Tip", "Stress", "Result",
-                 "Sweep", "Estimate", "Adhesion", "Simulation", "Statics", "states", "check", "plan", "surface", "defaults", "theory", "cost",
-                 "convert", "prony", "export"):
+    for name in (name for name in asperity._LAZY if name != "State"):
         thing = getattr(asperity, name)
         out += [f"\n## asperity.{name}\n\n", f"`{called(name, thing)}`\n\n", prose(thing.__doc__)]
         if isinstance(thing, type):

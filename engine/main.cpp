@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The program: a table of commands, each with its description, its options and its function.
-// start.cpp is the program's main(); the Python module calls program() itself.
-// The main loop of a run is follow() in engine/run/run.cpp.
-// Every rank of mpirun runs this; how they end together is in engine/commands/exit_code.hpp.
+// The program: its commands, each with its options and its function;
+// python/asperity/commands/table.txt lists all commands with their purpose. start.cpp is the
+// program's main(); the Python module calls program() itself. The main loop of a run is follow() in
+// engine/run/run.cpp. Every rank of mpirun runs this; how they end together is in
+// engine/commands/exit_code.hpp.
 #include "engine/commands/command_line.hpp"
 #include "engine/commands/commands.hpp"
 #include "engine/commands/exit_code.hpp"
@@ -22,6 +23,8 @@
 #include <cstdlib>
 #include <functional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #ifdef __GLIBC__
@@ -38,11 +41,10 @@ int on_root(const Communicator& world, const std::function<int()>& work) {
     return code;
 }
 
-/// Returns the commands in the order of --help.
-std::vector<Command> all_commands() {
+/// Returns the commands that this program carries out itself.
+std::vector<Command> own_commands() {
     return {
         {"run",
-         "simulate a scene",
          {takes::scene,
           takes::set,
           takes::out("results/<scene>"),
@@ -63,7 +65,6 @@ std::vector<Command> all_commands() {
          },
          true},
         {"init",
-         "write a commented scene to start from; never over a file",
          {{"FILE", "", "the scene file to be made (default: scene.toml)", &Arguments::words},
           {"--out", "FILE", "the same as an option", &Arguments::out, "-o"},
           takes::quiet,
@@ -72,13 +73,11 @@ std::vector<Command> all_commands() {
              return init_command(given, world);
          }},
         {"check",
-         "look for mistakes in a scene without running it",
          {takes::scene, takes::set, takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
              return check_command(case_of(given, world.size()), given, world);
          }},
         {"plan",
-         "what a scene will simulate and what not, and what it will cost; runs nothing",
          {takes::scene,
           takes::set,
           {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks},
@@ -89,15 +88,12 @@ std::vector<Command> all_commands() {
                                  given, world);
          }},
         {"surface",
-         "make or read the surface, print and write its statistics and heights",
          {takes::scene, takes::set, takes::out("results/<scene>-surface; with --json no files"),
           takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
              return surface_command(surface_case_of(given, world.size()), given, world);
          }},
-        {"theory", "the theories of a scene, without simulating it", {}},
         {"theory-points",
-         "for programs: Persson's theory of many variations of a scene, as JSON",
          {takes::scene,
           takes::set,
           {"--points", "FILE",
@@ -113,7 +109,6 @@ std::vector<Command> all_commands() {
              return on_root(world, [&] { return theory_points_command(points); });
          }},
         {"stress-below",
-         "for programs: the stresses below a state of a run, as HDF5",
          {takes::scene,
           takes::set,
           {"--points", "FILE", "the state: {\"file\": run.h5, \"state\": name, \"slid\": false}",
@@ -123,8 +118,6 @@ std::vector<Command> all_commands() {
              return on_root(world, [&] { return stress_below_command(case_of(given, 1), given); });
          }},
         {"hold",
-         "for programs: the lock of a result directory, sent through the socket that is the "
-         "standard input",
          {{.name = "DIR",
            .value = "",
            .explanation = "the directory",
@@ -133,24 +126,7 @@ std::vector<Command> all_commands() {
          [](const Arguments& given, const Communicator& world) {
              return on_root(world, [&] { return hold_command(given.out); });
          }},
-        {"sweep", "a scene over several values of its keys: runs, theory, one table", {}},
-        {"cost",
-         "what accuracy costs in run time: a scene with each of its numerical settings varied",
-         {}},
-        {"estimate",
-         "the numbers of a scene with their errors, from runs with one setting varied at a time",
-         {}},
-        {"adhesion", "from a measured map of heights to its adhesion with an error", {}},
-        {"tip", "the force curve of a tip on a sample, with an error", {}},
-        {"states", "the stable states of a contact under its load", {}},
-        {"stress", "the stresses below the surface of a run, and the largest with an error", {}},
-        {"report", "a run or a sweep as one self-contained HTML page", {}},
-        {"export", "maps and trajectory of a run for OVITO, ParaView, or as PNG", {}},
-        {"convert", "a map of heights or a substrate's atoms as the HDF5 that a scene names", {}},
-        {"prony", "branches of a viscoelastic block from a master curve of a rubber", {}},
-        {"scenes", "copy the scenes and examples that come with the program, and list them", {}},
         {"defaults",
-         "every key of a scene with its default, as TOML",
          {{"--markdown", "", "as the reference page docs/reference/scene.md", &Arguments::markdown},
           {"--plain", "", "without explanations", &Arguments::plain},
           takes::quiet,
@@ -165,12 +141,35 @@ std::vector<Command> all_commands() {
                         : defaults_command(given.markdown, given.plain, given.results, world);
          }},
         {"info",
-         "what this program was built from and runs on",
          {takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
              return info_command(given.json, world);
          }},
     };
+}
+
+/// A row of python/asperity/commands/table.txt: a command, who carries it out (the program, the
+/// Python package, or the script `asperity`), and its purpose.
+struct Row {
+    std::string_view name, by, purpose;
+};
+constexpr Row table[] = {
+#include "commands_table.inc"
+};
+
+/// Returns the commands in the order of --help.
+std::vector<Command> all_commands() {
+    const std::vector<Command> own = own_commands();
+    std::vector<Command> all;
+    for (const Row& row : table) {
+        if (row.by == "script") continue;
+        Command command{.name = std::string(row.name)};
+        for (const Command& one : own)
+            if (row.by == "program" && one.name == row.name) command = one;
+        command.purpose = row.purpose;
+        all.push_back(std::move(command));
+    }
+    return all;
 }
 
 } // namespace

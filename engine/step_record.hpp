@@ -25,6 +25,20 @@ struct ContactCount {
     }
 };
 
+/// State of a surface that yields; zero for others.
+struct YieldState {
+    long long at_hardness = 0; ///< number of sites whose net pressure is the hardness within 0.1 %
+    double mean_set = 0.0;     ///< mean permanent set of the box, Å
+    double largest_set = 0.0;  ///< largest permanent set of a site, Å
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("at_hardness", at_hardness);
+        v("mean_set", mean_set);
+        v("largest_set", largest_set);
+    }
+};
+
 /// Returns the contact area over a wall in sites: the number of sites in contact less what the
 /// sites at the edges of contacts count too much, (pi - 1 + ln 2)/24 of a site for each of
 /// Interface::contact_edges() (Yastrebov, Anciaux and Molinari, Int. J. Solids Struct. 110 (2017),
@@ -60,7 +74,7 @@ struct PlaceAndForces {
 /// Global numbers of a step or point, bitwise identical on every rank. Works and losses count from
 /// the start of the path; the work of the drive and of external forces from rest apart: it includes
 /// the energy of the block at the start, and that of values that a script writes to its fields.
-struct StepRecord : ContactCount, PlaceAndForces, Energies {
+struct StepRecord : ContactCount, YieldState, PlaceAndForces, Energies {
     long long step = 0; ///< number of the step, or of the point of a quasi-static path
     double time = 0.0;  ///< fs
     // Numbers of observed steps only, like the contacts and the energies:
@@ -77,6 +91,7 @@ struct StepRecord : ContactCount, PlaceAndForces, Energies {
         v("observed", observed);
         Energies::visit(v);
         ContactCount::visit(v);
+        YieldState::visit(v);
         v("residual", residual);
     }
 };

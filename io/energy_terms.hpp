@@ -27,6 +27,7 @@ enum class Term : std::size_t {
     work,
     work_of_interface,
     in_block,
+    in_surface,
     lost
 };
 
@@ -99,10 +100,12 @@ inline constexpr auto energy_terms = std::to_array<EnergyTerm>({
      "", "dynamic", "work of the interface's force on the mean height since the start, ∫ F dz"},
     dissipated(Term::in_block, "dissipated_in_block", "viscoelastic block",
                "energy dissipated by a viscoelastic block"),
+    dissipated(Term::in_surface, "dissipated_in_surface", "yielding surface",
+               "plastic work: hardness times the growth of the set (interface.hardness)"),
     {Term::lost, EnergyTerm::lost, "damped", "lost", "damped", "",
-     "energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path "
-     "(jumps of less than drive.tolerance for each site and Å of a step are left out, of which "
-     "there are more in larger boxes)",
+     "energy damped, less the heat of noise, or of a quasi-static path dissipated at "
+     "instabilities: "
+     "what steps gain less than their work",
      "dissipated"},
 });
 

@@ -135,7 +135,23 @@ inline constexpr Quantity written_quantities[] = {
      "contact_fraction counts sites at the edges of contacts whole, and is too large by a multiple "
      "of the spacing"},
     {"contact_area_uncertainty", "1", per::area,
-     "error of contact_area by the spacing: half of the difference from contact_fraction"},
+     "error of contact_area by the spacing: half of the difference from contact_fraction, and more "
+     "where rows of sites hold the edge of a contact"},
+    {"mesh_error.binding_energy", "meV/Å^2", per::area,
+     "error of binding_energy by the spacing of a continuum over a wall, by a rule that many "
+     "scenes "
+     "meet (docs/reports/mesh.md): from the sites at the edges of contacts, contact_fraction less "
+     "contact_area, and from the width of the strip beside an edge in which the attraction acts"},
+    {"mesh_error.work_of_drive.approach", "meV/Å^2", per::area,
+     "error of work_of_drive.approach and lost.approach by the spacing, as "
+     "mesh_error.binding_energy"},
+    {"mesh_error.work_of_drive.pull_off", "meV/Å^2", per::area,
+     "error of work_of_drive.pull_off and lost.pull_off by the spacing, as "
+     "mesh_error.binding_energy"},
+    {"mesh_error.approach_force", "eV/Å", per::block,
+     "error of approach_force by the spacing, as mesh_error.binding_energy"},
+    {"mesh_error.pull_off_force", "eV/Å", per::block,
+     "error of pull_off_force by the spacing, as mesh_error.binding_energy"},
     {"repulsive_fraction", "1", per::sites,
      "sites whose net normal force is repulsive, at zero load"},
     {"approach_force", "eV/Å", per::block, "largest attraction during the approach"},
@@ -243,8 +259,30 @@ inline constexpr Quantity written_quantities[] = {
      "displacement of the top plane at the end of the segment"},
     {"segments[].contact_fraction", "1", per::sites,
      "contact fraction at the end of the segment; on dynamic paths one step later"},
+    {"segments[].yielding_fraction", "1", per::sites,
+     "sites whose net pressure is the hardness (interface.hardness) within 0.1 %, at the end of "
+     "the segment"},
+    {"segments[].mean_set", "Å", "", "mean permanent set at the end of the segment"},
+    {"segments[].largest_set", "Å", "",
+     "largest permanent set of a site at the end of the segment"},
     {"segments[].slide", "Å", "",
      "place over the substrate along x and y at the end of the segment"},
+    {"yielding.mean_set", "Å", "",
+     "mean permanent set of a surface that yields (interface.hardness: a cap on the net pressure, "
+     "without pile-up, hardening and dislocations)"},
+    {"yielding.largest_set", "Å", "", "largest permanent set of a site"},
+    {"yielding.tension_over_hardness", "1", "",
+     "largest tension of flat surfaces divided by the smallest hardness, w/(ρ H): above about 1 "
+     "the attraction at the edges of contacts is beyond what the solid bears, and tension does not "
+     "yield here"},
+    {"yielding.rms_before", "Å", "", "rms height of the surface before the path"},
+    {"yielding.rms_after", "Å", "",
+     "rms height of the surface at the end of the last segment, less its set"},
+    {"yielding.slope_before", "1", "",
+     "rms slope of the surface before the path, by differences of neighbours"},
+    {"yielding.slope_after", "1", "",
+     "rms slope of the surface at the end of the last segment, less its set, by differences of "
+     "neighbours"},
     {"dissipated.energy", "eV", per::block,
      "energy dissipated at instabilities since the start of a quasi-static path"},
     {"dissipated.not_followed", "eV", per::block,
@@ -368,6 +406,13 @@ inline constexpr Quantity written_quantities[] = {
      "smallest work of adhesion of a site in the field of interface.adhesion"},
     {"interface.adhesion_largest", "meV/Å^2", "",
      "largest work of adhesion of a site in the field of interface.adhesion"},
+    {"interface.hardness_digest", "", "",
+     "digest of the field of interface.hardness on the sites. A sweep reuses a result only if the "
+     "digest is unchanged"},
+    {"interface.hardness_least", "GPa", "",
+     "smallest hardness of a site in the field of interface.hardness"},
+    {"interface.hardness_largest", "GPa", "",
+     "largest hardness of a site in the field of interface.hardness"},
     {"interface.table_error", "1", "delta_gamma",
      "bound of the error of energies of flat surfaces, and so of binding energies, from the spline "
      "between the rows of these tables and the noise of the rows"},
@@ -424,6 +469,10 @@ inline constexpr Quantity run_quantities[] = {
      "atom is closer than that of its type"},
     {"fields/*/adhesion", "meV/Å^2", "",
      "work of adhesion of a site, if interface.adhesion is a field"},
+    {"fields/*/hardness", "GPa", "", "hardness of a site, if interface.hardness is a field"},
+    {"fields/*/set", "Å", "", "permanent set of a site of a surface that yields"},
+    {"fields/*/yielded_height", "Å", "",
+     "heights of a surface that yields, less its set: a map that surface.file reads"},
     {"fields/*/u_x", "Å", "", "displacement of a site along x"},
     {"fields/*/u_y", "Å", "", "displacement of a site along y"},
     {"fields/*/u_z", "Å", "", "displacement of a site along z"},

@@ -223,6 +223,7 @@ struct Store {
         const auto* text = as<std::string>();
         if (text && *text == key.word) {
             field->reset();
+            if (key.text) key.text->clear();
             return {};
         }
         T number = 0;
@@ -323,6 +324,7 @@ struct Load {
     Json operator()(const Schema::Rows& field) const { return field.get(); }
     template <class T>
     Json operator()(std::optional<T>* field) const {
+        if (key.text && !key.text->empty()) return *key.text;
         return *field ? Json(**field) : Json(key.word);
     }
     template <class T>

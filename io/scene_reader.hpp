@@ -220,6 +220,19 @@ public:
                     .text = &text,
                     .example = std::move(example)});
     }
+    /// Adds such a number that may also be a word, for an empty field.
+    Key& number_or_text(std::string name, std::optional<double>& field, std::string& text,
+                        std::string word, std::string unit, Range range, std::string example,
+                        std::string doc) {
+        return add({.name = std::move(name),
+                    .field = &field,
+                    .doc = std::move(doc),
+                    .unit = std::move(unit),
+                    .range = range,
+                    .word = std::move(word),
+                    .text = &text,
+                    .example = std::move(example)});
+    }
     /// Adds a quantity, or an integer without unit, that may also be a word: radius = "none".
     template <class T>
     Key& number_or(std::string name, std::optional<T>& field, std::string word, std::string unit,

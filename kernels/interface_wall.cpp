@@ -16,12 +16,16 @@ namespace {
 /// Height below every other one: a hole, whose height is NaN, is not above it.
 constexpr double below_all = -std::numeric_limits<double>::infinity();
 
-/// Calls use(by_site) with true or false as a type: whether the law has a factor at each site.
+/// Calls use(by_site, yields) with true or false as types: whether the law has a factor at each
+/// site, and whether sites yield.
 template <class Law, class Use>
-auto with_factor(const double* factor, Use use) {
+auto with_maps(const double* factor, const double* yield_gap, Use use) {
+    const auto with = [&](auto by_site) {
+        return yield_gap ? use(by_site, std::true_type()) : use(by_site, std::false_type());
+    };
     if constexpr (ScaledBySite<Law>)
-        if (factor) return use(std::true_type());
-    return use(std::false_type());
+        if (factor) return with(std::true_type());
+    return with(std::false_type());
 }
 
 /// Returns the law of a register of sites.
@@ -33,9 +37,19 @@ ASPERITY_INLINE auto law_at(const Terms& law, const double* factor, int count) {
         return law;
 }
 
-template <bool by_site, bool observe, class Law>
-void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const double> height,
-                PlaneView<const double> factor, int row_begin, int row_end, InterfaceSums& sums) {
+/// Returns the height of the wall below a register of sites; NaN where there is no solid.
+template <bool yields>
+ASPERITY_INLINE Real height_at(const double* below, const double* set, int count) {
+    const Real height = Real::load_first(below, count);
+    if constexpr (yields)
+        return height - Real::load_first(set, count);
+    else
+        return height;
+}
+
+template <bool by_site, bool yields, bool observe, class Law>
+void sweep_over(const Law& wall, const InterfaceSites& sites, const WallMaps& maps, int row_begin,
+                int row_end, InterfaceSums& sums) {
     const int nx = sites.displacement.x.nx;
     const typename Law::template Terms<Real> whole(wall);
     const double contact_gap = wall.contact_gap();
@@ -43,23 +57,28 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
     const Real reference(sites.reference_height);
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
-        const double *u = sites.displacement.z.line(y), *below = height.line(y);
-        const double* const of_sites = by_site ? factor.line(y) : nullptr;
+        const double *u = sites.displacement.z.line(y), *below = maps.height.line(y);
+        const double* const of_sites = by_site ? maps.factor.line(y) : nullptr;
+        const double* const yield_gap = yields ? maps.yield_gap.line(y) : nullptr;
+        const double* const set = yields ? maps.set.line(y) : nullptr;
         for (int x = 0; x < nx; x += interface_block) {
             const int count = nx - x < interface_block ? nx - x : interface_block;
             SiteTerms terms;
             for (int lane = 0; lane < count; lane += Real::width) {
                 const int here = count - lane;
-                const Real under = Real::load_first(below + x + lane, here);
+                const Real under = height_at<yields>(below + x + lane, set + x + lane, here);
                 const auto solid = under > nothing;
                 const auto law = law_at<by_site>(whole, of_sites + x + lane, here);
                 const Real gap = reference + Real::load_first(u + x + lane, here) -
                                  select(solid, under, Real(0.0));
                 Real(0.0).store(terms.x + lane);
                 Real(0.0).store(terms.y + lane);
-                select(solid, law.force(gap), Real(0.0)).store(terms.z + lane);
+                Real of_law = gap; // gap of the law
+                if constexpr (yields)
+                    of_law = max(gap, Real::load_first(yield_gap + x + lane, here));
+                select(solid, law.force(of_law), Real(0.0)).store(terms.z + lane);
                 if constexpr (observe) {
-                    select(solid, law.energy(gap), Real(0.0)).store(terms.energy + lane);
+                    select(solid, law.energy(of_law), Real(0.0)).store(terms.energy + lane);
                     select(solid, gap, Real(no_pair)).store(terms.nearest + lane);
                 }
             }
@@ -76,20 +95,20 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, PlaneView<const do
 }
 
 template <bool observe>
-void wall_sweep(const InterfaceSites& sites, const PlaneView<const double>& height,
-                const PlaneView<const double>& factor, const WallLaw& wall, int row_begin,
-                int row_end, InterfaceSums& sums) {
+void wall_sweep(const InterfaceSites& sites, const WallMaps& maps, const WallLaw& wall,
+                int row_begin, int row_end, InterfaceSums& sums) {
     std::visit(
         [&]<class Law>(const Law& law) {
-            with_factor<Law>(factor.origin, [&](auto by_site) {
-                sweep_over<by_site(), observe>(law, sites, height, factor, row_begin, row_end,
-                                               sums);
-            });
+            with_maps<Law>(maps.factor.origin, maps.yield_gap.origin,
+                           [&](auto by_site, auto yields) {
+                               sweep_over<by_site(), yields(), observe>(law, sites, maps, row_begin,
+                                                                        row_end, sums);
+                           });
         },
         wall);
 }
 
-template <bool by_site, class Law, class T>
+template <bool by_site, bool yields, class Law, class T>
 WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
     const typename Law::template Terms<Real> whole(wall);
     const Real reference(rule.reference_height), spring(rule.spring), momentum(rule.momentum);
@@ -107,16 +126,24 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
             const int here = count - lane;
             const auto law = law_at<by_site>(whole, row.factor + x + lane, here);
             const Real u = Real::load_first(row.u + x + lane, here);
-            const Real under = Real::load_first(row.below + x + lane, here);
+            const Real under = height_at<yields>(row.below + x + lane, row.set + x + lane, here);
             const auto solid = under > nothing;
             const Real base = reference - select(solid, under, Real(0.0));
             const Real z = u + momentum * Real::load(step + lane);
             const Real force = norm * Real::load(elastic + lane) + load;
             const Real target = z + base - compliance * force;
-            const Real gap = select(solid, law.rest(z + base, target, spring), target);
+            Real rest = law.rest(z + base, target, spring), yield_gap(0.0);
+            if constexpr (yields) { // the force is the smaller one, and so is the gap
+                yield_gap = Real::load_first(row.yield_gap + x + lane, here);
+                rest = min(rest, target + compliance * law.force(yield_gap));
+            }
+            const Real gap = select(solid, rest, target);
             const Real next = gap - base, way = next - z;
             next.store_first(row.next + x + lane, here);
-            const Real left = select(solid, target - gap + compliance * law.force(gap), Real(0.0));
+            Real of_law = gap; // gap of the law
+            if constexpr (yields) of_law = max(gap, yield_gap);
+            const Real left =
+                select(solid, target - gap + compliance * law.force(of_law), Real(0.0));
             furthest = max(furthest, first_lanes(max(way, -way) + max(left, -left), here));
             reversal = reversal - first_lanes(way * (next - u), here);
             height = height + first_lanes(next, here);
@@ -129,8 +156,8 @@ template <class T>
 WallSums rest_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
     return std::visit(
         [&]<class Law>(const Law& law) {
-            return with_factor<Law>(row.factor, [&](auto by_site) {
-                return rest_over<by_site()>(law, row, rule, sites);
+            return with_maps<Law>(row.factor, row.yield_gap, [&](auto by_site, auto yields) {
+                return rest_over<by_site(), yields()>(law, row, rule, sites);
             });
         },
         wall);

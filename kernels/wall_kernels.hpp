@@ -12,6 +12,16 @@
 
 namespace asperity {
 
+/// Numbers of the wall at the sites of a tile.
+struct WallMaps {
+    PlaneView<const double> height; ///< height of the wall before it yields, Å; NaN: no solid
+    /// Factor of the law of each site (ScaledBySite); no origin: one law for all sites.
+    PlaneView<const double> factor{};
+    /// Gap at which the law's force is that of the hardness, Å: at smaller gaps the force is this
+    /// one. No origin: no site yields.
+    PlaneView<const double> yield_gap{};
+    PlaneView<const double> set{}; ///< permanent set by which the wall is lower, Å
+};
 /// A row of sites that move to their equilibria.
 template <class T>
 struct WallRow {
@@ -21,7 +31,9 @@ struct WallRow {
     const T* elastic;              ///< S z / norm, eV/Å
     /// Factor of the law of each site (ScaledBySite); nullptr: one law for all sites.
     const double* factor = nullptr;
-    double* next; ///< output: equilibria of the sites, Å
+    const double* yield_gap = nullptr; ///< WallMaps::yield_gap; nullptr: no site yields
+    const double* set = nullptr;       ///< WallMaps::set; nullptr: no site yields
+    double* next;                      ///< output: equilibria of the sites, Å
 };
 /// Parameters of an equilibrium over a wall; z is the point at which the elastic force is known.
 struct WallRule {
@@ -41,10 +53,10 @@ struct WallSums {
 
 /// Kernels of a wall, compiled for one processor level.
 struct WallKernels {
-    /// Computes the forces on rows [row_begin, row_end); index: [observe]. factor: WallRow::factor
-    /// of the tile. nearest_r2 is set to the square of the gap, 0 if the gap is negative.
-    void (*sweep[2])(const InterfaceSites&, const PlaneView<const double>& height,
-                     const PlaneView<const double>& factor, const WallLaw&, int row_begin,
+    /// Computes the forces on rows [row_begin, row_end); index: [observe]. nearest_r2 is set to the
+    /// square of the gap, 0 if the gap is negative. The energy is that of the law, without the
+    /// plastic work below the yield gap.
+    void (*sweep[2])(const InterfaceSites&, const WallMaps&, const WallLaw&, int row_begin,
                      int row_end, InterfaceSums&);
     /// Moves the sites of a row to their equilibria.
     WallSums (*rest_double)(const WallLaw&, const WallRow<double>&, const WallRule&, int sites);

@@ -13,8 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-# Values that an option takes, where they are files or fixed words.
-VALUES = {"--progress": "auto bar lines off", "--line-noise": "keep align-rows isotropic", "--to": "xyz vtk png", "--resume": "auto"}
+# The words that an option takes, as its explanation lists them: "...: keep, align-rows or isotropic".
+LISTED = re.compile(r"(?:^|: )((?:[\w-]+, )+(?:[\w-]+ )?or [\w-]+)(?: for programs)?(?: *\(|$)")
 
 
 def say(program, *words):
@@ -39,6 +39,13 @@ def options_of(text):
         names = re.findall(r"(?:^|, )(-[^\s,]+)", spelt)
         found.append((names, spelt[spelt.rindex(names[-1]) + len(names[-1]):].strip(), " ".join((explanation + more).split())))
     return found
+
+
+def words_of(value, explanation):
+    """Fixed words that an option takes: those of its explanation, and of a value such as "auto|FILE"; "": others."""
+    listed = LISTED.search(re.sub(r" \([^:]*?\)", "", explanation))
+    words = re.findall(r"[\w-]+", listed[1]) if listed else [one for one in value.split("|") if "|" in value and one.islower()]
+    return " ".join(one for one in words if one != "or")
 
 
 def roff(text):
@@ -84,7 +91,8 @@ def completion(commands, helps, schema):
     choices = {key: [str(c) for c in about["choices"]] for key, about in schema.items() if about.get("choices")}
     cases = "\n".join(f"    {name}) options='{' '.join(words)}' ;;" for name, words in options.items())
     values = "\n".join(f"    {option}) COMPREPLY=($(compgen -W '{words}' -- \"$cur\")); return ;;"
-                       for option, words in VALUES.items())
+                       for option, words in {names[-1]: words_of(value, text) for name, _ in commands
+                                             for names, value, text in options_of(helps[name]) if words_of(value, text)}.items())
     keyed = "\n".join(f"    {key}) words='{' '.join(words)}' ;;" for key, words in choices.items())
     return f"""# bash completion of asperity; made by packaging/generate.py
 _asperity() {{
@@ -137,8 +145,8 @@ def zsh_completion(commands, helps, schema):
     """The completion of zsh, with explanations."""
     def spec(names, value, explanation):
         said = re.sub(r"([\[\]:])", r"\\\1", explanation)
-        action = ("->keys" if "--set" in names else f"({' '.join(VALUES[n] for n in names if n in VALUES)})"
-                  if set(names) & VALUES.keys() else "_files")
+        action = ("->keys" if "--set" in names else f"({words_of(value, explanation)})"
+                  if words_of(value, explanation) else "_files")
         argument = f":{re.sub('[:]', ' ', value)}:{action}" if value else ""
         repeated = "*" if "--set" in names else ""
         return " ".join(quoted(f"{repeated}{name}[{said}]{argument}") for name in names)

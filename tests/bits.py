@@ -41,6 +41,7 @@ SCENES = {
                            "surface.rms=0.3", "interface.adhesion=10"],
     "layers, surface stress, w(x, y)": [*WALL, 'block.layers=[["1 nm", "10 GPa", 0.3]]', "block.surface_stress=0.5",
                                         "interface.adhesion=stripes 20 60 4nm"],
+    "yields": [*WALL, "interface.hardness=stripes 1GPa 3GPa 4nm", 'drive.path=["approach", "load 300 MPa", "pull-off"]'],
     "viscoelastic": [*REST, 'block.prony=[[1.0, "1 ns"]]', "drive.control=mean-height"],
     "slide": [*WALL, 'drive.path=["load 100 MPa", "slide x 2 nm under load"]', "drive.control=mean-height"],
     "atoms, slide": [*TIME, 'drive.path=["approach", "slide x 0.5 nm"]'],

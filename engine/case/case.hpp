@@ -111,6 +111,9 @@ struct Case {
     std::string block_in_words() const;
     /// Returns true if the block between interface and top plane is a spring that can jump.
     bool jumps_as_a_whole() const;
+    /// Returns true if the sites are points of a mesh, not atoms: over a wall whose law has no
+    /// atoms.
+    bool has_mesh() const { return scene.interface.has_adhesion(); }
     /// Returns true if the works of the path are those of the box: flat surfaces jump in its
     /// longest waves.
     bool box_jumps() const;

@@ -85,6 +85,10 @@ void check_path(const Case& c, io::Problems& problems) {
                 refuse("over a map with free edges",
                        "the map moves periodically, and its edges would move along",
                        "take surface.boundary = \"periodic\"");
+            if (c.scene.interface.hardness && wall)
+                refuse("over a surface that yields",
+                       "the heights move under the block, and a set by sliding is another one",
+                       "leave interface.hardness out");
             for (const SiteMapKeys* map : c.scene.interface.site_maps())
                 refuse(fmt::format("over a field of the {}", map->of.words),
                        "the heights move under the block, and the field would stay",
@@ -154,6 +158,21 @@ void check_layers(const Case& c, io::Problems& problems) {
                         block.thickness),
             fmt::format("take block.thickness = {:.0f} or more, or thinner layers",
                         sum + std::max(1.0, 0.5 * scene.surface.sites)));
+}
+
+/// Checks what a surface that yields cannot have.
+void check_hardness(const Case& c, io::Problems& problems) {
+    const auto refuse = [&](const std::string& with, const char* why, const char* fix) {
+        problems.add("interface.hardness", with, why, fix);
+    };
+    if (!c.scene.block.prony.empty())
+        refuse("with block.prony", "the set of a surface on a viscoelastic block is not computed",
+               "leave hardness or block.prony out");
+    if (c.has(Segment::relax))
+        refuse("with \"relax\" in drive.path",
+               "the set depends on the path of the load, and a relaxation has none",
+               "take drive.mode = \"quasistatic\" and path = [\"approach\"], which finds the "
+               "state at zero load as well");
 }
 
 /// Checks what a substrate of atoms anywhere cannot have.
@@ -320,6 +339,7 @@ void check_keys(const Case& c, io::Problems& problems) {
                          "the relaxation times are to grow from branch to branch",
                          "write the branches in the order of their times, each time once");
     check_layers(c, problems);
+    if (interface.hardness) check_hardness(c, problems);
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -380,6 +400,28 @@ std::vector<io::Problem> device_problems(const Case& c) {
                "take a processor with AVX2 and FMA (and no ASPERITY_KERNELS), or numerics.device = "
                "\"none\"");
     return list;
+}
+
+void refuse_above_hardness(const Case& c, io::Problems& refused) {
+    if (!c.effects.yielding) return;
+    const double hardness = c.simulation.interface.mean_hardness();
+    const auto check = [&](const char* key, const std::string& load, double force) {
+        if (force < hardness * c.area()) return;
+        refused.add(key, load,
+                    fmt::format("a mean pressure of {:.6g} MPa is not below the {}hardness of "
+                                "{:.6g} MPa (interface.hardness): the whole surface would yield, "
+                                "and nothing would bear the load",
+                                force / c.area() / units::megapascal,
+                                c.simulation.interface.hardness_map ? "mean " : "",
+                                hardness / units::megapascal),
+                    "take a smaller load or a larger hardness");
+    };
+    if (c.has(Segment::approach))
+        check("drive.load", fmt::format("= {:.6g} MPa", c.scene.drive.load),
+              c.scene.drive.load * units::megapascal * c.area());
+    for (const Segment& segment : c.path())
+        if (segment.kind == Segment::load)
+            check("drive.path", fmt::format("has \"{}\"", segment.text), segment.amount);
 }
 
 void refuse_unsupported(const Case& c, io::Problems& refused) {

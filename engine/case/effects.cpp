@@ -42,7 +42,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"sliding", sliding}, {"long-range tail", tail},
             {"numbers of each site", site_maps}, {"curvature", curvature},
             {"free edges", free_edges}, {"viscoelastic block", branches}, {"layers", layers},
-            {"surface stress", surface_stress}, {"spring of the machine", spring},
+            {"surface stress", surface_stress}, {"yielding surface", yielding}, {"spring of the machine", spring},
             {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
             {"checkpoints", checkpoints}, {"theory", theory}, {"device", device}};
@@ -109,7 +109,7 @@ Effects effects_of(const Case& c) {
             fmt::format("{}interface.{} = \"{}\"", e.site_maps.why.empty() ? "" : ", ",
                         map->of.name, map->source);
     }
-    if (!e.site_maps) e.site_maps.why = "interface.adhesion is no field";
+    if (!e.site_maps) e.site_maps.why = "interface.adhesion and interface.hardness are no fields";
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
@@ -126,6 +126,12 @@ Effects effects_of(const Case& c) {
                     : fmt::format("block.layers has {} of them", s.block.layers.size())};
     e.surface_stress = {s.block.surface_stress > 0.0,
                         fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
+    e.yielding = {s.interface.hardness.has_value(),
+                  s.interface.hardness_map.given()
+                      ? fmt::format("interface.hardness = \"{}\"", s.interface.hardness_map.source)
+                  : s.interface.hardness
+                      ? fmt::format("interface.hardness = {:.6g} GPa", *s.interface.hardness)
+                      : "interface.hardness = \"none\""};
     e.spring = {s.drive.stiffness.has_value() && follows_path,
                 s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
                                   : "drive.stiffness = \"none\""};
@@ -169,6 +175,9 @@ NoTheory no_theory(const Scene& scene, const Effects& effects) {
     if (effects.free_edges)
         return none("surface.boundary", "the substrate ends at the edges of the box",
                     "of endless surfaces", "take boundary = \"periodic\"");
+    if (effects.yielding)
+        return none("interface.hardness", "the surface yields", "of elastic surfaces",
+                    "leave interface.hardness out");
     for (const SiteMapKeys* map : scene.interface.site_maps())
         return none(fmt::format("interface.{}", map->of.name),
                     fmt::format("the {} differs from site to site", map->of.words),

@@ -43,6 +43,7 @@ struct Effects {
         free_edges,     ///< a box without periodic images
         layers,         ///< coatings of the block
         surface_stress, ///< tension of the block's surface
+        yielding,       ///< a surface that yields at its hardness
         spring,         ///< a spring that holds the top plane
         relaxation,     ///< states of equilibrium
         observation,    ///< energies, contacts and the energy balance: a row of the series

@@ -376,6 +376,18 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 /// Fills in the maps of the sites that the scene has, and their largest values in the scene.
 void find_site_maps(Case& c, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
+    if (keys.hardness_map.given()) {
+        const auto map = site_map(c, keys.hardness_map, problems);
+        if (!map) return;
+        if (map->least == 0.0)
+            return problems.add("interface.hardness",
+                                fmt::format("= \"{}\" is 0 at some sites", map->source),
+                                "a site of no hardness would not be pressed at all",
+                                "take a hardness above 0 at each site, in GPa");
+        keys.hardness = map->largest;
+        c.simulation.interface.hardness_map = map;
+    }
+    if (keys.hardness) c.simulation.interface.hardness = *keys.hardness * units::gigapascal;
     if (!keys.adhesion_map.given() || !keys.has_adhesion()) return;
     constexpr const char* key = "interface.adhesion";
     const auto map = site_map(c, keys.adhesion_map, problems);
@@ -396,6 +408,7 @@ void derive(Case& c, io::Problems& problems) {
     if (!problems.empty()) return;
     io::Problems refused = c.scene.problems();
     refuse_unsupported(c, refused);
+    refuse_above_hardness(c, refused);
     c.edge_pinning = edge_pinning(c);
     refuse_pinned_edge(c, refused);
     for (std::string& note : notes_on_keys(c))

@@ -26,6 +26,8 @@ void check_keys(const Case& c, io::Problems& problems);
 std::vector<io::Problem> device_problems(const Case& c);
 /// Adds to refused the keys that this release reads but does not support.
 void refuse_unsupported(const Case& c, io::Problems& refused);
+/// Adds to refused the loads under which the whole surface would yield.
+void refuse_above_hardness(const Case& c, io::Problems& refused);
 /// Adds to refused the values that are out of proportion with the box, the block or the step, and
 /// to notes those that are nearly so.
 void refuse_out_of_proportion(const Case& c, io::Problems& refused,

@@ -92,7 +92,8 @@ double edge_pinning(const Case& c) {
 
 void refuse_pinned_edge(const Case& c, io::Problems& refused) {
     const Scene& scene = c.scene;
-    if (!scene.surface.radius || !c.has(Segment::pull_off) || c.edge_pinning <= 1.3 ||
+    if (!scene.surface.radius || !c.has(Segment::pull_off) ||
+        c.edge_pinning <= largest_edge_pinning ||
         scene.interface.edge_pinning == EdgePinning::allow)
         return;
     refused.add(

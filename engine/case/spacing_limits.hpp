@@ -12,11 +12,13 @@
 
 namespace asperity {
 
+/// Case::edge_pinning up to which a sphere is pulled off, and errors by the spacing are stated.
+constexpr double largest_edge_pinning = 1.3;
 /// Computes Case::edge_pinning from the options of block and interface.
 double edge_pinning(const Case& c);
 /// Returns a note with Case::edge_pinning; nothing if the spacing resolves the edge of the contact.
 std::optional<std::string> note_on_contact_edge(const Case& c);
-/// Refuses the pull-off of a sphere if Case::edge_pinning exceeds 1.3, unless
+/// Refuses the pull-off of a sphere if Case::edge_pinning exceeds largest_edge_pinning, unless
 /// interface.edge_pinning = "allow".
 void refuse_pinned_edge(const Case& c, io::Problems& refused);
 

@@ -4,7 +4,7 @@
 // The command line: a list of commands, each with its options, and the arguments of a call.
 //
 //     const std::vector<Command> commands = {
-//         {"check", "look for mistakes in a scene", {takes::scene, takes::set, takes::json},
+//         {"check", {takes::scene, takes::set, takes::json},
 //          [](const Arguments& given, const Communicator& world) { ... return code; }}};
 //     return carry_out(commands, argc, argv, world);
 #pragma once
@@ -69,13 +69,13 @@ struct Option {
 /// A command of the program, or of the Python package.
 struct Command {
     std::string name;
-    std::string purpose; ///< one line
     /// Options; empty for a command of the Python package, which defines its own.
-    std::vector<Option> options;
+    std::vector<Option> options = {};
     /// Carries out the command and returns the exit code; empty for a command of the Python
     /// package.
     std::function<int(const Arguments&, const Communicator&)> act = {};
     bool looks_at_signals = false; ///< the command checks for signals itself (stop_signals.hpp)
+    std::string purpose = {};      ///< one line of python/asperity/commands/table.txt
 };
 
 /// Options that several commands take.

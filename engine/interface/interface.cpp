@@ -242,11 +242,17 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
             maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
                                                  : std::numeric_limits<double>::infinity());
             maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
-            const double below = wall() ? wall()->height()(x, y)
+            const double below = wall() ? wall()->below(x, y)
                                         : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
                                                        (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
             maps.gap.push_back(reference_height_ + displacement.z(x, y) - below);
         }
+    if (const OverWall* const yielding = yielding_wall())
+        for (int y = 0; y < tile_.ny; ++y)
+            for (int x = 0; x < tile_.nx; ++x) {
+                maps.set.push_back(yielding->set()(x, y));
+                maps.yielded_heights.push_back(yielding->below(x, y));
+            }
     for (const auto& map : options_.site_maps()) {
         std::vector<double>& values = maps.of_sites.emplace_back(map->name, 0).second;
         values.reserve(count);
@@ -269,9 +275,9 @@ double Interface::attraction_grows_down_to() const {
 
 std::int64_t Interface::contact_edges(const VectorPlane<const double>& displacement,
                                       const Communicator& ranks) const {
-    const PlaneView<const double> below = wall()->height(), u = displacement.z;
+    const PlaneView<const double> u = displacement.z;
     const double limit = contact_gap() - reference_height_;
-    const auto in_contact = [&](int x, int y) { return u(x, y) - below(x, y) < limit; };
+    const auto in_contact = [&](int x, int y) { return u(x, y) - wall()->below(x, y) < limit; };
     // The first row of the next rank is above the last one of this rank.
     const int size = ranks.size(), rank = ranks.rank();
     std::vector<double> first(static_cast<std::size_t>(u.nx)), above(first.size());

@@ -53,6 +53,9 @@ struct InterfaceMaps {
     /// atoms), Å; NaN over a hole.
     std::vector<double> gap;
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; repulsion is positive
+    std::vector<double> set;      ///< permanent set, Å; empty: the substrate does not yield
+    /// Height of the substrate, less its set, Å; empty: the substrate does not yield.
+    std::vector<double> yielded_heights;
     /// Values of each map of the sites (InterfaceOptions::site_maps()), by its name.
     std::vector<std::pair<std::string, std::vector<double>>> of_sites;
 };
@@ -97,6 +100,10 @@ public:
 
     /// Returns the wall; nullptr if the substrate consists of atoms.
     const OverWall* wall() const { return std::get_if<OverWall>(&substrate_); }
+    /// Returns the wall if it yields; nullptr otherwise.
+    const OverWall* yielding_wall() const { return wall() && wall()->yields() ? wall() : nullptr; }
+    /// Returns the permanent set of the wall, Å, for writing. Requires yielding_wall().
+    Field<double>& set() { return std::get<OverWall>(substrate_).set(); }
 
     /// Returns the number of pairs of neighbouring sites of which one is in contact with the wall:
     /// the perimeter of the contact over the spacing. displacement: Å. Requires a wall, and whole

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 namespace asperity {
@@ -29,33 +30,78 @@ OverWall::OverWall(const HeightMap& map, int across, const Tile& tile,
             below(x, y) = tile.x0 + x < n && tile.y0 + y < n
                               ? map.at(tile.x0 + x, tile.y0 + y)
                               : std::numeric_limits<double>::quiet_NaN();
-    if (!options.adhesion) return;
-    if (options.adhesion->sites != n)
+    if (options.adhesion && options.adhesion->sites != n)
         throw std::invalid_argument(
             fmt::format("interface: {} x {} sites have a field of {} x {} works of adhesion", n, n,
                         options.adhesion->sites, options.adhesion->sites));
-    factor_ = Field<double>(tile, 1, 0);
-    const PlaneView<double> factor = factor_.plane(0);
-    for (int y = 0; y < tile.ny; ++y)
-        for (int x = 0; x < tile.nx; ++x)
-            factor(x, y) = options.adhesion_factor(tile.x0 + x, tile.y0 + y);
+    if (options.adhesion) {
+        factor_ = Field<double>(tile, 1, 0);
+        const PlaneView<double> factor = factor_.plane(0);
+        for (int y = 0; y < tile.ny; ++y)
+            for (int x = 0; x < tile.nx; ++x)
+                factor(x, y) = options.adhesion_factor(tile.x0 + x, tile.y0 + y);
+    }
+    if (options.hardness) find_yield_gaps(options, tile, n, map.spacing() * map.spacing());
+}
+
+namespace {
+
+/// Returns the gap at which a law presses with a force above zero, eV/Å.
+template <class Law>
+double gap_under(const Law& law, double force) {
+    // The law presses from its largest tension on inwards.
+    double low = -law.depth_under(force), high = law.contact_gap();
+    for (double step = 1e-3; law.force(low) < force; step *= 2.0)
+        low -= step;
+    while (true) {
+        const double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high)) return low;
+        (law.force(middle) > force ? low : high) = middle;
+    }
+}
+
+} // namespace
+
+/// Finds the yield gaps of the first across x across sites of the grid.
+void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile, int across,
+                               double area) {
+    yield_gap_ = Field<double>(tile, 1, 0);
+    set_ = Field<double>(tile, 1, 0);
+    const PlaneView<double> gap = yield_gap_.plane(0);
+    std::optional<double> of_all; // without maps
+    for (int y = 0; y < tile.ny && tile.y0 + y < across; ++y)
+        for (int x = 0; x < tile.nx && tile.x0 + x < across; ++x) {
+            if (!of_all || options.adhesion || options.hardness_map)
+                of_all = with_law(x, y, [&](const auto& law) {
+                    return gap_under(law, area * options.hardness_at(tile.x0 + x, tile.y0 + y));
+                });
+            gap(x, y) = *of_all;
+        }
 }
 
 double OverWall::stiffness_at(int x, int y, double gap) const {
-    return std::visit(
-        [&]<class Law>(const Law& law) {
-            if constexpr (ScaledBySite<Law>)
-                if (!factor_.empty()) return law.scaled(factor_.plane(0)(x, y)).stiffness_at(gap);
-            return law.stiffness_at(gap);
-        },
-        law_);
+    if (yields() && gap < yield_gap_.plane(0)(x, y)) return 0.0;
+    return with_law(x, y, [&](const auto& law) { return law.stiffness_at(gap); });
+}
+
+double OverWall::yield_force(int x, int y) const {
+    return with_law(x, y, [&](const auto& law) { return law.force(yield_gap_.plane(0)(x, y)); });
+}
+
+double OverWall::force(int x, int y, double z) const {
+    const double gap = std::fmax(z - below(x, y), yield_gap_.plane(0)(x, y));
+    return with_law(x, y, [&](const auto& law) { return law.force(gap); });
 }
 
 void OverWall::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                          InterfaceSums& sums) const {
     interface_kernels().wall.sweep[how.observe](
-        sites, height(), factor_.empty() ? PlaneView<const double>() : factor_.plane(0), law_, y,
-        y + 1, sums);
+        sites,
+        {.height = height(),
+         .factor = factor_.empty() ? PlaneView<const double>() : factor_.plane(0),
+         .yield_gap = yields() ? yield_gap_.plane(0) : PlaneView<const double>(),
+         .set = yields() ? set_.plane(0) : PlaneView<const double>()},
+        law_, y, y + 1, sums);
 }
 
 } // namespace asperity

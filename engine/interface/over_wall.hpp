@@ -3,6 +3,16 @@
 //
 // A wall in place of atoms (kernels/wall_law.hpp). The wall acts along z alone. The height below
 // site (x, y) is value (x, y) of the surface, which has the block's lattice.
+//
+// A surface that yields (scene: interface.hardness) bears a net pressure of no more than its
+// hardness H. The wall below a site has a permanent set s, by which it is lower:
+//
+//     gap = height of the site - (height of the wall - s),      pressure = that of the law at the
+//                                                               gap, and no more than H.
+//
+// The law's pressure is H at the yield gap g_H. If a step ends at a smaller gap, the set grows by
+// the difference (plastic_set.hpp): then the gap is g_H, and H times the growth is the plastic
+// work. The set is the same whichever of the two solids yields, because only the gap enters.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -10,9 +20,11 @@
 #include "engine/interface/sliding_map.hpp"
 #include "engine/options/interface_options.hpp"
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <variant>
 
 namespace asperity {
 
@@ -33,12 +45,30 @@ public:
     /// Computes the forces on row y of the sites and adds to the sums. how: options of the sweep.
     void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
 
+    /// Returns true if the surface yields.
+    bool yields() const { return !yield_gap_.empty(); }
+    /// Returns the permanent set of the sites, Å, for writing. Requires yields().
+    Field<double>& set() { return set_; }
+    /// Returns the permanent set of the sites, Å. Requires yields().
+    PlaneView<const double> set() const { return set_.plane(0); }
+    /// Returns the depth of a site below its yield gap, Å: the growth of its set if a step ends
+    /// there; 0 over a hole. z: height of the site, Å. Requires yields().
+    double growth(int x, int y, double z) const {
+        return std::fmax(0.0, yield_gap_.plane(0)(x, y) - (z - below(x, y)));
+    }
+    /// Returns the force of the hardness on a site, eV/Å. Requires yields().
+    double yield_force(int x, int y) const;
+    /// Returns the force of the wall on a site at this height, eV/Å. Requires yields().
+    double force(int x, int y, double z) const;
+
     /// Moves the sites of row y to their equilibria, each under its own external force. row: data
     /// of the row except those of the wall, which are filled in; sites: number of sites.
     template <class T>
     WallSums rest_row(int y, WallRow<T> row, const WallRule& rule, int sites) const {
         row.below = height().line(y);
         row.factor = factor_.empty() ? nullptr : factor_.plane(0).line(y);
+        row.yield_gap = yields() ? yield_gap_.plane(0).line(y) : nullptr;
+        row.set = yields() ? set_.plane(0).line(y) : nullptr;
         const WallKernels& kernels = interface_kernels().wall;
         if constexpr (std::is_same_v<T, double>)
             return kernels.rest_double(law_, row, rule, sites);
@@ -48,20 +78,41 @@ public:
     /// Returns the stiffness -dF/dg of the law of a site of the tile at this gap, Å, in eV/Å^2.
     double stiffness_at(int x, int y, double gap) const;
 
-    /// Returns the height of the wall below each site of the tile, Å; NaN if there is no solid
-    /// below the site.
+    /// Returns the height of the wall below a site, Å, with its set; NaN over a hole.
+    double below(int x, int y) const {
+        return height()(x, y) - (yields() ? set_.plane(0)(x, y) : 0.0);
+    }
+    /// Returns the height of the wall below each site of the tile before the wall yields, Å; NaN if
+    /// there is no solid below the site.
     PlaneView<const double> height() const {
         return sliding_ ? sliding_->height() : height_.plane(0);
     }
     std::size_t bytes() const {
         return (sliding_ ? sliding_->bytes() : height_.bytes()) +
-               (factor_.empty() ? 0 : factor_.bytes());
+               (factor_.empty() ? 0 : factor_.bytes()) +
+               (yields() ? yield_gap_.bytes() + set_.bytes() : 0);
     }
 
 private:
+    /// Returns use(law) with the law of a site.
+    template <class Use>
+    auto with_law(int x, int y, Use use) const {
+        return std::visit(
+            [&]<class Law>(const Law& law) {
+                if constexpr (ScaledBySite<Law>)
+                    if (!factor_.empty()) return use(law.scaled(factor_.plane(0)(x, y)));
+                return use(law);
+            },
+            law_);
+    }
+    void find_yield_gaps(const InterfaceOptions& options, const Tile& tile, int across,
+                         double area);
+
     Field<double> height_; ///< empty with options.slides
     std::optional<SlidingMap> sliding_;
-    Field<double> factor_; ///< factor of the law of each site; empty: one law for all
+    Field<double> factor_;    ///< factor of the law of each site; empty: one law for all
+    Field<double> yield_gap_; ///< WallMaps::yield_gap; empty: no site yields
+    Field<double> set_;       ///< permanent set, Å
     WallLaw law_;
 };
 

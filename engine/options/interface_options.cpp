@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/options/interface_options.hpp"
 
+#include "engine/units.hpp"
+
 #include <cmath>
 #include <variant>
 
@@ -19,13 +21,13 @@ SiteMap SiteMap::corner(int across) const {
 
 std::vector<std::shared_ptr<const SiteMap>> InterfaceOptions::site_maps() const {
     std::vector<std::shared_ptr<const SiteMap>> maps;
-    for (const auto& map : {adhesion})
+    for (const auto& map : {adhesion, hardness_map})
         if (map) maps.push_back(map);
     return maps;
 }
 
 void InterfaceOptions::crop_site_maps(int across) {
-    for (auto* const map : {&adhesion})
+    for (auto* const map : {&adhesion, &hardness_map})
         if (*map) *map = std::make_shared<SiteMap>((*map)->corner(across));
 }
 
@@ -38,6 +40,18 @@ double InterfaceOptions::adhesion_factor(int x, int y) const {
             return 1.0;
         },
         *wall);
+}
+
+double InterfaceOptions::hardness_at(int x, int y) const {
+    return hardness_map ? hardness_map->at(x, y) * units::gigapascal : hardness.value();
+}
+
+double InterfaceOptions::mean_hardness() const {
+    if (!hardness_map) return hardness.value();
+    double sum = 0.0;
+    for (const double value : hardness_map->values)
+        sum += value;
+    return units::gigapascal * sum / static_cast<double>(hardness_map->values.size());
 }
 
 WallLaw mean_wall(const InterfaceOptions& options) {

@@ -51,6 +51,11 @@ struct InterfaceOptions {
     /// nullptr: the wall's for all sites.
     std::shared_ptr<const SiteMap> adhesion = {};
     double mean_adhesion_factor = 1.0; ///< mean of adhesion_factor() over the sites
+    /// Largest net pressure of a site over the wall, eV/Å^3, of all sites without hardness_map;
+    /// empty: no site yields.
+    std::optional<double> hardness = {};
+    /// Hardness of each site, GPa; nullptr: `hardness` for all sites.
+    std::shared_ptr<const SiteMap> hardness_map = {};
     PairPotential potential;
     /// Potentials by AtomPositions::type; empty: `potential` for all atoms.
     std::vector<PairPotential> by_type = {};
@@ -71,6 +76,10 @@ struct InterfaceOptions {
     void crop_site_maps(int across);
     /// Returns the factor of the attraction of site (x, y) over the wall (kernels/wall_law.hpp).
     double adhesion_factor(int x, int y) const;
+    /// Returns the hardness of site (x, y) of the box, eV/Å^3. Requires `hardness`.
+    double hardness_at(int x, int y) const;
+    /// Returns the mean hardness of the sites of the box, eV/Å^3. Requires `hardness`.
+    double mean_hardness() const;
 
     /// Returns the potentials by type.
     PairTable pairs() const {

@@ -49,6 +49,9 @@ struct SegmentResults {
     std::optional<double> scatter; ///< scatter of a force averaged over thermal noise, eV/Å
     std::array<double, 2> slide{}; ///< Å
     long long in_contact = 0;      ///< sites
+    YieldState yielding;
+    // Heights of a surface that yields, less its set: rms, Å, and rms slope, by differences.
+    double yielded_rms = 0.0, yielded_slope = 0.0;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -68,6 +71,9 @@ struct SegmentResults {
         v("top", top);
         v("slide", slide);
         v("in_contact", in_contact);
+        v("yielding", yielding);
+        v("yielded_rms", yielded_rms);
+        v("yielded_slope", yielded_slope);
     }
 };
 
@@ -125,6 +131,7 @@ struct PathResults {
         r.top = now.top;
         r.slide = now.slide;
         r.in_contact = now.in_contact;
+        r.yielding = now;
         return r;
     }
 

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/static_path.hpp"
 
+#include "decomposition/halo_exchange.hpp"
+#include "engine/scene/map_statistics.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 namespace asperity {
 
@@ -14,6 +19,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
     : Path(c, surface), grid_(c.grid(ranks.rank())),
       interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, !c.effects.lateral) {
+    remember_set(block_, interface_);
     before_first_.mean_height = interface_.reference_height();
 }
 
@@ -124,6 +130,32 @@ void StaticPath::conclude() {
         works.steady = results_.slide.means(lengths());
     }
     ledger_.conclude(segment(), now(), works, {});
+    if (interface_.yielding_wall()) look_at_heights();
+}
+
+/// Adds the statistics of the yielded heights to the results of the last segment.
+void StaticPath::look_at_heights() {
+    const PlaneView<const double> u = block_.lowest_layer().z;
+    Field<double> below(grid_.tile(0), 1, 0);
+    for (int y = 0; y < u.ny; ++y)
+        for (int x = 0; x < u.nx; ++x)
+            below.plane(0)(x, y) = interface_.wall()->below(x, y);
+    std::vector<double> heights =
+        gather_plane(communicator(), grid_, 0, std::as_const(below).plane(0));
+    std::array<double, 2> values{};
+    communicator().on_root([&] {
+        const int n = interface_.sites_across();
+        crop_map(heights, interface_.tile().sites, n);
+        const auto across = static_cast<std::size_t>(n);
+        const double a = block_.options().spacing;
+        const MapStatistics s =
+            map_statistics(heights, across, across, a, a, !case_.effects.free_edges);
+        values = {s.rms_height, s.rms_slope};
+    });
+    communicator().broadcast(values);
+    SegmentResults& ended = results_.segments.back();
+    ended.yielded_rms = values[0];
+    ended.yielded_slope = values[1];
 }
 
 std::string StaticPath::position() const {

@@ -73,6 +73,7 @@ private:
     }
     /// Updates results.edge_distance with the present contact. Collective.
     void look_at_edges();
+    void look_at_heights();
 
     const ProcessGrid grid_;
     Interface interface_;

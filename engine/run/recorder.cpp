@@ -259,6 +259,10 @@ io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
     put("gap", gap);
     put("pressure", of_box(whole(ranks, grid, maps.pressure)));
     put("distance", of_box(whole(ranks, grid, maps.distance)));
+    if (interface.yielding_wall()) {
+        put("set", of_box(whole(ranks, grid, maps.set)));
+        put("yielded_height", of_box(whole(ranks, grid, maps.yielded_heights)));
+    }
     for (const auto& [name, values] : maps.of_sites)
         put(name.c_str(), of_box(whole(ranks, grid, values)));
     put("u_x", of_box(gather_plane(ranks, grid, 0, layer.x)));

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/run_result.hpp"
 
+#include "engine/case/spacing_limits.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/run/series.hpp"
+#include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -42,10 +44,7 @@ void add_zero_load(const ZeroLoad& z, io::Result& result) {
     result.set("binding_energy_uncertainty", z.uncertainty);
     result.set("pair_binding_energy", z.pairwise);
     result.set("contact_fraction", z.contact_fraction);
-    if (z.contact_area) {
-        result.set("contact_area", *z.contact_area);
-        result.set("contact_area_uncertainty", 0.5 * (z.contact_fraction - *z.contact_area));
-    }
+    if (z.contact_area) result.set("contact_area", *z.contact_area);
     result.set("repulsive_fraction", z.repulsive_fraction);
     result.set("relaxed.elastic_energy", z.elastic);
     result.set("relaxed.mean_height", z.mean_height);
@@ -84,6 +83,36 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     };
     if (in) result.set("jkr.approach", as_work(in->attraction));
     if (out) result.set("jkr.pull_off", as_work(out->attraction));
+}
+
+/// Share of a number that is its error by the spacing: of the excess of the sites in contact over
+/// the area in contact, and of the excess of Case::edge_pinning over 1, as measured
+/// (docs/reports/mesh.md).
+struct MeshRule {
+    io::Key number, error;
+    double edges, pinning;
+};
+constexpr MeshRule mesh_rules[] = {
+    {"contact_area", "contact_area_uncertainty", 0.6, 1.0},
+    {"binding_energy", "mesh_error.binding_energy", 0.03, 0.05},
+    {"work_of_drive.approach", "mesh_error.work_of_drive.approach", 0.08, 0.6},
+    {"work_of_drive.pull_off", "mesh_error.work_of_drive.pull_off", 0.08, 0.9},
+    {"approach_force", "mesh_error.approach_force", 0.25, 1.2},
+    {"pull_off_force", "mesh_error.pull_off_force", 0.25, 1.7}};
+
+/// Adds the errors by the spacing of a continuum over a wall. The rule takes edges of contacts from
+/// the state at zero load. Where single rows hold the edge, no rule tells the error.
+void add_mesh_errors(const Case& c, io::Result& result) {
+    const auto counted = result.number("contact_fraction"), area = result.number("contact_area");
+    if (!counted || !area || c.edge_pinning > largest_edge_pinning) return;
+    const double edges = *area > 0.0 ? *counted / *area - 1.0 : 0.0, pinning = c.edge_pinning - 1.0;
+    for (const MeshRule& rule : mesh_rules) {
+        const auto value = result.number(rule.number);
+        const bool of_lattice = !c.simulation.block.continuum; // its waves are too soft
+        if (!value || (of_lattice && rule.number.name != "contact_area")) continue;
+        result.set(rule.error,
+                   std::abs(*value) * std::hypot(rule.edges * edges, rule.pinning * pinning));
+    }
 }
 
 /// Adds the results of a curved scene at zero load: contact radius, and binding energy by JKR.
@@ -156,9 +185,31 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
+        if (c.effects.yielding) {
+            result.set("segments[].yielding_fraction", i, c.fraction(s.yielding.at_hardness));
+            result.set("segments[].mean_set", i, s.yielding.mean_set);
+            result.set("segments[].largest_set", i, s.yielding.largest_set);
+        }
         if (c.effects.sliding)
             result.set("segments[].slide", i, std::vector{s.slide[0], s.slide[1]});
     }
+}
+
+/// Adds what a surface that yields was, and has become at the end of the last segment.
+void add_yielding(const Case& c, const Surface& surface, const PathResults& results,
+                  io::Result& result) {
+    const auto& map = c.simulation.interface.hardness_map;
+    const double softest =
+        map ? map->least : c.simulation.interface.mean_hardness() / units::gigapascal;
+    result.set("yielding.tension_over_hardness", c.largest_tension / softest);
+    if (results.segments.empty()) return;
+    const auto n = static_cast<std::size_t>(surface.sites);
+    const double a = c.simulation.block.spacing;
+    const MapStatistics before = map_statistics(surface.height, n, n, a, a, !c.effects.free_edges);
+    result.set("yielding.rms_before", before.rms_height);
+    result.set("yielding.rms_after", results.segments.back().yielded_rms);
+    result.set("yielding.slope_before", before.rms_slope);
+    result.set("yielding.slope_after", results.segments.back().yielded_slope);
 }
 
 void add_dissipation(const PathResults& results, const Case& c, io::Result& result) {
@@ -227,8 +278,10 @@ io::Result run_result(const Case& c, const Surface& surface, const PathResults& 
     result.set("box.flat_loss", c.flat_loss());
     add_path(results, c, result);
     if (results.zero_load) add_zero_load(*results.zero_load, result);
+    add_mesh_errors(c, result);
     if (!results.segments.empty()) add_segments(results, c, result);
     if (results.dissipated) add_dissipation(results, c, result);
+    if (c.effects.yielding) add_yielding(c, surface, results, result);
     add_theory(c, surface, result);
     add_sphere(c, result);
     if (c.in_newtons() && results.dissipated)

@@ -138,18 +138,10 @@ double works_in_cycle(const PathResults& results) {
     return sum;
 }
 
-/// Prints what the losses of a quasi-static path leave out, and whether they are those of the box.
+/// Prints whether the losses of a quasi-static path are those of the box.
 void print_limits_of_losses(std::FILE* to, const Case& c) {
-    if (c.effects.dynamic) return;
+    if (c.effects.dynamic || !c.box_jumps()) return;
     const Form form(c);
-    const double least = c.tolerance * c.sites() * c.simulation.drive.displacement_step;
-    io::print_text(
-        to,
-        "  Of the energy lost, jumps of less than about {} in a step are left out "
-        "(drive.tolerance for each site and Å): in a large box small patches jump unseen, "
-        "and the energy lost is too small.\n",
-        form.with_unit(units::milli_per_unit * least / c.area()));
-    if (!c.box_jumps()) return;
     const std::optional<double> loss = c.flat_loss();
     io::print_text(to,
                    "  The longest waves of the box jump, however smooth the surfaces are: works "
@@ -232,6 +224,32 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                            "(block.thickness) less so.\n");
 }
 
+/// Prints what became of a surface that yields.
+void print_yielding(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of) {
+    const Form form(c);
+    const SegmentResults& most =
+        *std::max_element(results.segments.begin(), results.segments.end(),
+                          [](const SegmentResults& a, const SegmentResults& b) {
+                              return a.yielding.at_hardness < b.yielding.at_hardness;
+                          });
+    const YieldState& last = results.segments.back().yielding;
+    io::print_text(
+        to,
+        "  The surface yields: {} % of its sites are at the hardness at the end of \"{}\". At the "
+        "end the mean set is {}, the largest {} {}, and the rms slope has become {} (before {}). "
+        "The plastic work is the energy dissipated in the surface. A cap on the pressure: no "
+        "pile-up and no hardening.\n",
+        io::number(100.0 * c.fraction(most.yielding.at_hardness), 2), c.path()[most.number].text,
+        form.height(last.mean_set), form.height(last.largest_set), form.unit_of_height(),
+        io::number(*of("yielding.slope_after"), 4), io::number(*of("yielding.slope_before"), 4));
+    if (const double tension = *of("yielding.tension_over_hardness"); tension > 1.0)
+        io::print_text(to,
+                       "  The largest tension of flat surfaces is {} times the hardness: beside "
+                       "contacts the attraction is more than such a solid bears, and tension does "
+                       "not yield here.\n",
+                       io::number(tension, 2));
+}
+
 /// Returns the number and the first words of a segment: "1 slide x 128 nm".
 std::string short_name(const Case& c, const SegmentResults& s) {
     std::string text = c.path()[s.number].text;
@@ -270,6 +288,13 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                     [&](const SegmentResults& s) { return form.height(s.mean_height); }});
     rows.push_back(
         {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
+    if (c.effects.yielding) {
+        rows.push_back({"at the hardness", [&](const SegmentResults& s) {
+                            return number(c.fraction(s.yielding.at_hardness), 4);
+                        }});
+        rows.push_back({form.named("mean set", "segments[].mean_set"),
+                        [&](const SegmentResults& s) { return form.height(s.yielding.mean_set); }});
+    }
     if (c.effects.sliding)
         rows.push_back(
             {newtons ? std::string("friction, nN") : form.named("friction", "segments[].friction"),
@@ -397,6 +422,12 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
     const bool anywhere = c.surface.kind == SurfaceKind::atoms;
     const std::string flat_text =
         fmt::format("  over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
+    const auto of_mesh = [](const std::string& error) {
+        return error == "-" ? std::string("not included") : error;
+    };
+    const auto error_of_force = [&](Number v) {
+        return v ? fmt::format("{:.1e}", *v / (c.in_newtons() ? units::nanonewton : 1.0)) : "-";
+    };
     const auto over_flat = [&](Number v) {
         return number(v && flat != 0.0 ? Number(*v / flat) : Number(), 4);
     };
@@ -409,6 +440,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         if (!form.is_whole()) table.row({flat_text, over_flat(state)});
         table.row({fmt::format("  convergence, {}", form.unit_of_uncertainty()),
                    form.uncertainty(of("binding_energy_uncertainty"))});
+        if (c.has_mesh())
+            table.row({fmt::format("  mesh, {}", form.unit_of_uncertainty()),
+                       of_mesh(form.uncertainty(of("mesh_error.binding_energy")))});
         row("energy of the pairs alone", "pair_binding_energy",
             form.energy(of("pair_binding_energy")));
         row("elastic energy stored", "relaxed.elastic_energy",
@@ -416,7 +450,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("contact fraction", "contact_fraction", number(of("contact_fraction"), 4));
         if (of("contact_area"))
             row("  area, less half sites of its edges", "contact_area",
-                io::with_error(*of("contact_area"), *of("contact_area_uncertainty")));
+                of("contact_area_uncertainty")
+                    ? io::with_error(*of("contact_area"), *of("contact_area_uncertainty"))
+                    : number(of("contact_area"), 4));
         row("repulsive sites, fraction", "repulsive_fraction", number(of("repulsive_fraction"), 4));
         fmt::print(to, "\n");
         table.print(to);
@@ -448,6 +484,12 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             table.row({fmt::format("convergence of the above, {}", form.unit_of_uncertainty()),
                        form.uncertainty(of("work_of_drive.uncertainty.approach")),
                        form.uncertainty(of("work_of_drive.uncertainty.pull_off"))});
+        const Number mesh_in = of("mesh_error.approach_force"),
+                     mesh_out = of("mesh_error.pull_off_force");
+        if (c.has_mesh() && (drive_in || drive_out))
+            table.row({fmt::format("mesh, {}", form.unit_of_uncertainty()),
+                       of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
+                       of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off")))});
         if (c.in_newtons())
             table.row({form.named("largest attraction", "instrument.pull_off_force"),
                        number(of("instrument.approach_force"), 3),
@@ -455,6 +497,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         else
             table.row({form.named("largest attraction", "pull_off_force"),
                        number(of("approach_force"), 1), number(of("pull_off_force"), 1)});
+        if (c.has_mesh())
+            table.row(
+                {"  mesh", of_mesh(error_of_force(mesh_in)), of_mesh(error_of_force(mesh_out))});
         const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
         if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
             table.row({"  as a JKR sphere, meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out)});
@@ -501,6 +546,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             "a wider box (surface.sites).\n",
             io::cell(*edge));
     if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
+    if (c.effects.yielding && !results.segments.empty()) print_yielding(to, c, results, of);
     if (const Number residual = of("energy.balance_error")) {
         std::string losses = of("dissipated.energy") ? "dissipated" : "damped";
         for (const io::EnergyTerm& row : io::energy_terms)
@@ -514,9 +560,12 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             std::abs(*residual));
     }
     if (state || drive_in)
-        io::print_text(
-            to, "  Convergence: residual error of the solver. Cutoff, spacing, thickness, width, "
-                "velocity and the choice of the surface are not included: asperity estimate.\n");
+        io::print_text(to,
+                       "  Convergence: residual error of the solver.{} Cutoff, {}thickness, width, "
+                       "velocity and "
+                       "the choice of the surface are not included: asperity estimate.\n",
+                       c.has_mesh() ? " Mesh: error by the spacing, by rule." : "",
+                       c.has_mesh() ? "" : "spacing, ");
     io::print_text(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

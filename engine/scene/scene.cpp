@@ -416,6 +416,16 @@ io::Schema bind(Scene& scene) {
             "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
             "10 nm\""),
         interface.adhesion_map, needs.adhesion);
+    bind_site_map(
+        schema,
+        schema.number_or_text(
+            "hardness", interface.hardness, interface.hardness_map.source, "none", "GPa",
+            positive(), "map.npy",
+            "largest net pressure of a site over a wall on a quasi-static path: a site at the "
+            "hardness takes a permanent set (a cap on the pressure, without pile-up and "
+            "hardening); \"none\": the surface does not yield. A value for each site as for "
+            "adhesion"),
+        interface.hardness_map, needs.yielding);
     schema
         .number("range", interface.range, "Å", positive(),
                 "range of the laws except smeared and table")

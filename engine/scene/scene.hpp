@@ -152,6 +152,11 @@ struct Scene {
         SiteMapKeys adhesion_map{
             {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
              "a work of adhesion is zero or more: a site repels at contact alone"}};
+        /// Largest net pressure of a site over a wall, GPa; empty: no site yields.
+        std::optional<double> hardness;
+        /// Hardness of each site; in a case `hardness` is the largest.
+        SiteMapKeys hardness_map{{"hardness", "hardness", "pressure", "GPa", "1 GPa", "3 GPa",
+                                  "a hardness is above zero"}};
         double range = 1.0;    ///< range, Å; laws except "smeared" and "table"
         double exponent = 3.0; ///< exponent of the law "power"
         /// Stiffness of the repulsion, GPa/Å, of laws whose shape begins at contact; empty: derived
@@ -162,7 +167,7 @@ struct Scene {
         /// Returns the keys that are maps of the sites.
         std::vector<const SiteMapKeys*> site_maps() const {
             std::vector<const SiteMapKeys*> given;
-            for (const SiteMapKeys* map : {&adhesion_map})
+            for (const SiteMapKeys* map : {&adhesion_map, &hardness_map})
                 if (map->given()) given.push_back(map);
             return given;
         }

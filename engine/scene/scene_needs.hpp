@@ -43,6 +43,10 @@ struct Needs {
                            "take interface.kind = \"wall\" and another interface.law than "
                            "\"smeared\"",
                            {"interface.kind", "interface.law"});
+    Need yielding = refusing(
+        {[this] { return scene.interface.kind == InterfaceKind::wall; }, ""}, "without a wall",
+        "a surface that yields is a wall, whose pressure has a cap; atoms have none",
+        "take interface.kind = \"wall\" and drive.mode = \"quasistatic\", or leave it out");
     Need touched = acting(
         {[this] { return scene.interface.has_adhesion() && !scene.interface.shape_repels(); },
          "there is no wall with a law that begins where it is touched"},

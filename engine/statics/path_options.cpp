@@ -20,6 +20,8 @@ PathOptions path_options(const Case& c, const Interface& interface,
     o.load = c.simulation.drive.load_force;
     if (c.effects.branches) o.velocity = c.simulation.drive.velocity;
     o.over_wall = interface.wall() != nullptr;
+    if (c.simulation.interface.hardness)
+        o.yield_force = c.simulation.interface.mean_hardness() * c.area();
     o.report = std::move(report);
     const double flat = c.flat.work_of_adhesion / units::milli_per_unit;
     if (flat > 0.0) o.binding_energy = flat * c.area();

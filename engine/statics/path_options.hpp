@@ -10,6 +10,7 @@
 #include "engine/waves/constraint.hpp"
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace asperity {
@@ -25,13 +26,16 @@ struct PathOptions {
     /// Binding energy of flat surfaces of the area of the box, eV; empty if they do not attract.
     std::optional<double> binding_energy = {};
     bool over_wall = false; ///< the substrate is a wall
+    /// Force under which the whole surface yields, eV/Å; infinite: it does not yield.
+    double yield_force = std::numeric_limits<double>::infinity();
     /// Called during relaxations with the iteration and the residual, eV/Å. Returns true to stop.
     std::function<bool(long long, double)> report;
 
     /// Returns true if the solids attract each other.
     bool attracts() const { return binding_energy.has_value(); }
-    /// Returns true if only one state exists at each position, so that nothing is dissipated: the
-    /// energy of an elastic block over a purely repulsive wall is convex.
+    /// Returns true if only one state exists at each position, so that nothing is dissipated at
+    /// instabilities: the energy of an elastic block over a purely repulsive wall is convex, with
+    /// the plastic work of a step as well.
     bool reversible() const { return over_wall && !attracts() && !(velocity > 0.0); }
 };
 

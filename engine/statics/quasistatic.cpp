@@ -97,6 +97,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             continue;
         }
         if (state.converged) {
+            refuse_whole_yield(state, t.there);
             const StepDecision step = judge(state, t);
             // A force that has fallen further than was known asks for a smaller tolerance.
             const bool loose = !t.last && 2.0 * tolerance_at(state.force) < t.tolerance;
@@ -292,7 +293,9 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     Energies flows;
     flows.take_flows(state); // losses of memories in the step
     flows[Term::work] = step.work + pressed;
-    flows[Term::lost] = step.dissipated;
+    const bool jumped = step.verdict == StepDecision::jump;
+    flows[Term::lost] = jumped ? step.lost : std::max(0.0, owed_ + step.lost);
+    if (!jumped) owed_ = std::min(0.0, owed_ + step.lost);
     course_.flows += flows;
     record_ += flows;
     record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
@@ -300,20 +303,21 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     if (step.of_energies) course_.work_left_out += step.gap;
     // An extension that is wrong acts on with the larger ones that follow: twice.
     course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
+    if (!jumped) course_.errors.add_smooth(step.lost);
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
         course_.errors.add_instability(at, way, step.uncertain,
-                                       step.smooth ? 0.0 : step.dissipated);
+                                       jumped && !step.smooth ? step.lost : 0.0);
     if (options_.velocity > 0.0) record_.time += time_of(way);
     if (course_.along != Along::time) way_ += way;
     refuse_to_creep(way);
-    if (step.dissipated > 0.0) {
-        dissipation_.add(describe(state, step.dissipated));
-        if (!is_short_in_time(way)) dissipation_.not_followed += step.dissipated;
-        dissipation_.total = record_[Term::lost];
+    if (jumped) {
+        dissipation_.add(describe(state, step.lost));
+        if (!is_short_in_time(way)) dissipation_.not_followed += step.lost;
     }
+    dissipation_.total = record_[Term::lost];
     const double force = point(state, at).force;
-    const bool same_branch = step.smooth && step.dissipated == 0.0;
+    const bool same_branch = step.smooth && !jumped;
     if (same_branch)
         trail_.add(at, force);
     else

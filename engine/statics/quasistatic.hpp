@@ -22,9 +22,9 @@
 // U_el, unless the block became unstable in between and changed to another state: the missing
 // energy was then dissipated. A step from the last point is tried and
 //
-//   accepted  if no energy is missing;
-//   accepted, and the missing energy counted as dissipated, if the work is known well enough: the
-//             force is smooth, or its jump times the step is too small to matter;
+//   accepted  if hardly any energy is missing;
+//   accepted, as an instability, if the work is known well enough: the force is smooth, or its jump
+//             times the step is too small to matter;
 //   halved    otherwise, and tried again from the last point. The place and force of the failed try
 //             are kept: they bound the distance to the instability.
 //
@@ -35,9 +35,12 @@
 // halved if the force misses this slope by too much. This does not find all instabilities
 // (docs/explanation/relaxation.md). As long as the place of a failed try is kept, steps go half of
 // the way to that place. A relaxation whose force jumps by more than its step allows is abandoned:
-// with few exceptions the step would be halved anyway. Missing energy counts as none up to
-// drive.tolerance per site and Å of the step, which bounds the error of the energy on the whole
-// path; points are therefore relaxed to a quarter of the tolerance. The tolerance grows with a
+// with few exceptions the step would be halved anyway. Steps are
+// accepted in which up to drive.tolerance per site and Å of the step is missing: errors of the
+// work, which have both signs, and losses of patches that are small beside the box, which have one.
+// Both are summed, so that the energy lost does not depend on the size of the box; energy that is
+// gained without work is taken from the losses that follow, so that the energy lost never falls.
+// Points are relaxed to a quarter of the tolerance. The tolerance grows with a
 // pressing force that exceeds the scale of forces, and with the load to which a segment leads
 // without attraction. decide() (step_decision.hpp) chooses between accepting and halving.
 //
@@ -63,6 +66,10 @@
 #include <vector>
 
 namespace asperity {
+
+/// Gives a block over a surface that yields the memory of its set (plastic_set.hpp). Keeps
+/// references to both.
+void remember_set(SpectralBlock& block, Interface& interface);
 
 /// A quasi-static path of a block over an interface.
 class QuasistaticPath {
@@ -223,6 +230,8 @@ private:
     Outcome come_to_rest();
     Outcome settle();
     void refuse_to_creep(double way);
+    /// Throws io::PhysicsError if the mean pressure of a state is the hardness.
+    void refuse_whole_yield(const RelaxedState& state, double at) const;
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
     double load() const { return course_.load.value_or(options_.load); }
@@ -281,7 +290,8 @@ private:
     Dissipation dissipation_;
     double strongest_ = 0.0; ///< strongest attraction so far, eV/Å
     Balance balance_;
-    double way_ = 0.0; ///< length of the path so far, Å
+    double owed_ = 0.0; ///< energy gained without work, below zero, eV: the next losses pay it
+    double way_ = 0.0;  ///< length of the path so far, Å
 };
 
 template <class Visitor>
@@ -295,6 +305,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("dissipation", dissipation_);
     v("strongest", strongest_);
     v("balance", balance_);
+    v("owed", owed_);
     v("way", way_);
 }
 

@@ -5,6 +5,7 @@
 #include "engine/statics/quasistatic.hpp"
 
 #include "decomposition/global_sum.hpp"
+#include "engine/interface/plastic_set.hpp"
 #include "io/error.hpp"
 #include "kernels/elastic_level.hpp"
 
@@ -38,6 +39,16 @@ void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
                            fmt::format("after {} iterations {}", state.iterations,
                                        why_not_converged(state, last_.tolerance())),
                            "a larger drive.tolerance, or a height further from the substrate");
+}
+
+void QuasistaticPath::refuse_whole_yield(const RelaxedState& state, double at) const {
+    constexpr double nearly = 1.0 - 1e-6;
+    if (state.force < nearly * options_.yield_force) return;
+    throw io::PhysicsError(
+        fmt::format("the mean pressure has reached the hardness with the {} displaced by {:.6g} Å",
+                    options_.along == Constraint::Of::top ? "top plane" : "mean height", at),
+        "the whole surface yields (interface.hardness), and nothing ends its set",
+        "a smaller load, a height further from the substrate, or a larger hardness");
 }
 
 /// Counts the points that are as close together as points can be, and throws if there are more in a
@@ -102,6 +113,9 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
     now.take_flows(record_);
     static_cast<Energies&>(record_) = now;
     static_cast<ContactCount&>(record_) = state;
+    if (interface_.yielding_wall())
+        static_cast<YieldState&>(record_) =
+            yield_state(interface_, block_.lowest_layer(), block_.communicator());
     // The balance says nothing of small energies: those below an eightieth of the work of the scale
     // of forces on the way so far and a step more, or below a twentieth of flat surfaces'. Neither
     // depends on the tolerance.

@@ -6,6 +6,7 @@
 
 #include "decomposition/global_sum.hpp"
 #include "engine/case/flat_reference.hpp"
+#include "engine/interface/plastic_set.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 #include "kernels/elastic_level.hpp"
@@ -15,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -28,6 +30,8 @@ namespace {
 /// largest attraction. Collective.
 void refuse_deep(double height, const Interface& interface, const SpectralBlock& block,
                  const Scales& scales) {
+    if (interface.yielding_wall())
+        return; // the pressure has a bound, which refuse_whole_yield() tells
     const BlockOptions& options = block.options();
     const double n = options.sites, area = options.spacing * options.spacing;
     double mean = 0.0;
@@ -67,6 +71,12 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
 
 } // namespace
 
+void remember_set(SpectralBlock& block, Interface& interface) {
+    if (!interface.yielding_wall()) return;
+    block.add_memory(std::make_unique<PlasticSet>(interface, block.communicator(),
+                                                  [&block] { return block.lowest_layer(); }));
+}
+
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)
     : block_(block), interface_(interface), options_(std::move(options)),
       sites_(static_cast<double>(interface.tile().sites) * interface.tile().sites),
@@ -97,6 +107,7 @@ void QuasistaticPath::first_point(double top, Here here) {
     record_.step = 0;
     record_[Term::work] = here.from_apart ? state.stored() : 0.0;
     balance_.begin(state.stored() - record_[Term::work]);
+    owed_ = 0.0;
     set_record(state, top);
     trail_.begin(top, state.top_force);
     if (!here.from_apart) turn();

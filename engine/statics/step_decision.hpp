@@ -35,15 +35,18 @@ struct StepDecision {
     /// Fate of the tried point.
     enum Verdict {
         halve,  ///< the step is tried again from the last point, half as long
-        accept, ///< no energy is missing
-        jump,   ///< accepted, and the energy that is missing was dissipated
+        accept, ///< accepted, without an instability that could be told from the others
+        jump,   ///< accepted, and the block became unstable in the step
     };
     Verdict verdict = halve;
-    double work = 0.0;        ///< work of the top plane in this step: of the forces or, in a long
-                              ///< step in time, the energy gained and dissipated, eV
-    double dissipated = 0.0;  ///< energy dissipated at an instability, eV
-    double gap = 0.0;         ///< work of the forces less energy gained and dissipated, eV
-    double uncertain = 0.0;   ///< uncertainty of the work if energy is missing, eV
+    double work = 0.0; ///< work of the top plane in this step: of the forces or, in a long
+                       ///< step in time, the energy gained and dissipated, eV
+    /// Energy lost: work of the forces less energy gained, eV. Below zero it is an error of the
+    /// work.
+    double lost = 0.0;
+    double gap = 0.0;         ///< work of the forces less energy gained, if the work is not theirs,
+                              ///< eV
+    double uncertain = 0.0;   ///< uncertainty of the work of a step that passes an instability, eV
     bool smooth = true;       ///< the force did not jump
     bool excess = false;      ///< the energy gained exceeds the work and its uncertainty
     bool coarse = false;      ///< the step is halved because of the error of the time step
@@ -62,8 +65,10 @@ inline StepDecision reversible_step(const PathPoint& last, const PathPoint& tria
     return d;
 }
 
-/// Decides on the step from `last` to `trial`: accepted, accepted with the missing energy counted
-/// as dissipated, or halved. trail: forces of the points so far.
+/// Decides on the step from `last` to `trial`: accepted, accepted as an instability, or halved. All
+/// energy that is missing in an accepted step is lost, however small: patches that jump unseen lose
+/// as much for each site in a box of any size. The errors of the works of smooth steps have both
+/// signs and cancel. trail: forces of the points so far.
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
                            const StepLimits& limits) {
     const double gained = trial.energy - last.energy;
@@ -82,16 +87,14 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     if (std::abs(missing) <= limits.missing && !hides) {
         d.coarse = limits.in_time > limits.missing && !limits.last_try;
         if (!d.coarse) d.verdict = StepDecision::accept;
-        d.gap = missing;
         // In a long step in time energies and dissipation are of fourth order in the step, the
         // forces at its ends of second.
         d.of_energies = !limits.short_in_time;
+        (d.of_energies ? d.gap : d.lost) = missing;
         if (d.of_energies) d.work = gained;
         return d;
     }
     d.coarse = !limits.short_in_time;
-    // Missing energy below the uncertainty of the work and the limit is not counted as dissipated:
-    // it shows in the residual.
     d.uncertain = integral.error;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;
@@ -101,11 +104,10 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         known = d.uncertain <= limits.uncertain;
     }
     const double least = d.uncertain + limits.missing;
-    if (d.work - gained > least) d.dissipated = d.work - gained;
-    d.gap = d.work - gained - d.dissipated;
-    d.excess = gained - d.work > least;
+    d.lost = d.work - gained;
+    d.excess = -d.lost > least;
     if ((known && !d.excess && limits.short_in_time) || limits.last_try)
-        d.verdict = d.dissipated > 0.0 ? StepDecision::jump : StepDecision::accept;
+        d.verdict = d.lost > least ? StepDecision::jump : StepDecision::accept;
     return d;
 }
 

@@ -36,7 +36,7 @@ public:
         const OverWall& wall = *interface.wall();
         const double reference = interface.reference_height();
         for_sites([&](int x, int y) {
-            const double below = wall.height()(x, y);
+            const double below = wall.below(x, y);
             const double h =
                 std::isnan(below) ? 0.0 : wall.stiffness_at(x, y, reference + u_(x, y) - below);
             h_.plane(0)(x, y) = h;

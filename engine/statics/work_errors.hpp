@@ -3,6 +3,12 @@
 //
 // Errors of the work of a segment of a quasi-static path and of the energy that it has dissipated.
 //
+// In a smooth step the work of the forces is that of a polynomial through them. What a step misses
+// of it, work less energy gained, is energy lost or an error of this work. Both are summed as lost.
+// Losses of many small patches hardly change from step to step; the errors do. Their variance is
+// taken from the differences of following steps. Energy that a step gains beyond its work can only
+// be an error, and as much hides among the losses.
+//
 // The work of a step h that passes an instability is uncertain by half of h times the jump of the
 // force. The relaxation also starts up to h beyond the instability: a second patch that becomes
 // unstable within h separates together with the first, and a patch that would have held beyond h
@@ -23,8 +29,14 @@ class WorkErrors {
 public:
     /// Begins a new segment.
     void begin() { *this = {}; }
-    /// Adds the error of the energy balance of a step, eV.
+    /// Adds an error of the energy of a step, eV.
     void add_gap(double gap) { gap_ += std::abs(gap); }
+    /// Adds a smooth step. missing: work less energy gained, eV.
+    void add_smooth(double missing) {
+        gap_ += std::max(0.0, -missing);
+        squares_ += 2.0 * (missing - missing_) * (missing - missing_); // 4 halves of the square
+        missing_ = missing;
+    }
     /// Adds a step with an instability. at: end of the step, Å; step: its length, Å; uncertain:
     /// uncertainty of its work, eV; dissipated: energy dissipated, eV.
     void add_instability(double at, double step, double uncertain, double dissipated) {
@@ -36,9 +48,10 @@ public:
         squares_ += 4.0 * another * dissipated * dissipated;
         ++before_;
     }
-    /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of
-    /// three times the uncertainties of works (which are not independent) and of two standard
-    /// deviations of the dissipated energies.
+    /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of two
+    /// standard deviations of the works of smooth steps, of three times the uncertainties of the
+    /// works of others (which are not independent) and of two standard deviations of the dissipated
+    /// energies.
     double total() const { return gap_ + std::sqrt(squares_); }
 
     template <class Visitor>
@@ -47,6 +60,7 @@ public:
         v("squares", squares_);
         v("first", first_);
         v("before", before_);
+        v("missing", missing_);
     }
 
 private:
@@ -54,6 +68,7 @@ private:
     double squares_ = 0.0; ///< sum of squares, eV^2
     double first_ = 0.0;   ///< place of the first instability, Å
     double before_ = 0.0;  ///< number of instabilities so far
+    double missing_ = 0.0; ///< what the last smooth step missed, eV
 };
 
 } // namespace asperity

@@ -151,6 +151,8 @@ public:
     StepEnergies energies() const;
     /// Returns what the block remembers beside its displacements.
     const std::vector<std::unique_ptr<Memory>>& memories() const { return memories_; }
+    /// Adds a memory that is no part of the block, as that of its surface.
+    void add_memory(std::unique_ptr<Memory> memory) { memories_.push_back(std::move(memory)); }
 
     /// Adds t d to the displacement. d: the same field as waves and at the sites, Å.
     void displace(double t, const Waves<float>& d, const SiteField<float>& at_sites);

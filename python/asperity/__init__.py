@@ -55,10 +55,13 @@ if TYPE_CHECKING:
     from .running.engine import Simulation as Simulation, State as State, Statics as Statics
     from .studies.states import states as states
 
-_LAZY = {**dict.fromkeys(("Adhesion", "Estimate", "Result", "Stress", "Sweep", "adhesion", "estimate", "load", "load_estimate",
-                          "load_sweep", "prony", "run", "stress", "sweep", "Tip", "tip"), ".forms"),
-         **dict.fromkeys(("check", "convert", "cost", "defaults", "export", "plan", "surface", "theory"), ".functions"),
-         "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states"}
+_LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".forms", "estimate": ".forms", "load_estimate": ".forms",
+         "adhesion": ".forms", "tip": ".forms", "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
+         "Estimate": ".forms", "Adhesion": ".forms",
+         "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
+         "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".functions",
+         "cost": ".functions", "convert": ".functions", "prony": ".forms", "export": ".functions"}
+"""Where each name is, in the order of the reference."""
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName", "WrongCall",

@@ -3,7 +3,7 @@
 """Names of arguments: the words of a scene's keys, on the command line and in Python, with shorter ones as aliases.
 
     young = chosen("young", 'young="100 GPa"', young=young, E=E)      # an argument of a function
-    command.add_argument(*options("young"), required=True)            # an option: --young, --E
+    options("young")                                                  # as options: --young, --E
     @checks_call                                                      # run(rnaks=2): "did you mean ranks?"
 
 Messages name options, "--size 100nm"; the functions for Python say them as arguments, size="100nm".
@@ -204,10 +204,14 @@ def _kinds(function: Callable[..., Any]) -> dict[str, Any]:
     return found
 
 
-def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundArguments) -> WrongCall | None:
-    """Returns the error of an argument that is not of the kind that the function takes."""
+def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundArguments, holding: bool = False) -> WrongCall | None:
+    """Returns the error of an argument that is not of the kind that the function takes. Without holding only numbers, texts and paths
+    are looked at: many functions say more on a list, a dict or a function that is wrong."""
     for name, value in bound.arguments.items():
         kind, one = _kinds(function).get(name), bound.signature.parameters[name]
+        parts = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else [kind]
+        if not holding and {get_origin(part) or part for part in parts} & HOLDING.keys():
+            continue
         if kind is None or one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD) or value is one.default or _is_of(value, kind):
             continue
         words = [word for word in dict.fromkeys(_words_of(kind)) if word != "None"]
@@ -239,14 +243,16 @@ def checks_call(function: F) -> F:
             bound = signature.bind(*given, **named)
         except TypeError:
             raise _wrong_call(signature, where, given, named, first) from None
+        if wrong := _wrong_kind(function, where, bound):
+            raise wrong
         try:
             with _calls(function):
                 return function(*given, **named)
         except Error as error:
             error.rewrite(lambda text: spoken(text, function))
             raise
-        except (TypeError, AttributeError, ValueError) as error:  # of a value that the function does not look at itself
-            if wrong := _wrong_kind(function, where, bound):
+        except (TypeError, AttributeError, ValueError) as error:  # of a list, dict or function that the function does not look at itself
+            if wrong := _wrong_kind(function, where, bound, holding=True):
                 raise wrong from error
             raise
 

@@ -102,6 +102,12 @@ void bind_records(py::module_& m) {
         .def_property_readonly(
             "dissipated_in_block", of<Term::in_block, Point>,
             "energy dissipated by a viscoelastic block, apart from dissipated, eV")
+        .def_property_readonly("dissipated_in_surface", of<Term::in_surface, Point>,
+                               "plastic work of a surface that yields, eV")
+        .def_readonly("mean_set", &Point::mean_set,
+                      "mean permanent set of a surface that yields, Å")
+        .def_readonly("largest_set", &Point::largest_set,
+                      "largest permanent set of a site of a surface that yields, Å")
         .def_property_readonly(
             "losses",
             [](const Point& p) {

@@ -82,6 +82,7 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
                            {relaxing, "block.surface_stress=0.1"},
                            {relaxing, "drive.stiffness=0.2"},
                            {wall, "interface.adhesion=stripes 1 9 20"},
+                           {wall, "interface.hardness=1"},
                            {wall, "surface.boundary=free"}}) {
         const std::string text = row.key;
         if (text.starts_with("numerics.device") && !fuses(processor_level())) {

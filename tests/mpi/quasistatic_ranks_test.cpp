@@ -32,8 +32,9 @@ struct Kind {
     std::optional<WallLaw> wall = {};
     bool field = false; ///< a work of adhesion for each site
     int thickness = 60;
-    bool slides = false;               ///< between approach and pull-off
-    std::vector<Branch> branches = {}; ///< of a viscoelastic block; it is held there
+    bool slides = false;                 ///< between approach and pull-off
+    std::vector<Branch> branches = {};   ///< of a viscoelastic block; it is held there
+    std::optional<double> hardness = {}; ///< of a surface that yields, eV/Å^3
 };
 
 InterfaceOptions interface_of(const Kind& kind) {
@@ -48,6 +49,7 @@ InterfaceOptions interface_of(const Kind& kind) {
         o.adhesion = field;
     }
     o.slides = kind.slides;
+    o.hardness = kind.hardness;
     return o;
 }
 
@@ -68,7 +70,9 @@ struct Contact {
           grid(ProcessGrid::slabs(ranks.size(), ranks.rank(), sites)),
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
-          path(block, interface, path_options(kind.along)), slides(kind.slides) {}
+          path(block, interface, path_options(kind.along)), slides(kind.slides) {
+        remember_set(block, interface);
+    }
 
     static BlockOptions block_of(const Kind& kind) {
         BlockOptions o = test::paper_block(sites, kind.thickness, 0);
@@ -135,6 +139,7 @@ std::vector<std::uint64_t> cycle(const Communicator& ranks, const Kind& kind, st
         last = contact.advance();
         points.push_back(contact.trace());
     }
+    EXPECT_EQ(contact.path.now().largest_set > 0.0, kind.hardness.has_value()) << kind.name;
     const bool snaps = kind.along == Constraint::Of::top && kind.branches.empty();
     EXPECT_GT(contact.path.dissipation().events, snaps ? 0 : -1)
         << kind.name << " is meant to snap";
@@ -164,6 +169,11 @@ TEST(QuasistaticRanks, ResumedItIsTheSameBits) {
           .frictionless = true,
           .wall = ExponentialWall(0.7, 0.4, 1000.0),
           .field = true},
+          Kind{.name = "hardness",
+          .frictionless = true,
+          .wall = ExponentialWall(0.7, 0.4, 1000.0),
+          .field = true,
+          .hardness = 0.05},
           Kind{.name = "shape",
           .frictionless = true,
           .wall = ShapedWall(eight_two.shape(), 0.7, 0.6, 0.0),

@@ -154,7 +154,8 @@ TEST(MeanHeight, SmoothContactLosesNothingAndIsTheStateOfAHeldTop) {
     const auto out = follow(path, Segment::pull_off);
     const double bound = -energy(state);
     const double allowed = tolerance * c.sites() * (in.front().top - in.back().top);
-    EXPECT_EQ(path.dissipation().total, 0.0);
+    EXPECT_EQ(path.dissipation().events, 0);
+    EXPECT_LE(path.dissipation().total, allowed);
     EXPECT_NEAR(-path.work(Segment::approach), bound, allowed);
     EXPECT_NEAR(path.work(Segment::pull_off), bound, allowed);
 
@@ -326,9 +327,10 @@ TEST(MeanHeight, PullsOffFromTheStateUnderALoad) {
     EXPECT_NEAR(path.now().mean_height, c.interface.start_height() + pressed.mean_height, 1e-9);
     const double bound = -energy(path.now());
     const auto out = follow(path, Segment::pull_off);
-    EXPECT_EQ(path.dissipation().total, 0.0);
-    EXPECT_NEAR(path.work(Segment::pull_off), bound,
-                1e-4 * c.sites() * (out.back().top - out.front().top));
+    const double allowed = 1e-4 * c.sites() * (out.back().top - out.front().top);
+    EXPECT_EQ(path.dissipation().events, 0);
+    EXPECT_LE(path.dissipation().total, allowed);
+    EXPECT_NEAR(path.work(Segment::pull_off), bound, allowed);
 }
 
 /// A mean height is met to its rounding, in a few sweeps over the wall for each step of the

@@ -84,7 +84,8 @@ TEST_P(CycleBalance, WorkIsEnergyPlusLoss) {
     const double way = in.front().top - in.back().top, back = out.back().top - out.front().top;
     const double allowed = std::min(1e-4, cycle.tolerance) * c.sites();
     if (cycle.pressure != 0.0) {
-        EXPECT_EQ(lost.total, 0.0);
+        EXPECT_EQ(lost.events, 0);
+        EXPECT_LE(lost.total, allowed * (way + back));
         ASSERT_GT(in.back()[Term::elastic], 20.0 * allowed * way) << "the case must tell it";
     }
     EXPECT_GE(lost.total, cycle.lost * state);

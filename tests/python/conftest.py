@@ -27,6 +27,7 @@ os.environ.setdefault("MPLBACKEND", "agg")
 import asperity  # noqa: E402
 import asperity.arguments  # noqa: E402
 import asperity.running.runs  # noqa: E402
+from asperity.commands.options import purposes  # noqa: E402
 
 SMALL = {"name": "small", "surface": {"sites": 32, "rms": 0.5}, "drive": {"velocity": 100.0, "timestep": 20.0}}
 # Starts the rest of the command line on the processors that the environment names for this rank.
@@ -39,7 +40,7 @@ os.execv(sys.argv[1], sys.argv[1:])
 STATE = {"name": "state", "surface": {"sites": 24}, "drive": {"path": ["relax"]}}
 
 
-OF_PYTHON = ("theory", "sweep", "report", "export", "convert", "adhesion", "tip", "states", "stress", "estimate", "cost", "prony", "scenes")
+OF_PYTHON = tuple(purposes())
 """Commands of the package, which the program starts."""
 
 

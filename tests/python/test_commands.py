@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """A walk over all commands: the form of their help, exit codes, -o, --json, --quiet, tables of at most 100 columns."""
 
+import argparse
+import inspect
 import json
 import os
 import re
@@ -13,6 +15,8 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.arguments import ALIASES
+from asperity.commands.options import command as of_package
 from conftest import OF_PYTHON, ROOT, in_this_process
 
 sys.path.insert(0, str(ROOT / "packaging"))
@@ -23,7 +27,7 @@ COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]
 HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
 FOR_PROGRAMS = {"theory-points", "stress-below", "hold"}
 WRITES_NOTHING = {"check", "plan", "defaults", "info"}
-RUNS_SEVERAL = {"sweep", "cost", "estimate", "adhesion", "tip"}
+RUNS_SEVERAL = {name for name in OF_PYTHON if "jobs" in of_package(name).options.about()}
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
 SCENE = '[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 16\n[drive]\npath = ["relax"]\n'
 PATH = SCENE.replace('["relax"]', '["approach", "pull-off"]\nmode = "quasistatic"')
@@ -190,13 +194,28 @@ def test_completions_have_every_command_and_option():
         for name in COMMANDS:
             for names, _, _ in options_of(HELPS[name]):
                 assert names[-1] in text
+        assert "keep align-rows isotropic" in text and "xyz vtk png" in text and "(auto)" in text.replace("'auto'", "(auto)")
         assert all(name in text for name in COMMANDS) and "surface.rms" in text and "quasistatic" in text
 
 
-def test_every_command_of_the_package_is_in_the_table():
-    from asperity.commands.command_line import parsers
+def test_every_command_of_the_package_has_a_module():
+    """The table lists what is there: the program hands these over, and each is an object of its module."""
+    modules = {file.stem for file in (ROOT / "python/asperity/commands").glob("*.py")} - {"__init__", "command_line", "options", "studies"}
+    assert modules == set(OF_PYTHON) <= set(COMMANDS)
+    for name in OF_PYTHON:
+        assert of_package(name).name == name
 
-    assert set(parsers()) <= set(COMMANDS) and set(OF_PYTHON) == set(parsers())
+
+@pytest.mark.parametrize("name", OF_PYTHON)
+def test_an_option_is_in_the_help_and_in_the_function(name):
+    """Of a function with the name of its command, the arguments are the options and their aliases, but for what only a terminal has."""
+    text, about = " ".join(HELPS[name].split()), of_package(name).options.about()
+    for field, (one, kind, needed) in about.items():
+        if one.help != argparse.SUPPRESS:
+            assert " ".join(one.help.split()) in text and (one.word or "--" + (one.name or field).replace("_", "-") in text), field
+    if name in ("adhesion", "tip"):
+        arguments = set(inspect.signature(getattr(asperity, name)).parameters)
+        assert arguments == {word for field in about.keys() - {"plan"} for word in (field, *ALIASES.get(field, ()))}
 
 
 def test_a_page_elsewhere_writes_nothing_into_the_result(work, light, results):

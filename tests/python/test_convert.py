@@ -41,6 +41,8 @@ TEXTS = {  # file, its content, what the file leaves open
     "edge.txt": ("# edge: 60 Å\n# z-unit: nm\n" + rows(), ""),
     "german.txt": ("# Kanal: Topografie\n# Breite: 0,0060 µm\n# Höhe: 6,00 nm\n# Wert-Einheiten: nm\n"
                    + rows(number=lambda h: repr(h).replace(".", ",")), ""),
+    "mixed.txt": ("# Channel: Topografie\n# Breite: 0,0060 µm\n# Höhe: 6,00 nm\n# Value units: nm\n"
+                  + rows(number=lambda h: repr(h).replace(".", ",")), ""),
     "comma.txt": (rows(";", lambda h: repr(h).replace(".", ",")), "unit size"),
     "list.csv": ("\ufeff" + rows(", "), "unit size"),
     "grid.asc": (f"ncols {N}\nNROWS {N}\nxllcorner 7\ncellsize {PIXEL}\nNODATA_value -9999\n" + rows(" "), "unit"),

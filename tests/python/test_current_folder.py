@@ -5,11 +5,10 @@
 import os
 import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
-from asperity.commands.command_line import parsers
+from asperity.commands.options import command as of_package, purposes
 from asperity.errors import NEEDED
 from conftest import ROOT
 
@@ -32,12 +31,13 @@ def hostile(tmp_path_factory):
 
 def words_of(command: str) -> list[str]:
     """Returns a command line with all arguments that the command needs; its files are missing but for that of `prony`."""
-    needed = [action for action in parsers()[command]._actions if action.required or action.dest == "map"]  # without its map `tip` would run
+    actions = of_package(command).parser()._actions
+    needed = [action for action in actions if action.required or action.dest == "map"]  # without its map `tip` would run
     words = [word for one in needed if one.option_strings for word in (one.option_strings[0], one.metavar)]
     return [command, *("rubber.csv" for one in needed if not one.option_strings), *words]
 
 
-@pytest.mark.parametrize("command", parsers())
+@pytest.mark.parametrize("command", purposes())
 def test_a_command_imports_nothing_of_the_current_folder(command, hostile, tmp_path):
     """Python's own habit is to look there first, and an empty place in PYTHONPATH is that folder, too."""
     read = tmp_path / "read"

@@ -23,6 +23,7 @@ import asperity.terminal
 import test_fixes_files
 import test_fixes_rubber
 import test_fixes_scene
+from asperity.commands import options
 from asperity.files import store
 from asperity.results import result
 from asperity.running import program
@@ -75,6 +76,8 @@ EXCUSED = {
     "this is no result": "damage that its digest does not show",
     "this is no JSON that can be read": "damage that its digest does not show",
 }
+MAP_OPTIONS = options.command("adhesion").options
+GIVEN = {"map": "map.npy", "young": "1 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2"}
 TINY = ('[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 8\n[drive]\nvelocity = 200\ntimestep = 20\npath = ["approach"]\n')
 STILL = '[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 8\n[drive]\npath = ["relax"]\n'
 
@@ -485,7 +488,10 @@ def test_an_object_in_the_way_is_moved_away(name, make, says):
 @pytest.mark.parametrize("wrong, right", [
     (lambda: asperity.states("t.toml", starts=-1), lambda: asperity.states("t.toml", starts=0)),
     (lambda: asperity.Simulation("d.toml", comm=3), lambda: asperity.Simulation("d.toml")),
-    (lambda: asperity.crack.modulus([2.0], 1.0), lambda: asperity.crack.modulus([(2.0, "1 ns")], 1.0))], ids=["starts", "comm", "branches"])
+    (lambda: asperity.crack.modulus([2.0], 1.0), lambda: asperity.crack.modulus([(2.0, "1 ns")], 1.0)),
+    (lambda: MAP_OPTIONS.of_call({**GIVEN, "sites": 3}), lambda: MAP_OPTIONS.of_call(GIVEN)),
+    (lambda: MAP_OPTIONS.of_call({**GIVEN, "line_noise": "none"}), lambda: MAP_OPTIONS.of_call({**GIVEN, "line_noise": "align-rows"}))],
+    ids=["starts", "comm", "branches", "limits", "choices"])
 def test_a_fix_of_an_argument(wrong, right):
     Path("t.toml").write_text(STILL)
     Path("d.toml").write_text(TINY)

@@ -208,6 +208,18 @@ CASES = [
     ("or thinner layers", {"block.layers": '[["20 nm", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
     ("take a thicker layer", {"block.layers": '[["0.5 Å", "10 GPa", 0.3]]'}, {"block.layers": COATED}, QUASI),
     ("or a smaller surface.spacing", {"block.layers": '[["1 Å", "10 GPa", 0.3]]'}, {"surface.spacing": "1.9"}, {**QUASI, "interface.kind": "wall", "block.model": "lattice"}),
+    # A surface that yields
+    ("leave hardness or block.prony out", {"interface.hardness": "1", "block.prony": '[[1.0, "1 ns"]]'}, {"block.prony": None}, PULLED),
+    ("leave hardness or block.prony out", {"interface.hardness": "1", "block.prony": '[[1.0, "1 ns"]]'}, {"interface.hardness": None}, PULLED),
+    (r'take drive.mode = "quasistatic" and path = \["approach"\]', {"interface.hardness": "1"},
+     {"drive.mode": "quasistatic", "drive.path": '["approach"]'}, WALL),
+    (r'take interface.kind = "wall" and drive.mode = "quasistatic"', {"interface.hardness": "1"},
+     {"interface.kind": "wall", "drive.mode": "quasistatic"}, MOVING),
+    ("or leave it out", {"interface.hardness": "1"}, {"interface.hardness": None}, MOVING),
+    ("leave interface.hardness out", {"interface.hardness": "1", "drive.path": '["approach", "slide x 5"]'}, {"interface.hardness": None}, PULLED),
+    ("take a smaller load", {"interface.hardness": "1", "drive.load": "1000"}, {"drive.load": "900"}, PULLED),
+    ("or a larger hardness", {"interface.hardness": "1", "drive.load": "1000"}, {"interface.hardness": "2"}, PULLED),
+    ("take a hardness above 0 at each site", {"interface.hardness": "stripes 0 1GPa 20"}, {"interface.hardness": "stripes 0.5 1GPa 20"}, PULLED),
     # Fields of the work of adhesion, and shapes
     ('write "(.*)", as in', {FIELD: "stripes 1 2"}, {FIELD: "stripes 1 2 20"}, WALL),
     ('as in "(.*)"', {FIELD: "discs 1 2 1 ps 4 nm"}, {FIELD: "discs 1 2 1 nm 4 nm"}, WALL),
@@ -449,6 +461,7 @@ def test_a_fix_of_the_file(tmp_path):
     ('take boundary = "periodic"', {}, {"surface.boundary": "periodic"}, FREE),
     ("give interface.adhesion a number", {FIELD: "stripes 1 2 20"}, {FIELD: "1.5"}, WALL),
     ("leave block.surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, QUASI),
+    ("leave interface.hardness out", {"interface.hardness": "1"}, {"interface.hardness": None}, PULLED),
     ("give a larger q_max", {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.q_max": "4"}, STILL),
     ('or kind = "flat"', {"surface.q_max": "1", "surface.rolloff": "1"}, {"surface.kind": "flat", "surface.q_max": None, "surface.rolloff": None}, STILL),
     ("give a rough surface of at least 4 sites", {"surface.file": "plane.txt"}, {"surface.file": "map.txt"}, MAP)])

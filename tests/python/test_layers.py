@@ -8,6 +8,7 @@ import re
 from pathlib import Path
 
 import asperity
+from asperity.commands.options import purposes
 
 # From the bottom to the top: a subpackage and its modules from the bottom to the top, or modules of the package itself.
 SUBPACKAGES = {
@@ -21,7 +22,7 @@ SUBPACKAGES = {
                 "estimates", "map_scene", "tip", "prony", "states", "stress"),
     "plots": ("style", "run", "prony", "tip", "stress", "sweep"),
     "reports": ("page", "sentences", "export", "stress", "run", "cost", "estimate", "tip", "sweep"),
-    "commands": ("command_line", "scenes", "studies", "theory", "adhesion", "tip", "stress", "prony"),
+    "commands": ("command_line", "options", "studies", *purposes()),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }
 ORDER = [name for package, modules in SUBPACKAGES.items()

@@ -48,6 +48,7 @@ EXPORTS = {
     "quotes": {"names": '"Frequency (rad/s)","Storage Modulus - E\' (MPa)",E" (MPa)', "separator": ","},
     "a unit behind each name": {"names": "w (rad/s) E' (MPa) E'' (MPa)", "separator": " "},
     "a comment": {"names": "# T = 20 °C\n# omega (rad/s)   E' (kPa)   E\" (kPa)", "separator": " ", "scale": (1.0, 1e3)},
+    "pyvisco": {"names": "f_set,E_stor,E_loss\nHz,MPa,MPa", "separator": ",", "scale": (1 / (2 * math.pi), 1.0)},
     "shift factors": {"names": "Temp. (°C); Frequency (rad/s); E' (MPa); E'' (MPa); aT", "extra": ()},
 }
 
@@ -83,6 +84,8 @@ def test_hertz_and_radians_differ_by_a_whole_turn(place):
 def test_shear_moduli_become_youngs_by_poissons_ratio(place):
     content = text("omega (rad/s), G' (MPa), G'' (MPa)")
     assert difference(fitted(content, nu=0.49), scale=2 * 1.49) < 1e-6
+    reptate = text("Mw=1.0;Mw2=1.0;phi=0;isof=0;T0=25.0;", (1.0, 1e6), "\t")  # ω in rad/s, G' and G'' in Pa
+    assert difference(fitted(reptate, Path("curve.tts"), nu=0.49), scale=2 * 1.49) < 1e-6
     with pytest.raises(asperity.SceneError, match="say poisson=0.49"):
         fitted(content)
 

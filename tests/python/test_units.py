@@ -13,7 +13,7 @@ import pytest
 import asperity
 from asperity import units
 from asperity.arguments import ALIASES
-from asperity.commands.command_line import parsers
+from asperity.commands.options import command as of_package
 from asperity.maps import height_map
 from asperity.maps.convert import convert
 from asperity.running import program
@@ -116,9 +116,7 @@ def test_options_and_arguments_have_the_words_of_the_scene():
     """Each option of a command that makes a scene itself, and each argument of the function, is the last word of a key."""
     words = {key.partition(".")[2] for key in program.schema()}
     for name in ("adhesion", "tip"):
-        if name not in parsers():
-            continue
-        for action in parsers()[name]._actions:
+        for action in of_package(name).parser()._actions:
             if action.option_strings and not {o.strip("-") for o in action.option_strings if o.startswith("--")} & OF_COMMANDS:
                 names = {o.strip("-").replace("-", "_") for o in action.option_strings}
                 assert names & words, f"asperity {name}: {names} are no words of a scene"

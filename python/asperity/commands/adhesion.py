@@ -11,19 +11,41 @@ import os
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from ..arguments import checks_call, checks_calls, chosen
+from ..arguments import checks_call, checks_calls
 from ..errors import BY_CODE, InternalError, Named, Stopped
 from ..files import store
-from ..reports import estimate as report_estimate
-from ..reports.run import run_page_files, write_run_page
-from ..results.result import Result
 from ..running import lock, program
-from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions, refuse_jobs, require_free_runs
-from ..studies.estimates import MAP_FILES, OF_A_MAP, RESULT, Estimate, Estimating
-from ..studies.map_scene import MapScene, scene_of, stem_of
 from ..terminal import Voice
-from .studies import told
+from .options import SITES, Command, Options as Base, jobs, option, out, plan, word
+from .studies import EARLY, told
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..running.pool import PoolOptions
+    from ..studies.estimates import Estimate, Estimating
+    from ..studies.map_scene import MapScene
+
+
+@dataclass(kw_only=True)
+class Options(Base):
+    """Options of `asperity adhesion`."""
+
+    map: str = word("MAP", "HDF5, .npy, or any map that convert reads")
+    young: str = option("100GPa", "Young's modulus of the half-space")
+    poisson: float = option("0.25", "its Poisson's ratio")
+    adhesion: str = option("200mJ/m2", "work of adhesion of flat surfaces")
+    range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
+    size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
+    unit: str | None = option("nm", "of the heights; holds over what the file says", None)
+    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
+    line_noise: str | None = option("HOW", "treatment of a scan's noise from line to line: keep, align-rows or isotropic", None,
+                                    choices=("keep", "align-rows", "isotropic"))
+    sites: int | None = option("N", "along an edge (default: the map's points, 256 at most)", None, limits=SITES)
+    out: str | None = out("results/<map>-adhesion")
+    jobs: int = jobs()
+    plan: bool = plan()
 
 
 @checks_calls
@@ -56,6 +78,8 @@ class Adhesion(Named):
         SceneError
             The estimate has no number of this name.
         """
+        from ..reports import estimate as report_estimate
+
         return report_estimate.quote(self.estimate.number(path))
 
     def __repr__(self) -> str:
@@ -114,46 +138,49 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
     Error
         The run of the map failed.
     """
+    from ..results.result import Result
+    from ..running.pool import PoolOptions
+
     program.refuse_ranks()
-    refuse_jobs(jobs)
-    stiffness = chosen("young", 'young="100 GPa"', young=young, E=E)
-    ratio = chosen("poisson", "poisson=0.25", poisson=poisson, nu=nu)
-    bond = chosen("adhesion", 'adhesion="200 mJ/m2"', adhesion=adhesion, work=work, w=w)
-    size, unit = chosen("size", size=size, file_size=file_size), chosen("unit", unit=unit, file_unit=file_unit)
-    place = store.chosen(None if out is None else str(out), _place(str(map)))
-    _require_free(place, str(map))
-    made = scene_of(str(map), stiffness, ratio, bond, place, reach=range, size=size, unit=unit, channel=channel, sites=sites,
-                    line_noise=line_noise)
-    making = _estimating(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
+    given = Options.of_call(locals())
+    made, making = _estimating(given, PoolOptions(given.jobs, progress="off"), lambda _: None)
     making.warn()
     found, complete = _carried_out(making)
     if not complete:
-        raise Stopped(str(place), "the estimate stopped early", "", "the same call goes on from here")
+        raise Stopped(str(making.place), "the estimate stopped early", "", "the same call goes on from here")
     if found is None:
         outcome = making.plan.scene.outcome
-        raise BY_CODE.get(outcome.exit_code, InternalError)(str(place), "the run of the map failed", outcome.reason)
-    return Adhesion(found, Result(place / "scene"), made.notes, made.file, place)
+        raise BY_CODE.get(outcome.exit_code, InternalError)(str(making.place), "the run of the map failed", outcome.reason)
+    return Adhesion(found, Result(making.place / "scene"), made.notes, made.file, making.place)
 
 
-def _estimating(made: MapScene, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Estimating:
-    return Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,
-                      of_sites="--sites")
+def _estimating(given: Options, options: PoolOptions, say: Callable[[str], None]) -> tuple[MapScene, Estimating]:
+    """Returns the scene of the map, which is written, and its estimate. Raises SceneError if files would be replaced."""
+    from ..reports import estimate as report_estimate
+    from ..reports.run import run_page_files
+    from ..running.pool import require_free_runs
+    from ..studies.estimates import MAP_FILES, OF_A_MAP, RESULT, Estimating
+    from ..studies.map_scene import scene_of, stem_of
 
-
-def _require_free(place: Path, file: str) -> None:
-    """Checks that no file would be replaced. Raises SceneError."""
+    place = store.chosen(given.out, f"results/{Path(given.map.partition(':/')[0]).stem}-adhesion")
     require_free_runs(place, OF_A_MAP)
     page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
-    store.require_free({place: ["map.npy", f"{stem_of(file)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
-                        place / "scene": page}, inputs=[file])
-
-
-def _place(file: str) -> str:
-    return f"results/{Path(file.partition(':/')[0]).stem}-adhesion"
+    store.require_free({place: ["map.npy", f"{stem_of(given.map)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
+                        place / "scene": page}, inputs=[given.map])
+    made = scene_of(given.map, given.young, given.poisson, given.adhesion, place, reach=given.range, size=given.size, unit=given.unit,
+                    channel=given.channel, sites=given.sites, line_noise=given.line_noise)
+    for line in (f"{given.map}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
+        say(line)
+    return made, Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,
+                            of_sites="--sites")
 
 
 def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     """Carries out the estimate and writes its page and that of its run."""
+    from ..reports import estimate as report_estimate
+    from ..reports.run import write_run_page
+    from ..results.result import Result
+
     with lock.in_use(making.place):
         found, complete = making.carry_out()
         if complete and found is not None:
@@ -163,53 +190,28 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
     return found, complete
 
 
-def adhesion_command(file: str, young: str, poisson: float, adhesion: str, out: str | None, options: PoolOptions, plan: bool, voice: Voice,
-                     **more) -> int:
-    """Carries out `asperity adhesion`.
+def _carry_out(given: Options, voice: Voice) -> int:
+    """Carries out `asperity adhesion`. Returns the exit code."""
+    from ..reports import estimate as report_estimate
+    from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions
 
-    Parameters
-    ----------
-    file : str
-        Map of heights.
-    young : str
-        Young's modulus of the half-space with its unit.
-    poisson : float
-        Poisson's ratio of the half-space.
-    adhesion : str
-        Work of adhesion of flat surfaces with its unit.
-    out : str | None
-        Result directory; None: the default one.
-    options : PoolOptions
-        Options of the runs.
-    plan : bool
-        True: only tells what would be run.
-    voice : Voice
-        Output of the command.
-    **more : Any
-        Further arguments of map_scene.scene_of().
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
-    place = store.chosen(out, _place(file))
-    _require_free(place, file)
-    made = scene_of(file, young, poisson, adhesion, place, **more)
-    for line in (f"{file}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
-        voice.say(line)
-    making = _estimating(made, place, options, voice.say)
-    if told(making.forecast(), plan, voice):
+    _, making = _estimating(given, PoolOptions(given.jobs, progress=voice.progress), voice.say)
+    if told(making.forecast(), given.plan, voice):
         return 0
     found, complete = _carried_out(making)
     if not complete:
-        voice.show("Stopped early: the same command goes on from here.")
+        voice.show(EARLY)
         return STOPPED
     outcome = making.plan.scene.outcome
     if found is None or outcome.status != DONE:
         voice.show(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
     voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in making.said])))
-    voice.tell({**found.json(), "directory": place})
-    voice.say(f"in {place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
+    voice.tell({**found.json(), "directory": making.place})
+    voice.say(f"in {making.place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0
+
+
+COMMAND = Command(Options, _carry_out, more=(
+    "An elastic half-space on the rigid map, bound by an exponential attraction: run, path at a held mean height, estimate, report. The "
+    "same command goes on where it stopped."))

@@ -4,13 +4,31 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from .. import terminal
 from ..files import store
-from ..plots.prony import moduli
-from ..plots.style import make, picture
-from ..studies.prony import Prony, prony
+from .options import COUNT, Command, WithTarget, option, same_as_option, word
+
+if TYPE_CHECKING:
+    from ..studies.prony import Prony
+
+
+@dataclass(kw_only=True)
+class Options(WithTarget):
+    """Options of `asperity prony`."""
+
+    source: str = word("FILE", "the master curve")
+    target: str | None = word("OUT.toml", "the file to write (default: FILE with .toml for its ending)", None)
+    out: str | None = same_as_option("OUT.toml")
+    branches: int | None = option("N", "at most (default: one a decade of frequency)", None, limits=COUNT)
+    poisson: float | None = option("0.49", "Poisson's ratio, which shear moduli need", None)
+    relaxed: str = option("60MPa", "the relaxed Young's modulus, where the curve does not determine it", "")
+    frequency_unit: str = option("UNIT", "Hz or rad/s; holds over what the file says", "")
+    modulus_unit: str = option("UNIT", "for example MPa; holds over what the file says", "")
+    modulus: str = option("KIND", "E (Young's) or G (of shear); holds over what the file says", "")
 
 
 def _time(picoseconds: float) -> str:
@@ -28,36 +46,17 @@ def _text(found: Prony) -> str:
         f"  fit            {found.errors}"])
 
 
-def prony_command(source: str, target: str, branches: int | None, poisson: float | None, frequency_unit: str, modulus_unit: str,
-                  modulus: str, relaxed: str, voice: terminal.Voice) -> int:
-    """Carries out `asperity prony`.
+def _carry_out(given: Options, voice: terminal.Voice) -> int:
+    """Carries out `asperity prony`. Returns the exit code."""
+    from ..plots.prony import moduli
+    from ..plots.style import make, picture
+    from ..studies.prony import prony
 
-    Parameters
-    ----------
-    source : str
-        File of the master curve.
-    target : str
-        File to write; the plot has its name with .svg.
-    branches : int | None
-        Number of branches at most.
-    poisson : float | None
-        Poisson's ratio, which shear moduli need.
-    frequency_unit, modulus_unit, modulus : str
-        Units of frequency and moduli, and E or G, if the file does not say them.
-    relaxed : str
-        Relaxed Young's modulus with its unit; "": that of the fit.
-    voice : Voice
-        Output of the command.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
+    target = given.place() or str(Path(given.source).with_suffix(".toml"))
     plot = Path(target).with_suffix(".svg")
     store.require_new(plot)
-    found = prony(source, target, branches, poisson, frequency_unit=frequency_unit, modulus_unit=modulus_unit, modulus=modulus,
-                  relaxed=relaxed)
+    found = prony(given.source, target, given.branches, given.poisson, frequency_unit=given.frequency_unit,
+                  modulus_unit=given.modulus_unit, modulus=given.modulus, relaxed=given.relaxed)
     figure = make(lambda ax: moduli(found, ax))
     assert figure is not None
     with store.new(plot) as beside:
@@ -69,3 +68,8 @@ def prony_command(source: str, target: str, branches: int | None, poisson: float
         voice.say(f"  note: {note}")
     voice.say(f"  written: {target} (block.prony = \"{Path(target).name}\" in a scene), {plot}")
     return 0
+
+
+COMMAND = Command(Options, _carry_out, progress=False, more=(
+    "Text of columns: frequency, storage and loss modulus (or tan δ), maybe a shift factor aT; names and units stand above. OUT.toml is "
+    "what block.prony of a scene names; OUT.svg shows the fit."))

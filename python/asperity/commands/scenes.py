@@ -6,10 +6,12 @@ from __future__ import annotations
 
 import re
 import shutil
+from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import InputOutputError
 from ..terminal import Voice
+from .options import Command, WithTarget, same_as_option, word
 
 KINDS = ("scenes", "examples")
 
@@ -35,27 +37,18 @@ def title(scene: Path) -> str:
     return text[:next(ends, len(text))].strip().rstrip(".:")
 
 
-def scenes_command(out: str, voice: Voice) -> int:
-    """Copies the scenes and examples into a folder and prints a list of the scenes (`asperity scenes`).
+@dataclass(kw_only=True)
+class Options(WithTarget):
+    """Options of `asperity scenes`."""
 
-    Parameters
-    ----------
-    out : str
-        Folder that gets scenes/ and examples/.
-    voice : Voice
-        Output of the command.
+    target: str | None = word("FOLDER", "where scenes/ and examples/ are made (default: here)", None)
+    out: str | None = same_as_option("FOLDER")
 
-    Returns
-    -------
-    int
-        The exit code.
 
-    Raises
-    ------
-    InputOutputError
-        If the folder has a scenes/ or examples/ already: nothing is replaced.
-    """
-    source, target = folder(), Path(out)
+def _carry_out(given: Options, voice: Voice) -> int:
+    """Copies the scenes and examples into a folder and prints a list of the scenes. Returns the exit code. Raises InputOutputError if
+    the folder has a scenes/ or examples/ already."""
+    source, target = folder(), Path(given.place("folders") or ".")
     for kind in KINDS:
         if (target / kind).exists():
             raise InputOutputError("asperity scenes", f"{target / kind} is there already", "nothing is replaced",
@@ -67,3 +60,6 @@ def scenes_command(out: str, voice: Voice) -> int:
     voice.show("\n".join(f"{scene}\n    {text}" for scene, text in titles.items()))
     voice.tell({"scenes": titles})
     return 0
+
+
+COMMAND = Command(Options, _carry_out, more="Nothing is replaced.", progress=False)

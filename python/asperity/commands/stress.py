@@ -5,19 +5,35 @@
 from __future__ import annotations
 
 import os
+from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from ..arguments import checks_call
 from ..errors import Error, SceneError
 from ..files import store
-from ..reports import stress as report_stress
-from ..results.result import Result, expect
-from ..studies.stress import RESULT, Stress, compute
 from ..terminal import Voice
+from .options import Command, Options as Base, option, out, word
+
+if TYPE_CHECKING:
+    from ..results.result import Result
+    from ..studies.stress import Stress
+
+
+@dataclass(kw_only=True)
+class Options(Base):
+    """Options of `asperity stress`."""
+
+    directory: str = word("DIR", "the result directory")
+    state: str | None = option("NAME", "the state (default: relaxed, or the last one)", None)
+    friction: float | None = option("0.3", "coefficient of a friction in phase with the pressure (default: that of a slide)", None)
+    depth: str | None = option("5nm", "largest depth of the section (default: three times that of the largest stress)", None)
+    volume: bool = option("", "all points at all depths of the section too", False)
+    out: str | None = out("DIR/stress", "directory of the files")
 
 
 @checks_call
-def stress(result: str | os.PathLike | Result, state: str | None = None, friction: float | None = None, depth: str | None = None,
+def stress(result: Any, state: str | None = None, friction: float | None = None, depth: str | None = None,
            volume: bool = False, out: str | os.PathLike | None = None) -> Stress:
     """Computes the stresses below the surface of a run, with the largest ones, their places and their errors.
 
@@ -52,12 +68,18 @@ def stress(result: str | os.PathLike | Result, state: str | None = None, frictio
     InputOutputError
         The directory holds no result, or its maps cannot be read.
     """
+    from ..results.result import Result
+
     run = result if isinstance(result, Result) else Result(Path(result))
     return _computed(run, state, friction, depth, volume, None if out is None else os.fspath(out))[0]
 
 
 def _computed(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: str | None) -> tuple[Stress, Path]:
     """Computes and writes the stresses. Returns them with the page."""
+    from ..reports import stress as report_stress
+    from ..results.result import expect
+    from ..studies.stress import RESULT, compute
+
     place = run.directory / "stress" if out is None else store.chosen(out, "")
     expect(run.directory, "run.h5")
     if friction is not None and not -2 <= friction <= 2:
@@ -73,35 +95,19 @@ def _computed(run: Result, state: str | None, friction: float | None, depth: str
         raise
 
 
-def stress_command(directory: str, state: str | None, friction: float | None, depth: str | None, volume: bool, out: str | None,
-                   voice: Voice) -> int:
-    """Carries out `asperity stress`.
+def _carry_out(given: Options, voice: Voice) -> int:
+    """Carries out `asperity stress`. Returns the exit code."""
+    from ..reports import stress as report_stress
+    from ..results.result import Result
 
-    Parameters
-    ----------
-    directory : str
-        Result directory of the run.
-    state : str | None
-        Name of the state; None: the relaxed one, or the last one.
-    friction : float | None
-        Friction coefficient in phase with the pressure; None: that of a slide.
-    depth : str | None
-        Largest depth of the section with its unit.
-    volume : bool
-        True: all points at all depths too.
-    out : str | None
-        Directory of the files.
-    voice : Voice
-        Output of the command.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
-    run = Result(Path(directory))
-    found, page = _computed(run, state, friction, depth, volume, out)
+    run = Result(Path(given.directory))
+    found, page = _computed(run, given.state, given.friction, given.depth, given.volume, given.out)
     voice.tell({**report_stress.answer_of(found), "directory": page.parent})
     voice.show(report_stress.text_of(found))
     voice.say(f"\nwritten: {page.parent}: report.html, stress.json, stress.h5, stress.vti (ParaView)")
     return 0
+
+
+COMMAND = Command(Options, _carry_out, progress=False, more=(
+    "Of a quasi-static run over a wall: von Mises, Tresca and the largest tension in each layer with their places, a section, and "
+    "stress.vti for ParaView."))

@@ -4,21 +4,31 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import time
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
-
-import h5py
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from .. import terminal
 from ..errors import SceneError
 from ..files import store
-from ..results.result import Values
 from ..running import lock, program
 from ..running.scene import inputs_of
-from ..studies.stated_number import cut, with_error
-from ..theories import combined
+from .options import Command, OfScene, option, out
+
+if TYPE_CHECKING:
+    from ..results.result import Values
+
+
+@dataclass(kw_only=True)
+class Options(OfScene):
+    """Options of `asperity theory`."""
+
+    out: str | None = out("results/<scene>-theory")
+    points: str | None = option("FILE", argparse.SUPPRESS, None)
+
 
 STATUS = {
     "adhesive": "the surfaces adhere without load",
@@ -40,6 +50,8 @@ def _directory(asked: str | None, name: str) -> tuple[Path, list[str]]:
 
 
 def _write_profile(out: store.Outputs, columns: list[dict[str, Any]]) -> None:
+    import h5py
+
     with out.replacing("theory.h5") as beside, h5py.File(beside, "w") as file:
         for column in columns:
             made = file.create_dataset(f"profile/{column['name']}", data=column["values"])
@@ -54,6 +66,8 @@ def _units(values: dict[str, Any], path: str) -> dict[str, Any]:
 
 def _text(point: Values) -> str:
     """Returns the printed text."""
+    from ..studies.stated_number import cut, with_error
+
     flat, given = point.number("delta_gamma", 0.0), point.number("theory.persson.delta_gamma", 0.0)
     rms, slope = point.number("theory.persson.h_rms", 0.0), point.number("theory.persson.rms_slope", 0.0)
 
@@ -155,6 +169,9 @@ def computed(file: str, overrides: list[str]) -> Computed:
     Computed
         Numbers in the units of result.json, and their text.
     """
+    from ..results.result import Values
+    from ..theories import combined
+
     start = time.monotonic()
     point = combined.points(file, [overrides], profile=True)[0]
     program.complaints([point])
@@ -171,31 +188,17 @@ def computed(file: str, overrides: list[str]) -> Computed:
     return Computed(Values(json.loads(json.dumps(point), object_hook=Values)), profile, [note for note in notes if note], text)
 
 
-def theory_command(file: str, overrides: list[str], out: str | None, voice: terminal.Voice) -> int:
-    """Carries out `asperity theory`.
-
-    Parameters
-    ----------
-    file : str
-        Scene file.
-    overrides : list[str]
-        Overrides.
-    out : str | None
-        Result directory; None: the default one.
-    voice : Voice
-        Output of the command; with --json it writes files only if `out` is given.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
-    found = computed(file, overrides)
+def _carry_out(given: Options, voice: terminal.Voice) -> int:
+    """Carries out `asperity theory`; with --json it writes files only with --out. Returns the exit code."""
+    if given.points is not None:
+        raise SceneError("--points", "is no option of theory any more", "it is for programs", "asperity theory-points SCENE --points FILE")
+    file = given.scene()
+    found = computed(file, given.sets)
     point = found.values
     voice.tell(point)
-    if voice.json and out is None:
+    if voice.json and given.out is None:
         return 0
-    place, said = _directory(out, point.text("name"))
+    place, said = _directory(given.out, point.text("name"))
     names = ("theory.h5", "result.json")
     with lock.in_use(place), store.outputs(place, names, renew=False, inputs=inputs_of(file, point["scene"])) as written:
         _write_profile(written, found.profile)
@@ -205,3 +208,6 @@ def theory_command(file: str, overrides: list[str], out: str | None, voice: term
         voice.say(f"  note: {note}")
     voice.say(f"  written: {place}/result.json, {place}/theory.h5 (the profile over magnification)")
     return 0
+
+
+COMMAND = Command(Options, _carry_out, progress=False, writes="; writes files only with --out")

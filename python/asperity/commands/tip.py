@@ -8,22 +8,52 @@ import os
 import re
 import tempfile
 from collections.abc import Callable
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
-from ..arguments import checks_call, chosen
+from ..arguments import checks_call
 from ..errors import BY_CODE, InternalError, Stopped
 from ..files import store
-from ..reports import tip as report_tip
-from ..results.result import Result, Values
 from ..running import lock, program
-from ..running.pool import DONE, STOPPED, PoolOptions, refuse_jobs, require_free_runs
-from ..studies.tip import NUMBERS, Plan, Tip, files_of, plan_of, seconds_of, tip_of
-from ..studies.variations import Runs, Variation
-from ..terminal import Voice, duration, table
+from ..terminal import Voice
+from .options import SITES, Command, Options as Base, jobs, option, out, plan, word
+from .studies import EARLY, told
+
+if TYPE_CHECKING:
+    from ..running.pool import PoolOptions
+    from ..studies.forecast import Forecast
+    from ..studies.tip import Plan, Tip
+    from ..studies.variations import Runs, Variation
 
 RUNS = re.compile(r"tip|coarse|wide|tip,displacement_step=.*")
 """Directories of the runs."""
+
+
+@dataclass(kw_only=True)
+class Options(Base):
+    """Options of `asperity tip`."""
+
+    map: str | None = word("MAP", "heights of the sample, any map that convert reads (default: smooth)", None)
+    radius: str = option("20nm", "of the tip")
+    young: str = option("3GPa", "Young's modulus of the sample")
+    poisson: float = option("0.3", "its Poisson's ratio")
+    adhesion: str = option("50mJ/m2", "work of adhesion of flat surfaces")
+    stiffness: str = option("0.2N/m", "of the cantilever")
+    load: str | None = option("5nN", "the largest force (default: 1.5πwR)", None)
+    range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
+    size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
+    unit: str | None = option("nm", "of the heights; holds over what the file says", None)
+    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
+    sites: int | None = option("N", "along an edge of the box (default: 64 to 256, as needed)", None, limits=SITES)
+    plan: bool = plan()
+    out: str | None = out("results/<map>-tip")
+    jobs: int = jobs()
+
+    @property
+    def place(self) -> Path:
+        """Directory of the study."""
+        return store.chosen(self.out, f"results/{Path(self.map.partition(':/')[0]).stem}-tip" if self.map else "results/tip")
 
 
 @checks_call
@@ -82,40 +112,56 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
     Error
         A run failed.
     """
+    from ..running.pool import PoolOptions
+
     program.refuse_ranks()
-    refuse_jobs(jobs)
-    given = {"radius": chosen("radius", 'radius="20 nm"', radius=radius), "young": chosen("young", 'young="3 GPa"', young=young, E=E),
-             "poisson": chosen("poisson", "poisson=0.3", poisson=poisson, nu=nu),
-             "adhesion": chosen("adhesion", 'adhesion="50 mJ/m2"', adhesion=adhesion, work=work, w=w),
-             "stiffness": chosen("stiffness", 'stiffness="0.2 N/m"', stiffness=stiffness), "load": load, "range": range,
-             "size": chosen("size", size=size, file_size=file_size), "unit": chosen("unit", unit=unit, file_unit=file_unit),
-             "channel": channel, "sites": sites}
-    file = None if map is None else str(map)
-    place = store.chosen(None if out is None else str(out), _place(file))
-    made = _planned(file, place, given)
-    found = _carried_out(made, place, PoolOptions(jobs=jobs, progress="off"), lambda _: None)
+    given = Options.of_call(locals())
+    found = _carried_out(*_planned(given), PoolOptions(given.jobs, progress="off"), lambda _: None)
     if found is None:
-        raise Stopped(str(place), "the runs stopped early", "", "the same call goes on from here")
+        raise Stopped(str(given.place), "the runs stopped early", "", "the same call goes on from here")
     return found
 
 
-def _place(file: str | None) -> str:
-    return f"results/{Path(file.partition(':/')[0]).stem}-tip" if file else "results/tip"
+def _planned(given: Options) -> tuple[Plan, Path]:
+    """Returns the planned runs and the directory of the study. Raises SceneError if files would be replaced."""
+    from ..reports import tip as report_tip
+    from ..running.pool import require_free_runs
+    from ..studies.tip import files_of, plan_of
 
-
-def _planned(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
+    place = given.place
     require_free_runs(place, RUNS)
-    store.require_free({place: [*files_of(file is not None), *report_tip.FILES]}, inputs=[file] if file else [])
-    return plan_of(file, place, given)
+    store.require_free({place: [*files_of(given.map is not None), *report_tip.FILES]}, inputs=[given.map] if given.map else [])
+    return plan_of(given.map, place, asdict(given)), place
+
+
+def _runs(made: Plan, place: Path, options: PoolOptions, say: Callable[[str], None]) -> tuple[Runs, dict[str, Variation]]:
+    """Returns the runs of a plan, and their rows by part."""
+    from ..studies.variations import Runs, Variation
+
+    own = str(made.scenes[""])
+    rows = {part: Variation(part, part, [], scene=str(file)) for part, file in made.scenes.items()}
+    rows["step"] = Variation("step", "step", [made.longer_step], scene=own)
+    return Runs(own, [], place, options, say), rows
+
+
+def _forecast(made: Plan, place: Path, options: PoolOptions) -> Forecast:
+    """Returns the runs that are left, and their time."""
+    from ..studies.tip import forecast_of
+
+    runs, rows = _runs(made, place, options, lambda _: None)
+    left = [part for part, job in zip(rows, runs.jobs(list(rows.values()))) if not (job.directory / "result.json").exists()]
+    return forecast_of(made, place, left, options.jobs)
 
 
 def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[str], None]) -> Tip | None:
     """Carries out the runs and writes the page. Returns None if stopped before the end. Raises Error for a failed run."""
-    own = str(made.scenes[""])
-    rows = {part: Variation(part, part, [], scene=str(file)) for part, file in made.scenes.items()}
-    rows["step"] = Variation("step", "step", [made.longer_step], scene=own)
+    from ..reports import tip as report_tip
+    from ..results.result import Result
+    from ..running.pool import DONE
+    from ..studies.tip import tip_of
+
     with lock.in_use(place):
-        runs = Runs(own, [], place, options, say)
+        runs, rows = _runs(made, place, options, say)
         if not runs.run(list(rows.values())):
             return None
         for row in rows.values():
@@ -127,64 +173,35 @@ def _carried_out(made: Plan, place: Path, options: PoolOptions, say: Callable[[s
     return found
 
 
-def _told(file: str | None, place: Path, given: dict[str, Any], voice: Voice) -> None:
-    """Prints what would be run, how long it takes, and what will not be stated. Leaves nothing behind."""
-    with tempfile.TemporaryDirectory(prefix="asperity-") as folder:
-        made = plan_of(file, Path(folder), given)
-        scenes = {part: Values(program.check(str(scene))["scene"]) for part, scene in made.scenes.items()}
-        seconds = seconds_of(made)
-    runs = []
-    for part, time in seconds.items():
-        keys = scenes.get(part, scenes[""])
-        sites = int(keys.needed("surface.sites"))
-        runs.append({"part": part, "sites": sites, "width": 0.1 * sites * keys.needed("surface.spacing"), "seconds": time})
-    names = {"": "the tip", "spacing": "coarser spacing", "width": "wider box", "step": "longer steps"}
-    total = sum(seconds.values())
-    voice.tell({"directory": place, "runs": runs, "seconds": total, "not_stated": list(made.not_stated), "notes": made.notes})
-    voice.show(table(["run", "sites", "width, nm", "about"],
-                     [[names[run["part"]], str(run["sites"]), f"{run['width']:.4g}", duration(run["seconds"])] for run in runs]))
-    voice.show(f"\n{len(runs)} runs, about {duration(total)} of one process at a time; they would be in {place}.")
-    for note in made.notes:
-        voice.say(f"note: {note}")
-    for path, why in made.not_stated.items():
-        voice.show(f"{NUMBERS[path][0].replace('_', ' ')} will not be stated: {why}")
+def _carry_out(given: Options, voice: Voice) -> int:
+    """Carries out `asperity tip`. Returns the exit code."""
+    from ..reports import tip as report_tip
+    from ..running.pool import STOPPED, PoolOptions
+    from ..studies.tip import plan_of
 
-
-def tip_command(file: str | None, out: str | None, options: PoolOptions, plan: bool, voice: Voice, **given: Any) -> int:
-    """Carries out `asperity tip`.
-
-    Parameters
-    ----------
-    file : str | None
-        Map of heights; None: a smooth sample.
-    out : str | None
-        Result directory; None: the default one.
-    options : PoolOptions
-        Options of the runs.
-    plan : bool
-        True: only tells what would be run.
-    voice : Voice
-        Output of the command.
-    **given : Any
-        Arguments of tip(): radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
-    place = store.chosen(out, _place(file))
-    if plan:
-        _told(file, place, given, voice)
+    options = PoolOptions(given.jobs, progress=voice.progress)
+    if given.plan:
+        with tempfile.TemporaryDirectory(prefix="asperity-") as folder:  # leaves nothing behind
+            made = plan_of(given.map, Path(folder), asdict(given))
+            forecast = _forecast(made, given.place, options)
+        told(forecast, True, voice)
+        for note in made.notes:
+            voice.say(f"note: {note}")
         return 0
-    made = _planned(file, place, given)
+    made, place = _planned(given)
     for note in made.notes:
         voice.say(f"note: {note}")
+    told(_forecast(made, place, options), False, voice)
     found = _carried_out(made, place, options, voice.say)
     if found is None:
-        voice.show("Stopped early: the same command goes on from here.")
+        voice.show(EARLY)
         return STOPPED
     voice.tell({**report_tip.answer_of(found), "directory": place})
     voice.show(report_tip.text_of(found))
     voice.say(f"\nwritten: {place}: report.html, tip.json, curve.csv; the runs in tip, coarse, wide, ...")
     return 0
+
+
+COMMAND = Command(Options, _carry_out, more=(
+    "A rigid sphere on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without periodic "
+    "images: force curve, pull-off and jump-in with their errors, JKR's fit. The same command goes on where it stopped."))

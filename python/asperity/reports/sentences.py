@@ -246,7 +246,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
     others = _cycle_losses(run)
     for key, name, note in (
             ("lost.cycle", "lost at instabilities in a cycle" if others else "lost in a cycle (hysteresis)", _loss(run)),
-            *((loss + ".cycle", f"dissipated in the {place} in a cycle", f"by the {place}, with time")
+            *((loss + ".cycle", f"dissipated in the {place} in a cycle", "plastic work" if place == "surface" else f"by the {place}, with time")
               for place, loss in others.items())):
         if (value := run.number(key)) is not None:
             if run.in_newtons:

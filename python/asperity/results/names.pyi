@@ -65,6 +65,21 @@ class DissipatedInBlock(Values):
     """meV/Å^2: energy dissipated by a viscoelastic block, in a whole cycle, from and to rest beyond the interaction range"""
     uncertainty: DissipatedInBlockUncertainty
 
+class DissipatedInSurfaceUncertainty(Values):
+    approach: float
+    """meV/Å^2: convergence of dissipated_in_surface.approach"""
+    pull_off: float
+    """meV/Å^2: convergence of dissipated_in_surface.pull_off"""
+
+class DissipatedInSurface(Values):
+    approach: float
+    """meV/Å^2: plastic work"""
+    pull_off: float
+    """meV/Å^2: plastic work"""
+    cycle: float
+    """meV/Å^2: plastic work"""
+    uncertainty: DissipatedInSurfaceUncertainty
+
 class LostUncertainty(Values):
     approach: float
     """meV/Å^2: convergence of lost.approach"""
@@ -73,11 +88,11 @@ class LostUncertainty(Values):
 
 class Lost(Values):
     approach: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     pull_off: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     cycle: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     uncertainty: LostUncertainty
 
 class Kinetic(Values):
@@ -97,6 +112,21 @@ class Stored(Values):
     """meV/Å^2: change of the energy of interface and block"""
     pull_off: float
     """meV/Å^2: change of the energy of interface and block"""
+
+class MeshErrorWorkOfDrive(Values):
+    approach: float
+    """meV/Å^2: error of work_of_drive.approach and lost.approach by the spacing, as mesh_error.binding_energy"""
+    pull_off: float
+    """meV/Å^2: error of work_of_drive.pull_off and lost.pull_off by the spacing, as mesh_error.binding_energy"""
+
+class MeshError(Values):
+    binding_energy: float
+    """meV/Å^2: error of binding_energy by the spacing of a continuum over a wall, by a rule that many scenes meet"""
+    work_of_drive: MeshErrorWorkOfDrive
+    approach_force: float
+    """eV/Å: error of approach_force by the spacing, as mesh_error.binding_energy"""
+    pull_off_force: float
+    """eV/Å: error of pull_off_force by the spacing, as mesh_error.binding_energy"""
 
 class Jkr(Values):
     approach: float
@@ -141,8 +171,10 @@ class Segment(Values):
     """meV/Å^2: work of the interface, ∫ F dz of the mean height"""
     dissipated_in_block: float
     """meV/Å^2: energy dissipated by a viscoelastic block, in the segment"""
+    dissipated_in_surface: float
+    """meV/Å^2: plastic work"""
     lost: float
-    """meV/Å^2: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """meV/Å^2: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     stored: float
     """meV/Å^2: change of the energy of interface and block"""
     work_of_settling: float
@@ -187,6 +219,8 @@ class Segment(Values):
     """Å: average of the mean height of the lowest layer"""
     steady_dissipated_in_block: float
     """eV/Å: part of steady_friction"""
+    steady_dissipated_in_surface: float
+    """eV/Å: part of steady_friction"""
     steady_lost: float
     """eV/Å: part of steady_friction"""
     pressure: float
@@ -203,8 +237,30 @@ class Segment(Values):
     """Å: displacement of the top plane at the end of the segment"""
     contact_fraction: float
     """contact fraction at the end of the segment"""
+    yielding_fraction: float
+    """sites whose net pressure is the hardness"""
+    mean_set: float
+    """Å: mean permanent set at the end of the segment"""
+    largest_set: float
+    """Å: largest permanent set of a site at the end of the segment"""
     slide: list[float]
     """Å: place over the substrate along x and y at the end of the segment"""
+
+class Yielding(Values):
+    mean_set: float
+    """Å: mean permanent set of a surface that yields"""
+    largest_set: float
+    """Å: largest permanent set of a site"""
+    tension_over_hardness: float
+    """largest tension of flat surfaces divided by the smallest hardness, w/"""
+    rms_before: float
+    """Å: rms height of the surface before the path"""
+    rms_after: float
+    """Å: rms height of the surface at the end of the last segment, less its set"""
+    slope_before: float
+    """rms slope of the surface before the path, by differences of neighbours"""
+    slope_after: float
+    """rms slope of the surface at the end of the last segment, less its set, by differences of neighbours"""
 
 class DissipatedJump(Values):
     segment: int
@@ -367,8 +423,10 @@ class Energy(Values):
     """eV: work of the drive on the solids, counted from rest apart"""
     dissipated_in_block: float
     """eV: energy dissipated by a viscoelastic block"""
+    dissipated_in_surface: float
+    """eV: plastic work"""
     damped: float
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
 
 class Surface(Values):
     rms: float
@@ -397,6 +455,12 @@ class Interface(Values):
     """meV/Å^2: smallest work of adhesion of a site in the field of interface.adhesion"""
     adhesion_largest: float
     """meV/Å^2: largest work of adhesion of a site in the field of interface.adhesion"""
+    hardness_digest: str
+    """digest of the field of interface.hardness on the sites. A sweep reuses a result only if the digest is ..."""
+    hardness_least: float
+    """GPa: smallest hardness of a site in the field of interface.hardness"""
+    hardness_largest: float
+    """GPa: largest hardness of a site in the field of interface.hardness"""
     table_error: float
     """bound of the error of energies of flat surfaces, and so of binding energies, from the spline between the ..."""
 
@@ -468,6 +532,7 @@ class Numbers:
     """meV/Å^2: -U_LJ of the relaxed state"""
     work_of_drive: WorkOfDrive
     dissipated_in_block: DissipatedInBlock
+    dissipated_in_surface: DissipatedInSurface
     lost: Lost
     kinetic: Kinetic
     spring: Spring
@@ -478,6 +543,7 @@ class Numbers:
     """area in contact with a wall at zero load"""
     contact_area_uncertainty: float
     """error of contact_area by the spacing"""
+    mesh_error: MeshError
     repulsive_fraction: float
     """sites whose net normal force is repulsive, at zero load"""
     approach_force: float
@@ -487,6 +553,7 @@ class Numbers:
     jkr: Jkr
     contact_radius: ContactRadius
     instrument: Instrument
+    yielding: Yielding
     dissipated: Dissipated
     theory: Theory
     relaxed: Relaxed
@@ -599,6 +666,16 @@ class SceneInterface(Values):
     """points without a value in the map of interface.adhesion, as surface.file_missing"""
     adhesion_crop: Any
     """a map of interface.adhesion that is not square, as surface.file_crop"""
+    hardness: Any
+    """GPa: largest net pressure of a site over a wall on a quasi-static path"""
+    hardness_size: Any
+    """Å: edge of the map of interface.hardness"""
+    hardness_unit: Any
+    """unit of the map of interface.hardness"""
+    hardness_missing: Any
+    """points without a value in the map of interface.hardness, as surface.file_missing"""
+    hardness_crop: Any
+    """a map of interface.hardness that is not square, as surface.file_crop"""
     range: Any
     """Å: range of the laws except smeared and table"""
     exponent: Any
@@ -732,16 +809,24 @@ class SeriesArrays:
     """eV: work of the interface's force on the mean height since the start, ∫ F dz"""
     dissipated_in_block: np.ndarray
     """eV: energy dissipated by a viscoelastic block, since the start"""
+    dissipated_in_surface: np.ndarray
+    """eV: plastic work"""
     damped: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     dissipated: np.ndarray
-    """eV: energy damped, less the heat of noise, or dissipated at instabilities of a quasi-static path"""
+    """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
     balance_error: np.ndarray
     """energy balance"""
     contact_fraction: np.ndarray
     """sites in contact"""
     repulsive_fraction: np.ndarray
     """sites whose net normal force is repulsive"""
+    yielding_fraction: np.ndarray
+    """sites whose net pressure is the hardness"""
+    mean_set: np.ndarray
+    """Å: mean permanent set of a surface that yields"""
+    largest_set: np.ndarray
+    """Å: largest permanent set of a site of a surface that yields"""
     closest: np.ndarray
     """Å: smallest distance from a site to an atom"""
 
@@ -756,6 +841,12 @@ class StateMaps:
     """1 if distance is below the inflection of the pair potential"""
     adhesion: np.ndarray
     """meV/Å^2: work of adhesion of a site, if interface.adhesion is a field"""
+    hardness: np.ndarray
+    """GPa: hardness of a site, if interface.hardness is a field"""
+    set: np.ndarray
+    """Å: permanent set of a site of a surface that yields"""
+    yielded_height: np.ndarray
+    """Å: heights of a surface that yields, less its set"""
     u_x: np.ndarray
     """Å: displacement of a site along x"""
     u_y: np.ndarray

@@ -8,14 +8,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..errors import Error
 from ..running import program
 from ..running.pool import Job
-from ..terminal import duration
+from ..terminal import duration, table
 
 START = 0.3
 """s; what a run takes beside its simulation."""
@@ -23,10 +23,19 @@ PLANNED = 8
 """Runs of a study that are planned one by one; times of the others lie between theirs."""
 
 
+class Size(NamedTuple):
+    """A run of a study: what it is for, sites along an edge of its box, width of the box (nm), and time (s)."""
+
+    run: str
+    sites: int
+    width: float
+    seconds: float
+
+
 @dataclass
 class Forecast:
     """Runs of a study that are still to be made, of `all_runs`, the seconds that they take (NaN: not known), what is run beyond them,
-    and the numbers that will not be stated, each with the reason."""
+    the numbers that will not be stated, each with the reason, and, of a study whose runs differ in size, those that are left."""
 
     name: str
     directory: Path
@@ -35,6 +44,7 @@ class Forecast:
     seconds: float
     beyond: str = ""
     unstated: list[tuple[str, str]] = field(default_factory=list)
+    sizes: list[Size] = field(default_factory=list)
 
     def __str__(self) -> str:
         """Spells the forecast: "scan: 9 runs, about 3 min"."""
@@ -46,12 +56,15 @@ class Forecast:
     @property
     def lines(self) -> list[str]:
         """The forecast and, in a line each, what will not be stated."""
-        return [str(self), *(f"note: {names} will not be stated: {why}" for names, why in self.unstated)]
+        rows = [[one.run, str(one.sites), f"{one.width:.4g}", duration(one.seconds)] for one in self.sizes]
+        sizes = [table(["run", "sites", "width, nm", "about"], rows)] if rows else []
+        return [*sizes, str(self), *(f"note: {names} will not be stated: {why}" for names, why in self.unstated)]
 
     def json(self) -> dict[str, Any]:
         """Returns the forecast as JSON has it."""
         return {"name": self.name, "directory": self.directory, "plan": str(self), "runs": self.all_runs, "left": self.runs,
-                "seconds": self.seconds, "unstated": [{"numbers": names, "why": why} for names, why in self.unstated]}
+                "seconds": self.seconds, "unstated": [{"numbers": names, "why": why} for names, why in self.unstated]} | (
+                    {"sizes": [one._asdict() for one in self.sizes]} if self.sizes else {})
 
 
 def seconds_of(scene: str, overrides: list[str]) -> float:

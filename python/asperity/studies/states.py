@@ -29,8 +29,8 @@ from ..results.result import Values
 from ..running import lock, program
 from ..running.engine import State, Statics
 from ..running.scene import Overrides, SceneLike, assignments, inputs_of, scene_file
-from ..terminal import Progress, Voice, html_table, millijoules, table
-from ..units import MEGAPASCAL, MILLIJOULE
+from ..terminal import html_table
+from ..units import MEGAPASCAL
 
 LEAST_LOSS = 3e-3  # of the range of energies met: an instability that loses less is not followed outwards
 NEAR = 0.01  # of the deepest energy found: a random start that ends within it counts as ending there
@@ -368,56 +368,3 @@ def states(scene: SceneLike, overrides: Overrides | None = None, out: str | os.P
             written.write(RESULT, store.sealed_json({"name": search.case["name"], **found}))
             (place / UNFINISHED).unlink(missing_ok=True)
     return FoundStates(found)
-
-
-def states_command(scene: str, sets: list[str], out: str | None, starts: int, voice: Voice) -> int:
-    """Carries out `asperity states`.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    sets : list[str]
-        Overrides.
-    out : str | None
-        Result directory; None: the default one.
-    starts : int
-        Number of random starts.
-    voice : Voice
-        Output of the command.
-
-    Returns
-    -------
-    int
-        The exit code.
-    """
-    warnings.showwarning = lambda message, *_: voice.say(f"note: {message}")
-    place, shown = Path(out if out is not None else f"results/{Path(scene).stem}-states"), Progress(voice.progress)
-    try:
-        found = states(scene, sets, place, starts, lambda text: shown.update(text) if shown.due() else None)
-    except KeyboardInterrupt:
-        voice.show("Stopped early: the same command goes on from here.")
-        return 75
-    finally:
-        shown.finish()
-    def cell(state: dict, name: str) -> str:
-        return f"{state[name]:.4g}" + f" ({millijoules(state[name])})" * (name in ("binding_energy", "elastic_energy"))
-
-    rows = [[*(cell(s, name) for name in NUMBERS), f"{s['barrier']:.3g}" if s["barrier"] else "-",
-             ", ".join(s["found"])] for s in found["states"]]
-    voice.tell({**found, "directory": place})
-    rows = [[str(i), *row] for i, row in enumerate(rows)]
-    voice.show(table(["state", "binding energy, meV/Å² (mJ/m²)", "elastic, meV/Å² (mJ/m²)", "mean height, Å", "contact", "repulsive",
-                       "to the next, MPa", "found by"], rows, left=(0, 7)))
-    deepest = found["states"][found["deepest_found"]]["binding_energy"]
-    voice.show(f"The deepest state found by the path and {found['starts']} random starts has a binding energy of {deepest:.4g} meV/Å² "
-          f"({millijoules(deepest)} mJ/m²)" + (
-              f"; {found['starts_at_deepest']} of the starts ended within {NEAR:.0%} of it. A further start ends deeper with a "
-              f"probability of at most {found['deeper_next']:.2g}." if found["starts"] else "."))
-    voice.show(f"The path went in to a mean height of {found['innermost']:.2f} Å and {found['pressed_to']:.4g} MPa; "
-          f"it ended because: {found['ended']}.")
-    if found["approach_less_run"]:
-        less = found["approach_less_run"]
-        voice.show(f"The state after an approach binds by {less:+.3g} meV/Å² ({less * MILLIJOULE:+.3g} mJ/m²) relative to that of a run.")
-    voice.show("May be missed: " + "; ".join(found["may_miss"]) + f".\n{place / RESULT}")
-    return 0

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -29,6 +30,7 @@ from ..running import program
 from ..running.scene import scene_file, toml_of
 from ..theories.sphere import RATIOS, jkr, maugis
 from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
+from .forecast import START, Forecast, Size, seconds_of
 from .map_scene import edge_of, named, read_square, with_unit
 from .stated_number import NAN, Found, Number
 
@@ -47,6 +49,8 @@ COARSER, WIDER, LONGER = 1.5, 1.3, 2.0
 """Factors of spacing, width and step of the variations."""
 PARTS = {"spacing": 1 / (COARSER - 1), "width": 1.0, "step": 1 / (LONGER - 1)}
 """Errors over the differences of a variation: an error of first order in spacing and step."""
+RUN_OF = {"": "the tip", "spacing": "coarser spacing", "width": "wider box", "step": "longer steps"}
+"""Words for the runs."""
 EDGE = 0.15
 """Radius of a circle by its sites less its radius, in spacings."""
 GRAIN = 0.01
@@ -391,10 +395,18 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
                 beyond)
 
 
-def seconds_of(plan: Plan) -> dict[str, float]:
-    """Returns the times of the runs of a plan by part, as `asperity plan` estimates them, s."""
-    found = {part: float(program.plan(str(file))["seconds"]["altogether"]) for part, file in plan.scenes.items()}
-    return found | {"step": found[""] / LONGER}
+def forecast_of(plan: Plan, place: Path, left: Sequence[str], side_by_side: int) -> Forecast:
+    """Returns what a plan runs. place: directory of the study; left: parts that are still to be run."""
+    boxes = {part: Values(program.check(str(file))["scene"]) for part, file in plan.scenes.items()}
+    seconds = {part: START + seconds_of(str(file), []) for part, file in plan.scenes.items()}
+    boxes["step"], seconds["step"] = boxes[""], seconds[""] / LONGER
+    sizes = []
+    for part in left:
+        sites = int(boxes[part].needed("surface.sites"))
+        sizes.append(Size(RUN_OF[part], sites, 0.1 * sites * boxes[part].needed("surface.spacing"), seconds[part]))
+    unstated = [(", ".join(NUMBERS[path][0].replace("_", " ") for path in plan.not_stated), next(iter(plan.not_stated.values())))] \
+        if plan.not_stated else []
+    return Forecast(place.name, place, len(boxes), len(left), sum(one.seconds for one in sizes) / side_by_side, unstated=unstated, sizes=sizes)
 
 
 class _Measured(NamedTuple):
