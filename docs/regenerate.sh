@@ -39,6 +39,9 @@ made $gallery/first-contact.png
 
 "$python" $gallery/tip.py $place/tip $gallery/tip.png
 made $gallery/tip.png
+./asperity run scenes/coating.toml --progress off --out $place/coating >$place/log.txt
+"$python" $gallery/coating.py $place/coating $gallery/coating.png
+made $gallery/coating.png
 
 "$python" $gallery/examples.py
 made $gallery/examples-*.svg

@@ -108,6 +108,15 @@ std::vector<Command> own_commands() {
              points.scene = scene_file(given, points.overrides);
              return on_root(world, [&] { return theory_points_command(points); });
          }},
+        {"stress-below",
+         {takes::scene,
+          takes::set,
+          {"--points", "FILE", "the state: {\"file\": run.h5, \"state\": name, \"slid\": false}",
+           &Arguments::points},
+          {"--out", "FILE", "the file to write", &Arguments::out}},
+         [](const Arguments& given, const Communicator& world) {
+             return on_root(world, [&] { return stress_below_command(case_of(given, 1), given); });
+         }},
         {"hold",
          {{.name = "DIR",
            .value = "",

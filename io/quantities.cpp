@@ -55,6 +55,7 @@ const std::vector<Topic>& result_topics() {
 const std::vector<Topic>& run_topics() {
     static const std::vector<Topic> topics = {{"Series along the path", {"series"}},
                                               {"Maps of states", {"fields"}},
+                                              {"Stresses below the surface", {"stress"}},
                                               {"Substrate", {"substrate"}},
                                               {"Profile of a theory, in theory.h5", {"profile"}}};
     return topics;

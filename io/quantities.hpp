@@ -481,6 +481,29 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*@slide_x", "Å", "", "place of the block over the substrate along x, after a slide"},
     {"fields/*@slide_y", "Å", "", "place of the block over the substrate along y, after a slide"},
     {"fields/*@reference_height", "Å", "", "height of the undisplaced lowest layer"},
+    {"stress/*/largest", "GPa", "",
+     "largest stresses in each layer of the block, that of the surface first: [layer][von Mises, "
+     "Tresca, largest principal stress]; tension is positive"},
+    {"stress/*/largest_error", "GPa", "",
+     "sum of the changes of largest between the depths of the search, from the sites to twice the "
+     "points, with a constant pressure on each site, and by images of free edges; NaN: the value "
+     "is "
+     "not to be quoted, because it lies less than half a spacing below the surface or at the end "
+     "of the search"},
+    {"stress/*/largest_place", "Å", "", "places of largest: [layer][measure][x, y, depth]"},
+    {"stress/*/layers", "Å", "", "depths of the searched part of each layer: [layer][from, to]"},
+    {"stress/*/profile_depth", "Å", "", "depths of profile"},
+    {"stress/*/profile", "GPa", "",
+     "largest stresses at each depth: [depth][von Mises, Tresca, largest principal stress]"},
+    {"stress/*/depth", "Å", "", "depths of section and volume, from the surface into the block"},
+    {"stress/*/section", "GPa", "",
+     "stresses in two vertical planes, through the largest stress of von Mises and through the "
+     "largest tension: [plane][xx, yy, zz, xy, xz, yz][depth][x]"},
+    {"stress/*/section_y", "Å", "", "places of the planes of section"},
+    {"stress/*/map", "GPa", "", "stresses at the depth map_depth: [xx, yy, zz, xy, xz, yz][y][x]"},
+    {"stress/*/volume", "GPa", "", "stresses at all depths: [xx, yy, zz, xy, xz, yz][depth][y][x]"},
+    {"stress/*@map_depth", "Å", "", "depth of the largest stress of von Mises"},
+    {"stress/*@friction", "1", "", "output.stress_friction"},
     {"substrate/height", "Å", "",
      "heights of the atoms of the substrate at (x a, y a), [y][x]; for a substrate of atoms the "
      "height of the topmost atom nearest to this place"},

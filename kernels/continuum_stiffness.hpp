@@ -17,15 +17,15 @@
 //     a, stiffness of the lower surface below a clamped upper one, times Q / (4 (1 - nu) mu q),
 //         Q = k^2 sinh^2 X - X^2:
 //         k sinh cosh - X,   k sinh cosh + X,   coupling -(k c sinh^2 - X^2) / (2 (1 - nu)),
-//     p, compliance of the lower surface below a free upper one, times mu q R / (1 - nu),
-//         R = sinh^2 X - X^2:
-//         sinh cosh - X,     sinh cosh + X,     coupling (c sinh^2 + X^2) / (2 (1 - nu)),
-//     r, displacement of the free upper surface by forces on the lower one, with the same factor:
-//         ( sinh - X cosh    -X sinh        )
-//         ( X sinh            sinh + X cosh ).
+//     p^-1, stiffness of the lower surface below a free upper one, over 2 mu q e / M, with e = 1 + c,
+//         M = e^2 + (1 + 2 c) sinh^2 X + X^2:
+//         sinh cosh + X,     sinh cosh - X,     coupling -(c sinh^2 + X^2) / e,
+//     t, displacement of the free upper surface by that of the lower one, over e / M:
+//         ( e cosh - X sinh    -c sinh - X cosh )
+//         ( X cosh - c sinh     e cosh + X sinh ).
 //
 // The stiffness follows from the top layer downwards by a sum without cancellation, with d the
-// matrix a with the other sign of the coupling and t = r p^-1:
+// matrix a with the other sign of the coupling:
 //
 //     S_1 = a,      S_(n+1) = p^-1 + t^T (S_n^-1 + d^-1)^-1 t.
 //

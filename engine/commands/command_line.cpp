@@ -180,7 +180,7 @@ bool is_for_programs(int argc, char** argv) {
             return true;
     }
     const std::string_view command = argc > 1 ? argv[1] : "";
-    return command == "theory-points" || command == "hold";
+    return command == "theory-points" || command == "stress-below" || command == "hold";
 }
 
 namespace {

@@ -57,6 +57,12 @@ struct TheoryPoints {
 /// Prints the theories of the points (`asperity theory-points`). Throws io::FileError if the input
 /// cannot be read.
 int theory_points_command(const TheoryPoints& what);
+/// Computes the stresses below a state of a run (`asperity stress-below`), for programs. scene:
+/// block and output.stress*; given.points: a file of JSON, {"file": run.h5, "state": name of a
+/// group of /fields, "slid": true for the tractions of with_slopes()}; given.out: file of HDF5 to
+/// which the group /stress/<state> is written. Prints the largest stresses of each layer as one
+/// line of JSON.
+int stress_below_command(const Case& c, const Arguments& given);
 /// Locks a result directory and sends the lock's file descriptor through the Unix socket at
 /// standard input (`asperity hold`). Throws io::SceneError if the standard input is no socket, and
 /// io::FileError if the directory is in use.

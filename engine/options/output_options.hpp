@@ -11,12 +11,24 @@
 
 namespace asperity {
 
+/// Points at which the stresses below a map are written.
+enum class StressPoints { none, section, volume };
+
+/// Stresses below the surface (output.stress).
+struct StressOptions {
+    StressPoints points = StressPoints::none;
+    std::optional<double> depth; ///< largest depth, Å; empty: three times that of the largest
+    int depths = 48;             ///< number of depths
+    double friction = 0.0;       ///< coefficient of a friction in phase with the pressure
+};
+
 /// Output of a run and its periods.
 struct OutputOptions {
     std::optional<long long> trajectory; ///< steps between frames; empty: none
     bool velocities = false;             ///< write velocities in the frames too
     long long series = 100;              ///< steps between rows of the series
     double checkpoint = 600.0;           ///< wall time between checkpoints, s; 0: no checkpoints
+    StressOptions stress{};              ///< stresses below each map of a state
 };
 
 /// Times at which maps are written (output.fields).

@@ -66,8 +66,7 @@ void PathMaps::finish(const Path& path) {
     if (!std::exchange(kept_, false)) return;
     path.free_workspace();
     const auto write_over = [&](const Interface& interface) {
-        session_.recorder().fields("pull-off", std::as_const(layer_).plane(0), path.grid(),
-                                   interface);
+        record("pull-off", path, std::as_const(layer_).plane(0), interface);
     };
     if (place_ == path.interface().place()) return write_over(path.interface());
     // The block has slid since.
@@ -83,7 +82,16 @@ void PathMaps::write(const Path& path, const std::string& state,
                      const VectorPlane<const double>& layer) {
     const auto t = session_.phases().time(Phase::output);
     path.free_workspace();
-    session_.recorder().fields(state, layer, path.grid(), path.interface());
+    record(state, path, layer, path.interface());
+}
+
+void PathMaps::record(const std::string& state, const Path& path,
+                      const VectorPlane<const double>& layer, const Interface& interface) {
+    session_.recorder().fields(state, layer, path.grid(), interface);
+    const Case& c = session_.scene_case();
+    if (c.output.stress.points != StressPoints::none)
+        session_.recorder().stresses(state, layer, path.grid(), interface, c.simulation.block,
+                                     c.output.stress);
 }
 
 namespace {

@@ -49,6 +49,10 @@ private:
     bool is_due(long long step) const;
     bool delayed_is_due(const Path& path, double time) const;
     void write(const Path& path, const std::string& state, const VectorPlane<const double>& layer);
+    /// Records the maps of a layer over an interface, and the stresses below it if the scene asks
+    /// for them.
+    void record(const std::string& state, const Path& path, const VectorPlane<const double>& layer,
+                const Interface& interface);
 
     RunSession& session_;
     const MapTimes& times_;

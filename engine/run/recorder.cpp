@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/recorder.hpp"
 
+#include "engine/run/stress_record.hpp"
 #include "io/machine.hpp"
 #include "io/result_directory.hpp"
 #include "io/run_h5.hpp"
@@ -204,6 +205,34 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
                       const ProcessGrid& grid, const Interface& interface) {
     const io::PayloadWriter entry = entry_of_fields(state, layer, communicator_, grid, interface);
     communicator_.on_root([&] { journal_->append(group_entry, entry.bytes()); });
+}
+
+void Recorder::stresses(const std::string& state, const VectorPlane<const double>& layer,
+                        const ProcessGrid& grid, const Interface& interface,
+                        const BlockOptions& block, const StressOptions& options) {
+    const InterfaceMaps maps = interface.maps(layer);
+    std::vector<double> pressure = whole(communicator_, grid, maps.pressure);
+    std::vector<double> gap = whole(communicator_, grid, maps.gap);
+    const std::vector<double> z = gather_plane(communicator_, grid, 0, layer.z);
+    const bool slid = interface.place() != std::array<double, 2>{};
+    communicator_.on_root([&] {
+        crop_map(pressure, grid.tile(0).sites, interface.sites_across());
+        if (slid) // the wall below each site, to a constant
+            for (std::size_t i = 0; i < gap.size(); ++i)
+                gap[i] = z[i] - gap[i];
+        const StressRecord record = record_stresses(
+            block,
+            slid && options.friction == 0.0 ? with_slopes(block, std::move(pressure), gap)
+                                            : with_friction(std::move(pressure), options.friction),
+            options);
+        io::PayloadWriter entry;
+        put_group(entry, "/stress/" + state, true);
+        for (const StressArray& array : record.arrays)
+            put_member<float>(entry, data_set, array.name, array.shape, array.values);
+        for (const auto& [name, value] : record.attributes)
+            put_member(entry, attribute, name, {}, std::span<const double>(&value, 1));
+        journal_->append(group_entry, entry.bytes());
+    });
 }
 
 io::PayloadWriter Recorder::entry_of_fields(const std::string& state,

@@ -9,6 +9,7 @@
 // takes less than a small fraction of the time. run.h5 is complete at any time.
 #pragma once
 
+#include "engine/options/output_options.hpp"
 #include "engine/path/path.hpp"
 #include "engine/run/series.hpp"
 #include "io/files.hpp"
@@ -66,6 +67,10 @@ public:
                                              const VectorPlane<const double>& layer,
                                              const Communicator& ranks, const ProcessGrid& grid,
                                              const Interface& interface);
+    /// Appends the stresses below a state whose maps were appended last (output.stress).
+    void stresses(const std::string& state, const VectorPlane<const double>& layer,
+                  const ProcessGrid& grid, const Interface& interface, const BlockOptions& block,
+                  const StressOptions& options);
     /// Appends a frame of the trajectory (H5MD): the positions of the lowest layer at path.now(),
     /// with its velocities if `velocities`.
     void frame(const Path& path, bool velocities);

@@ -638,6 +638,47 @@ io::Schema bind(Scene& scene) {
         {"output.fields", "zero-load", "the state can carry a load", "write \"relaxed\""});
     schema.removed({"output.fields", "after-zero-load:", "it is the time after the approach",
                     "write \"after-approach:N\""});
+    const io::Schema::Need mapped = Needs::acting(
+        {[&output] { return !output.fields.empty(); }, "output.fields names no state"},
+        "take output.fields = [\"relaxed\"]", {"output.fields"});
+    schema
+        .choice<StressPoints>(
+            "stress", output.stress.points,
+            {{"none", StressPoints::none},
+             {"section", StressPoints::section},
+             {"volume", StressPoints::volume}},
+            "stresses below the surface with each map of a state: the largest ones with "
+            "their places, and all components in a vertical section and at the depth of "
+            "the largest (section), or at all depths of the section too (volume)")
+        .needs = {
+        needs.refusing(needs.equilibria, "on a dynamic path", "its solids are not in equilibrium",
+                       "take drive.mode = \"quasistatic\", or stress = \"none\""),
+        needs.refusing(needs.wall, "over atoms",
+                       "the forces between single atoms are no pressure on a continuum",
+                       "take interface.kind = \"wall\", or stress = \"none\""),
+        needs.refusing({[&scene] { return scene.block_model() == BlockModel::continuum; }, ""},
+                       "with a lattice", "the stresses are those of a continuum",
+                       "take block.model = \"continuum\", or stress = \"none\""),
+        mapped};
+    const io::Schema::Need stressed =
+        Needs::acting({[&output] { return output.stress.points != StressPoints::none; },
+                       "output.stress is \"none\""},
+                      "take output.stress = \"section\"", {"output.stress"});
+    schema
+        .number_or("stress_depth", output.stress.depth, "auto", "Å", positive(),
+                   "largest depth of the section; \"auto\": three times the depth of the largest "
+                   "stress of von Mises, and all layers")
+        .needs = {stressed};
+    schema
+        .integer("stress_depths", output.stress.depths, between(2, 1024),
+                 "number of depths of the section, from the surface")
+        .needs = {stressed};
+    schema
+        .number(
+            "stress_friction", output.stress.friction, "", between(-2.0, 2.0),
+            "friction coefficient of a traction along x in phase with the pressure, where it is "
+            "repulsive: the block slides along +x over the substrate")
+        .needs = {stressed};
     schema.integer("series", output.series, at_least(1), "steps between rows of the series")
         .needs = {needs.dynamic};
     schema.number_or_none("checkpoint", output.checkpoint, "s", positive(),

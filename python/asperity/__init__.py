@@ -28,6 +28,7 @@ if TYPE_CHECKING:
         Adhesion as Adhesion,
         Estimate as Estimate,
         Result as Result,
+        Stress as Stress,
         Sweep as Sweep,
         Tip as Tip,
         adhesion as adhesion,
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
         load_sweep as load_sweep,
         prony as prony,
         run as run,
+        stress as stress,
         sweep as sweep,
         tip as tip,
     )
@@ -54,7 +56,8 @@ if TYPE_CHECKING:
     from .studies.states import states as states
 
 _LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".forms", "estimate": ".forms", "load_estimate": ".forms",
-         "adhesion": ".forms", "tip": ".forms", "Tip": ".forms", "Result": ".forms", "Sweep": ".forms", "Estimate": ".forms", "Adhesion": ".forms",
+         "adhesion": ".forms", "tip": ".forms", "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
+         "Estimate": ".forms", "Adhesion": ".forms",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
          "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".functions",
          "cost": ".functions", "convert": ".functions", "prony": ".forms", "export": ".functions"}

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from .arguments import checks_call
 from .commands.adhesion import Adhesion, adhesion
+from .commands.stress import stress
 from .commands.tip import tip
 from .files import store
 from .results.frames import Frames
@@ -22,13 +23,14 @@ from .studies.cost import Cost
 from .studies.estimates import Estimate, estimate, load_estimate
 from .studies.prony import Prony, prony
 from .studies.stated_number import Number
+from .studies.stress import Stress
 from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
 from .studies.tip import Tip
 from .terminal import html_table
 
-__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
-           "sweep", "tip"]
+__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Stress", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep",
+           "prony", "run", "stress", "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:

@@ -69,11 +69,11 @@ CALLS = {  # of each command what it is called with, and what is refused
     "cost": ([SCENE, "--plan"], [SCENE, "--parameters", FAR]), "estimate": ([SCENE, "--parts", "convergence"], [SCENE, "--parts", FAR]),
     "adhesion": (["scan.txt", "--plan", *MODULI, "--size", "100nm", "--unit", "Å", "--sites", "16"], ["scan.txt"]),
     "tip": (None, ["--radius", "20e-9"]), "states": ([SCENE, "--starts", "1", "--out", "states"], [SCENE, *BAD_KEYS]),
-    "report": (["done"], ["."]), "export": (["done", "--to", "png"], ["done", "--to", FAR]),
+    "report": (["done"], ["."]), "stress": (["done"], ["done", "--friction", "9"]), "export": (["done", "--to", "png"], ["done", "--to", FAR]),
     "convert": (["scan.txt", "scan.h5", "--channel", "1"], [FAR]), "prony": (["curve.csv", "rubber.toml"], ["curve.csv", "--relaxed", "3"]),
     "scenes": (["copied"], ["copied", "--bogus"]), "defaults": ([], ["--bogus"]), "info": ([], ["--bogus"]),
     "init": ([f"{FAR}_more.toml"], [f"{FAR}_more.toml"])}
-CALLS |= {name: (None, ["--bogus"]) for name, _ in commands_of(say(PROGRAM, "--help")) if name not in (*CALLS, "theory-points", "hold")}
+CALLS |= {name: (None, ["--bogus"]) for name, _ in commands_of(say(PROGRAM, "--help")) if name not in (*CALLS, "theory-points", "stress-below", "hold")}
 
 
 def too_wide(text):

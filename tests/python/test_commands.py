@@ -25,7 +25,7 @@ from generate import commands_of, completion, options_of, say, zsh_completion
 PROGRAM = os.environ["ASPERITY_PROGRAM"]
 COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]
 HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
-FOR_PROGRAMS = {"theory-points", "hold"}
+FOR_PROGRAMS = {"theory-points", "stress-below", "hold"}
 WRITES_NOTHING = {"check", "plan", "defaults", "info"}
 RUNS_SEVERAL = {name for name in OF_PYTHON if "jobs" in of_package(name).options.about()}
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
@@ -46,6 +46,7 @@ def words_of(name):
             "estimate": (["s.toml", "--parts", "convergence", "--seeds", "2"], "out", "estimate.json"),
             "adhesion": (["map.npy", *GIVEN, "--sites", "16"], "out", "estimate.json"),
             "states": (["s.toml", "--starts", "2"], "out", "states.json"), "report": (["done"], "out", "report.html"),
+            "stress": (["pressed"], "out", "stress.json"),
             "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
             "prony": (["curve.csv"], "out.toml", ""), "scenes": ([], "out", "scenes/first-contact.toml"),
             "defaults": ([], "", ""), "info": ([], "", ""),
@@ -57,6 +58,7 @@ def results(tmp_path_factory):
     place = tmp_path_factory.mktemp("walk")
     (place / "s.toml").write_text(SCENE)
     asperity.run(place / "s.toml", out=place / "done")
+    asperity.run(place / "s.toml", {"interface.kind": "wall", "interface.adhesion": "50 mJ/m2"}, out=place / "pressed")
     draw = np.random.default_rng(1).normal(size=(16, 16))
     np.save(place / "map.npy", draw)
     np.savetxt(place / "map.txt", draw)
@@ -66,7 +68,7 @@ def results(tmp_path_factory):
 
 @pytest.fixture()
 def work(results, tmp_path, monkeypatch):
-    for name in ("s.toml", "map.npy", "map.txt", "curve.csv", "done"):
+    for name in ("s.toml", "map.npy", "map.txt", "curve.csv", "done", "pressed"):
         (tmp_path / name).symlink_to(results / name)
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -123,7 +125,7 @@ def test_json_quiet_and_out(work, light, name):
     if name == "surface":
         assert (work / out / file).exists()
     assert wanted.exists()
-    before = {path for path in work.rglob("*") if "done" not in path.parts}
+    before = {path for path in work.rglob("*") if not {"done", "pressed"} & set(path.parts)}
     if out:
         inputs = ("s.toml", "map.npy", "map.txt", "curve.csv", ".asperity-files", "run.lock")
         assert all(path == work / out or work / out in path.parents or path.stem == Path(out).stem or path.name in inputs

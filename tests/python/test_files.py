@@ -66,6 +66,7 @@ AFTER = {
     "report": (["run"], ["report", "out"]),
     "report of a sweep": (["sweep"], ["report", "out"]),
     "report of an estimate": (["estimate"], ["report", "out"]),
+    "stress": (["run"], ["stress", "out", "--out", "out"]),
     "export xyz": (["run"], ["export", "out", "--to", "xyz"]),
     "export vtk": (["stopped"], ["export", "out", "--to", "vtk"]),
     "export png": (["run"], ["export", "out", "--to", "png"]),

@@ -19,9 +19,9 @@ SUBPACKAGES = {
     "maps": ("channels", "arrays", "text", "master_curve", "atoms", "convert", "height_map", "missing_waves"),
     "theories": ("renormalised", "sphere", "viscoelastic", "combined"),
     "studies": ("grid", "tables", "forecast", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
-                "estimates", "map_scene", "tip", "prony", "states"),
-    "plots": ("style", "run", "prony", "tip", "sweep"),
-    "reports": ("page", "sentences", "run", "cost", "estimate", "tip", "sweep", "export"),
+                "estimates", "map_scene", "tip", "prony", "states", "stress"),
+    "plots": ("style", "run", "prony", "tip", "stress", "sweep"),
+    "reports": ("page", "sentences", "export", "stress", "run", "cost", "estimate", "tip", "sweep"),
     "commands": ("command_line", "options", "studies", *purposes()),
     "forms": (), "functions": (), "crack": (), "__init__": (), "__main__": (),
 }

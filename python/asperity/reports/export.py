@@ -143,7 +143,36 @@ def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> st
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
         arrays.append((kind, name, values.ndim * 2 - 3, _packed(values, form)))
-    return _text("image.vti", n=len(next(iter(maps.values()))), spacing=spacing, origin=origin, arrays=arrays)
+    n = len(next(iter(maps.values())))
+    return _image((n, n, 1), (spacing,) * 3, (origin, origin, 0.0), arrays)
+
+
+def volume_text(spacing: tuple[float, float, float], origin: tuple[float, float, float], fields: dict[str, np.ndarray]) -> str:
+    """Returns VTK's XML image of a volume in single precision.
+
+    Parameters
+    ----------
+    spacing : tuple[float, float, float]
+        Distance of the points along x, y and z, Å.
+    origin : tuple[float, float, float]
+        Place of the first point, Å.
+    fields : dict[str, np.ndarray]
+        Numbers [z, y, x] by name.
+
+    Returns
+    -------
+    str
+        The text of the file.
+    """
+    nz, ny, nx = next(iter(fields.values())).shape
+    return _image((nx, ny, nz), spacing, origin, [("Float32", name, 1, _packed(values, "<f4")) for name, values in fields.items()])
+
+
+def _image(size: Iterable[int], spacing: Iterable[float], origin: Iterable[float], arrays: list[tuple[str, str, int, str]]) -> str:
+    """Returns VTK's XML image. arrays: type, name, number of components and packed values."""
+    def words(numbers: Iterable[float]) -> str:
+        return " ".join(f"{number:.12g}" for number in numbers)
+    return _text("image.vti", extent=" ".join(f"0 {n - 1}" for n in size), spacing=words(spacing), origin=words(origin), arrays=arrays)
 
 
 def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:

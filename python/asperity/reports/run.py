@@ -18,11 +18,12 @@ from ..plots.style import KINDS
 from ..results.losses import losses
 from ..results.result import Result, State, Values
 from ..running import program, scene
+from ..studies.stress import stresses_in
 from ..studies.tables import AREA, BOTH
 from ..terminal import minus
 from ..theories import combined
 from ..units import ATTOJOULE, NANONEWTON, shown
-from . import sentences
+from . import sentences, stress as report_stress
 from .page import Page, file_name, page_files
 
 MOST_STATES = 6
@@ -152,6 +153,15 @@ def _states(page: Page, run: Result) -> None:
         page.add("paragraph", f"{few} of the {n} states in run.h5 are shown; `asperity export` writes them all.")
 
 
+def _stresses(page: Page, run: Result) -> None:
+    """Adds the stresses below the states that the run has recorded (output.stress)."""
+    for found in stresses_in(run):
+        name = file_name(found.state)
+        page.section(f"stress-{name}", f"Stresses below the state {sentences.state_in_words(run, found.state)}")
+        report_stress.add_table(page, found)
+        report_stress.figures(page, found, f"-{name}")
+
+
 def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
            units: Mapping[str, float] = MappingProxyType({})) -> None:
     """Adds a table of numbers by column, each divided by its unit."""
@@ -263,7 +273,7 @@ def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> lis
     list[str]
         The names.
     """
-    of_state = [one[0] for one in (*MAPS, *DISTRIBUTIONS)]
+    of_state = [*(one[0] for one in (*MAPS, *DISTRIBUTIONS)), *report_stress.FIGURES]
     return page_files([*(figure[0] for _, figures in FIGURES.values() for figure in figures),
                        *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)
 
@@ -287,7 +297,7 @@ def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS, out: Path | None
     """
     combined.complete(run)
     page = Page(out or run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
-    for part in (_top, partial(_figures, "path"), _segments, _states, partial(_figures, "surface"),
+    for part in (_top, partial(_figures, "path"), _segments, _states, _stresses, partial(_figures, "surface"),
                  partial(_figures, "energies"), _numbers, _times):
         part(page, run)
     beside = {"file": ", with the map beside it", "atoms": ", with the file of atoms beside it"}.get(

@@ -744,6 +744,14 @@ class SceneOutput(Values):
     """writes velocities in the frames of the trajectory too"""
     fields: Any
     """times of maps"""
+    stress: Any
+    """stresses below the surface with each map of a state"""
+    stress_depth: Any
+    """Å: largest depth of the section"""
+    stress_depths: Any
+    """number of depths of the section, from the surface"""
+    stress_friction: Any
+    """friction coefficient of a traction along x in phase with the pressure, where it is repulsive"""
     series: Any
     """steps between rows of the series"""
     checkpoint: Any

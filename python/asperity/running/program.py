@@ -14,6 +14,7 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -307,6 +308,40 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
     if len(lines) != len(points):
         raise InternalError("asperity theory-points", f"answered {len(lines)} of {len(points)} points")
     return [json.loads(line) for line in lines]
+
+
+def stress_below(scene: str, overrides: Iterable[str], file: str, state: str, slid: bool, out: str) -> dict[str, Any]:
+    """Computes the stresses below a state.
+
+    Parameters
+    ----------
+    scene : str
+        Scene file of the block.
+    overrides : Iterable[str]
+        Overrides: output.stress and the keys beside it.
+    file : str
+        File run.h5 with the maps of the state.
+    state : str
+        Name of the state.
+    slid : bool
+        True: the friction of a slide acts as pressure times slope.
+    out : str
+        HDF5 file to write.
+
+    Returns
+    -------
+    dict[str, Any]
+        The largest stresses of each layer.
+
+    Raises
+    ------
+    Error
+        The scene is refused, or the maps cannot be read.
+    """
+    with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as points:
+        json.dump({"file": file, "state": state, "slid": slid}, points)
+        points.flush()
+        return json.loads(call(["stress-below", scene, *sets(overrides), "--points", points.name, "--out", out]))
 
 
 def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
