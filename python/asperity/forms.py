@@ -13,12 +13,14 @@ from pathlib import Path
 
 from .arguments import checks_call
 from .commands.adhesion import Adhesion, adhesion
+from .commands.curve import curve
 from .commands.tip import tip
 from .files import store
 from .results.frames import Frames
 from .results.result import Group, Result, Values, load
 from .running.runs import run
 from .studies.cost import Cost
+from .studies.curves import Curves
 from .studies.estimates import Estimate, estimate, load_estimate
 from .studies.prony import Prony, prony
 from .studies.stated_number import Number
@@ -27,8 +29,8 @@ from .studies.tables import Columns, text_of
 from .studies.tip import Tip
 from .terminal import html_table
 
-__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep", "prony", "run",
-           "sweep", "tip"]
+__all__ = ["Adhesion", "Curves", "Estimate", "Prony", "Result", "Sweep", "Tip", "adhesion", "curve", "estimate", "load", "load_estimate",
+           "load_sweep", "prony", "run", "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:
