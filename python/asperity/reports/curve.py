@@ -129,7 +129,8 @@ def write(found: Curves) -> Path:
     tip = found.question.indenter
     size = f"{tip.size:g} nm" if tip.shape in ("paraboloid", "sphere", "punch") else f"{tip.size:g}°"
     lead = re.sub(r"_([\w-]+)", r"_{\1}", str(found.numbers[0]))
-    page = Page(found.directory, "asperity curve", f"{Path(found.file).name}: {len(found.curves)} force curve{'s' * (len(found.curves) != 1)}", lead, kinds=("png",))
+    title = f"{Path(found.file).name}: {len(found.curves)} force curve{'s' * (len(found.curves) != 1)}"
+    page = Page(found.directory, "asperity curve", title, lead, kinds=("png",))
     page.section("numbers", "Numbers")
     page.table(["number", "value", "error", "unit", "parts of the error, or why it is not stated"], [_cells(n) for n in found.numbers])
     page.add("text", f"Tip: {tip.shape}, {size}; cantilever {one.measured.stiffness:.4g} N/m. E* = E/(1-ν²). Errors are one standard error.")

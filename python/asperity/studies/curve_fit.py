@@ -277,7 +277,7 @@ def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period
     Unfit
         The fit does not converge.
     """
-    if near is None or "work" not in near.values:
+    if near is None or model == "hertz":
         begin = _start(indenter, model, found, stiffness)
     else:  # with a work that gives the same pull-off
         at, pulls = near.values, []  # lowest forces
