@@ -26,12 +26,14 @@ from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneE
 if TYPE_CHECKING:
     from .forms import (
         Adhesion as Adhesion,
+        Curves as Curves,
         Estimate as Estimate,
         Result as Result,
         Stress as Stress,
         Sweep as Sweep,
         Tip as Tip,
         adhesion as adhesion,
+        curve as curve,
         estimate as estimate,
         load as load,
         load_estimate as load_estimate,
@@ -56,7 +58,8 @@ if TYPE_CHECKING:
     from .studies.states import states as states
 
 _LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".forms", "estimate": ".forms", "load_estimate": ".forms",
-         "adhesion": ".forms", "tip": ".forms", "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
+         "adhesion": ".forms", "curve": ".forms", "Curves": ".forms", "tip": ".forms", "stress": ".forms", "Tip": ".forms", "Stress": ".forms",
+         "Result": ".forms", "Sweep": ".forms",
          "Estimate": ".forms", "Adhesion": ".forms",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
          "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".functions",

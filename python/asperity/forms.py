@@ -13,6 +13,7 @@ from pathlib import Path
 
 from .arguments import checks_call
 from .commands.adhesion import Adhesion, adhesion
+from .commands.curve import curve
 from .commands.stress import stress
 from .commands.tip import tip
 from .files import store
@@ -20,6 +21,7 @@ from .results.frames import Frames
 from .results.result import Group, Result, Values, load
 from .running.runs import run
 from .studies.cost import Cost
+from .studies.curves import Curves
 from .studies.estimates import Estimate, estimate, load_estimate
 from .studies.prony import Prony, prony
 from .studies.stated_number import Number
@@ -29,8 +31,8 @@ from .studies.tables import Columns, text_of
 from .studies.tip import Tip
 from .terminal import html_table
 
-__all__ = ["Adhesion", "Estimate", "Prony", "Result", "Stress", "Sweep", "Tip", "adhesion", "estimate", "load", "load_estimate", "load_sweep",
-           "prony", "run", "stress", "sweep", "tip"]
+__all__ = ["Adhesion", "Curves", "Estimate", "Prony", "Result", "Stress", "Sweep", "Tip", "adhesion", "curve", "estimate", "load",
+           "load_estimate", "load_sweep", "prony", "run", "stress", "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:

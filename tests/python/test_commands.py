@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 import asperity
+import test_curve
 from asperity.arguments import ALIASES
 from asperity.commands.options import command as of_package
 from conftest import OF_PYTHON, ROOT, in_this_process
@@ -50,7 +51,8 @@ def words_of(name):
             "export": (["done", "--to", "vtk"], "out", "relaxed.vti"), "convert": (["map.txt"], "out.h5", ""),
             "prony": (["curve.csv"], "out.toml", ""), "scenes": ([], "out", "scenes/first-contact.toml"),
             "defaults": ([], "", ""), "info": ([], "", ""),
-            "tip": ([*TIP, "--sites", "24"], "out", "tip.json")}[name]
+            "tip": ([*TIP, "--sites", "24"], "out", "tip.json"),
+            "curve": (["force.csv", "--radius", "20nm", "--stiffness", "2N/m"], "out", "curve.json")}[name]
 
 
 @pytest.fixture(scope="module")
@@ -63,12 +65,13 @@ def results(tmp_path_factory):
     np.save(place / "map.npy", draw)
     np.savetxt(place / "map.txt", draw)
     (place / "curve.csv").symlink_to(ROOT / "scenes/rubber-master-curve.csv")
+    (place / "force.csv").write_text(test_curve.text_of(*test_curve.measured("jkr")))
     return place
 
 
 @pytest.fixture()
 def work(results, tmp_path, monkeypatch):
-    for name in ("s.toml", "map.npy", "map.txt", "curve.csv", "done", "pressed"):
+    for name in ("s.toml", "map.npy", "map.txt", "curve.csv", "force.csv", "done", "pressed"):
         (tmp_path / name).symlink_to(results / name)
     monkeypatch.chdir(tmp_path)
     return tmp_path
@@ -127,7 +130,7 @@ def test_json_quiet_and_out(work, light, name):
     assert wanted.exists()
     before = {path for path in work.rglob("*") if not {"done", "pressed"} & set(path.parts)}
     if out:
-        inputs = ("s.toml", "map.npy", "map.txt", "curve.csv", ".asperity-files", "run.lock")
+        inputs = ("s.toml", "map.npy", "map.txt", "curve.csv", "force.csv", ".asperity-files", "run.lock")
         assert all(path == work / out or work / out in path.parents or path.stem == Path(out).stem or path.name in inputs
                    for path in before), before
     code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
@@ -213,7 +216,7 @@ def test_an_option_is_in_the_help_and_in_the_function(name):
     for field, (one, kind, needed) in about.items():
         if one.help != argparse.SUPPRESS:
             assert " ".join(one.help.split()) in text and (one.word or "--" + (one.name or field).replace("_", "-") in text), field
-    if name in ("adhesion", "tip"):
+    if name in ("adhesion", "curve", "tip"):
         arguments = set(inspect.signature(getattr(asperity, name)).parameters)
         assert arguments == {word for field in about.keys() - {"plan"} for word in (field, *ALIASES.get(field, ()))}
 

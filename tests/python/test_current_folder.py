@@ -12,7 +12,7 @@ from asperity.commands.options import command as of_package, purposes
 from asperity.errors import NEEDED
 from conftest import ROOT
 
-NAMES = sorted({*sys.stdlib_module_names, *NEEDED, "asperity", "sitecustomize", "usercustomize", "SurfaceTopography", "ase"})
+NAMES = sorted({*sys.stdlib_module_names, *NEEDED, "asperity", "sitecustomize", "usercustomize", "SurfaceTopography", "afmformats", "ase"})
 HOSTILE = "import os\nopen(os.environ['READ'], 'a').write(__file__ + '\\n')\nraise SystemExit(7)\n"
 
 

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 
 import asperity
+import test_curve
 from asperity.files import store
 from conftest import command
 
@@ -59,6 +60,7 @@ COMMANDS = {
     "estimate": ["estimate", "q.toml", "--parts", "convergence,width", "--seeds", "2", "--out", "out"],
     "adhesion": ["adhesion", *MAP, "--out", "out"],
     "tip": ["tip", "--radius", "20nm", "--E", "3GPa", "--nu", "0.3", "--w", "50mJ/m2", "--stiffness", "20N/m", "--sites", "24", "--out", "out"],
+    "curve": ["curve", "force.csv", "--radius", "20nm", "--stiffness", "2N/m", "--out", "out"],
     "states": ["states", "q.toml", "--starts", "1", "--out", "out"],
 }
 """Each with the directory "out" for its files."""
@@ -91,6 +93,7 @@ def inputs(tmp_path_factory):
     q[0, 0] = 1
     heights = np.fft.ifft2(np.fft.fft2(draw.normal(size=(n, n))) * np.maximum(q, 3) ** -1.8).real
     np.save(place / "map.npy", 5 * heights / heights.std())
+    (place / "force.csv").write_text(test_curve.text_of(*test_curve.measured("jkr")))
     (place / "map.txt").write_text("1 2 3 4\n2 3 4 5\n3 4 5 6\n1 2 1 2\n")
     return place
 
@@ -156,7 +159,7 @@ def test_foreign_files_are_kept(name, results, inputs, tmp_path):
 
 
 @pytest.mark.parametrize("name", ["report", "report of a sweep", "report of an estimate", "export xyz", "export vtk", "export png",
-                                  "sweep", "two", "cost", "estimate", "adhesion", "tip"])
+                                  "sweep", "two", "cost", "estimate", "adhesion", "curve", "tip"])
 def test_own_files_are_renewed_unless_they_were_changed(name, results, tmp_path):
     place = tmp_path / "again"
     shutil.copytree(results(name), place)  # a copy has other times, and the same record

@@ -20,6 +20,7 @@ import pytest
 import asperity
 import asperity.crack
 import asperity.terminal
+import test_curve
 import test_fixes_files
 import test_fixes_rubber
 import test_fixes_scene
@@ -32,7 +33,7 @@ from asperity.studies.stated_number import Number
 from conftest import unsealed
 from following import ask, followed, not_followed
 
-OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES + test_fixes_rubber.SOURCES
+OTHERS = test_fixes_scene.SOURCES + test_fixes_files.SOURCES + test_fixes_rubber.SOURCES + test_curve.SOURCES
 EXCUSED = {
     "take drive.tolerance =": "a slide whose energies do not balance",
     "it is a hard link": "a file with another name",

@@ -12,7 +12,7 @@ import asperity
 from following import followed, not_followed
 from test_prony import MODULI, OMEGA, REFUSED, TWO, fitted, text
 
-SOURCES = ("maps/master_curve.py", "studies/prony.py", "scene/scene_files")
+SOURCES = ("maps/master_curve.py", "maps/columns.py", "studies/prony.py", "scene/scene_files")
 EXCUSED = {"cannot be read...check the path and its permissions": "whoever tests may read all files, and finds those that he names"}
 NAMES, SHEAR = "omega (rad/s), E' (MPa), E'' (MPa)", "omega (rad/s), G' (MPa), G'' (MPa)"
 FEW = text(omega=OMEGA[:7], moduli=MODULI[:7])

@@ -16,11 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..errors import meant
 from ..units import conversion
 from .channels import refuse
+from .columns import COMMENTS, cells_of, is_row, lines_of, numbers_of, separator_of
 
-COMMENTS = ("#", "%", "//", "!")
 FEWEST_POINTS = 6
 FALL = 0.1
 """So much may the storage modulus fall behind its largest value at lower frequencies, as measured curves do."""
@@ -51,54 +50,6 @@ class _Column(NamedTuple):
     logarithm: bool
     unit: str
     words: str
-
-
-def _lines(path: Path) -> list[str]:
-    try:
-        data = path.read_bytes()
-    except OSError as error:
-        fix = "" if path.exists() else meant(path)
-        raise refuse(path, "cannot be read", error.strerror or error, fix or "check the path and its permissions") from None
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return data.decode("utf-16", "replace").splitlines()
-    try:
-        return data.decode("utf-8-sig").splitlines()
-    except UnicodeDecodeError:
-        return data.decode("cp1252", "replace").splitlines()
-
-
-def _is_row(line: str) -> bool:
-    return bool(re.match(r"""["']?[-+]?[.,]?\d""", line.strip()))
-
-
-def _separator(path: Path, rows: list[str], wanted: int) -> tuple[str | None, bool]:
-    """Returns what separates the cells (None: blanks), and True if commas are decimal points. wanted: number of names; 0:
-    unknown."""
-    body = "\n".join(rows)
-    for separator in "\t;":
-        if separator in body:
-            return separator, bool(re.search(r"\d,\d", body))
-    if "," not in body:
-        return None, False
-    decimal = bool(re.search(r"[ ]", "\n".join(row.strip() for row in rows))) and not re.search(r",\s|\s,|\.", body)
-    if decimal:
-        return None, True
-    cells = {len(row.split(",")) for row in rows}
-    if wanted and min(cells) > wanted and '"' not in body:
-        raise refuse(path, "the commas may be decimal points or separate the cells",
-                     f"its header names {wanted} columns, and a row has {min(cells)} cells between commas",
-                     "separate the cells by tabs or semicolons, or write decimal points")
-    return ",", '"' in body and bool(re.search(r'"[^"]*\d,\d[^"]*"', body))
-
-
-def _cells(line: str, separator: str | None) -> list[str]:
-    if separator == "," and '"' in line:
-        found = [quoted or plain for quoted, plain in re.findall(r'"((?:[^"]|"")*)"|([^,]+)', line)]
-    else:
-        found = line.split(separator) if separator else re.split(r"\s{2,}", line.strip())
-        if separator is None and len(found) < 3:
-            found = re.split(r"\s+(?![\[(])", line.strip())  # a unit in brackets belongs to the name before it
-    return [re.sub(r'^"(.*)"$', r"\1", cell.strip()).strip() for cell in found]
 
 
 def _plain(text: str) -> str:
@@ -175,7 +126,7 @@ def _header(lines: list[str], first: int, separator: str | None) -> list[_Column
         text = line.strip()
         for sign in COMMENTS:
             text = text.removeprefix(sign).strip()
-        cells.append(_cells(text, separator) if text else [])
+        cells.append(cells_of(text, separator) if text else [])
     for k in range(first - 1, -1, -1):
         below = cells[k + 1] if k + 1 < first else []
         of_units = sum(bool(_unit(re.sub(r"^[\[(](.*)[\])]$", r"\1", cell))) for cell in below) > 1
@@ -185,24 +136,6 @@ def _header(lines: list[str], first: int, separator: str | None) -> list[_Column
     if first and re.fullmatch(r"\s*(\w+=[^;=]*;)+\s*", lines[0]):
         return [_Column("angular", "", False, "rad/s", "ω"), _Column("storage", "G", False, "Pa", "G'"), _Column("loss", "G", False, "Pa", "G''")]
     return []
-
-
-def _numbers(path: Path, lines: list[str], first: int, separator: str | None, decimal: bool, width: int) -> list[tuple[int, list[float]]]:
-    rows = []
-    for number, line in enumerate(lines[first:], first + 1):
-        text = line.strip()
-        if not text or text.startswith(COMMENTS):
-            continue
-        cells = _cells(text, separator) if separator else text.split()
-        try:
-            values = [float(cell.replace(",", ".") if decimal else cell) if cell else math.nan for cell in cells]
-        except ValueError as error:
-            raise refuse(f"{path}:{number}", "the line is no row of numbers", error, "take it out, or put a # before it") from None
-        if len(values) < width:
-            raise refuse(f"{path}:{number}", "the line has too few numbers", f"{len(values)}, and the columns before it end with "
-                         f"number {width}", "fill the row, or take it out")
-        rows.append((number, values))
-    return rows
 
 
 def read_master_curve(source: str | Path, frequency_unit: str = "", modulus_unit: str = "", kind: str = "") -> MasterCurve:
@@ -230,14 +163,14 @@ def read_master_curve(source: str | Path, frequency_unit: str = "", modulus_unit
         The file is no master curve: names or units are missing, numbers are not above zero, or points too few.
     """
     path = Path(source)
-    lines = _lines(path)
-    first = next((k for k, line in enumerate(lines) if _is_row(line)), None)
+    lines = lines_of(path)
+    first = next((k for k, line in enumerate(lines) if is_row(line)), None)
     if first is None:
         raise refuse(path, "is no master curve", "no line begins with a number", "give a text of columns: frequency, E', E''")
-    rows = [line for line in lines[first:] if _is_row(line)]
-    separator, decimal = _separator(path, rows, len(_header(lines, first, ",")))
+    rows = [line for line in lines[first:] if is_row(line)]
+    separator, decimal = separator_of(path, rows, len(_header(lines, first, ",")))
     columns = _header(lines, first, separator)
-    if not columns and len(_cells(rows[0], separator) if separator else rows[0].split()) == 3:
+    if not columns and len(cells_of(rows[0], separator) if separator else rows[0].split()) == 3:
         if frequency_unit and modulus_unit and kind:
             columns = [_Column(role, k, False, "", role) for role, k in (("frequency", ""), ("storage", kind), ("loss", kind))]
     if not columns:
@@ -247,7 +180,7 @@ def read_master_curve(source: str | Path, frequency_unit: str = "", modulus_unit
     at = {column.role: k for k, column in reversed(list(enumerate(columns))) if column.role}
     if "loss" not in at and "tan" not in at:
         raise refuse(path, "has no loss modulus", "no column is named E'', G'', loss modulus or tan δ", "export it, too")
-    table = _numbers(path, lines, first, separator, decimal, 1 + max(at.values()))
+    table = numbers_of(path, lines, first, separator, decimal, 1 + max(at.values()))
     values = np.array([row[:1 + max(at.values())] for _, row in table])
     return _curve(path, columns, at, values, [number for number, _ in table], (frequency_unit, modulus_unit, kind))
 

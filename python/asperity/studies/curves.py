@@ -1,0 +1,297 @@
+# SPDX-FileCopyrightText: 2026 The Asperity authors
+# SPDX-License-Identifier: MIT
+"""Measured force curves: work of adhesion and E* with their errors, from fits of contact models to both directions of each curve
+(curve_fit.py), with pull-off force and energy lost. Lengths are in nm, forces in nN, moduli in GPa, works in N/m.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..arguments import checks_calls
+from ..errors import InputOutputError, Named, SceneError
+from ..maps.force_curves import ForceCurve, read_force_curves
+from ..theories.indentation import SHAPES, Indenter
+from ..units import quantity
+from .curve_fit import Compared, Regions, Unfit, compared, regions
+from .stated_number import NAN, Found, Number
+
+WAYS = {False: "approach", True: "retraction"}
+FEW = 3
+"""Neighbouring points over which a pull-off force is averaged."""
+
+
+@dataclass
+class Question:
+    """Tip and model of a fit: the indenter, Poisson's ratio (NaN: only E* is stated), a model of SHAPES or "auto", range of the attraction
+    (nm; None: λ is looked for) and period of an interference (nm; None: none)."""
+
+    indenter: Indenter
+    poisson: float = NAN
+    model: str = "auto"
+    range: float | None = None
+    period: float | None = None
+
+
+@dataclass
+class FittedCurve(Named):
+    """A force curve with its fits: by direction ("approach", "retraction") the fits, or why there are none, and the numbers."""
+
+    measured: ForceCurve
+    fits: dict[str, Compared]
+    failed: dict[str, str]
+    numbers: list[Number]
+
+    @property
+    def name(self) -> str:
+        """File of the curve and its number in it."""
+        return self.measured.name
+
+    @property
+    def main(self) -> Compared | None:
+        """Fits of the direction whose numbers are stated: the retraction if attraction is seen, else the approach; None: there are none."""
+        stated = {way: one for way, one in self.fits.items() if "work" in one.stated.values}
+        return stated.get("retraction") or self.fits.get("approach") or self.fits.get("retraction")
+
+
+@checks_calls
+@dataclass
+class Curves(Named):
+    """Force curves of a file with their fits.
+
+    numbers    work, modulus (E*), young (if Poisson's ratio is known), pull_off_force and lost, of a single curve with its errors, of several
+               their means with the error by their scatter
+    curves     the curves, each with measured, fits and numbers
+    refused    reasons for curves that are not taken
+    """
+
+    file: str
+    question: Question
+    numbers: list[Number]
+    curves: list[FittedCurve]
+    refused: list[str]
+    notes: list[str] = field(default_factory=list)
+    directory: Path = Path()
+
+    def number(self, path: str) -> Number:
+        """Returns a number by its name.
+
+        Parameters
+        ----------
+        path : str
+            "work", "modulus", "young", "pull_off_force" or "lost".
+
+        Returns
+        -------
+        Number
+            The number with its error.
+
+        Raises
+        ------
+        SceneError
+            There is no number of this name.
+        """
+        for one in self.numbers:
+            if one.path == path:
+                return one
+        raise SceneError(f"number {path}", "is none of these curves", "they are " + ", ".join(n.path for n in self.numbers), "name one of them")
+
+    def values(self, path: str) -> np.ndarray:
+        """Returns a number of each curve, NaN where it is not stated, in the unit of number(path)."""
+        own = self.number(path)
+        found = [next((n for n in one.numbers if n.path == path), None) for one in self.curves]
+        return np.array([NAN if n is None else n.estimate * (_scale(n.unit) / _scale(own.unit)) for n in found])
+
+    def __repr__(self) -> str:
+        return f"<Curves {self.file}: {', '.join(map(str, self.numbers[:2]))}>"
+
+
+UNITS = {"kPa": 1e-6, "MPa": 1e-3, "GPa": 1.0}
+
+
+def _scale(unit: str) -> float:
+    return UNITS.get(unit, 1.0)
+
+
+def _modulus_unit(value: float) -> str:
+    return next((unit for unit in ("GPa", "MPa") if value >= 1.0 * UNITS[unit]), "kPa")
+
+
+def length(name: str, text: object) -> float:
+    """Returns a length above zero, nm. Raises SceneError in the words of the argument."""
+    value = quantity(text, "nm")
+    if value is None or not 0 < value < math.inf:
+        raise SceneError(f"{name} = {text}", "is no length above zero", "", f'for example {name} "20 nm"')
+    return value
+
+
+def question_of(given: Mapping[str, Any]) -> Question:
+    """Returns the question of a call.
+
+    Parameters
+    ----------
+    given : Mapping[str, Any]
+        Arguments of curve(): shape, radius, angle, poisson, model, range, interference.
+
+    Returns
+    -------
+    Question
+        Tip and model.
+
+    Raises
+    ------
+    SceneError
+        An argument is missing, impossible, or does not go with the shape.
+    """
+    shape, poisson = given["shape"], given["poisson"]
+    size, models = SHAPES[shape]
+    other = "angle" if size == "radius" else "radius"
+    if given[size] is None:
+        raise SceneError(size, "is missing", f"a {shape} is described by it", f"for example --{size} " + ("20nm" if size == "radius" else "35"))
+    if given[other] is not None:
+        raise SceneError(other, f"does not describe a {shape}", f"that has the {size} alone", "leave it out, or choose another --shape")
+    if size == "angle" and not 0 < given["angle"] < 90:
+        raise SceneError(f"angle = {given['angle']:g}", "is no angle between axis and surface", "it is between 0 and 90 degrees",
+                         "for example --angle 35")
+    if given["model"] not in ("auto", *models):
+        raise SceneError(f"model = {given['model']}", f"has no closed form for a {shape}", f"its models are {', '.join(models)}",
+                         f"take --model {models[-1]}, or --shape paraboloid")
+    if poisson is not None and not -1 < poisson <= 0.5:
+        raise SceneError(f"poisson = {poisson:g}", "is no Poisson's ratio", "it is above -1, and 0.5 at most", "for example --poisson 0.3")
+    if given["range"] is not None and (given["model"] not in ("auto", "maugis") or "maugis" not in models):
+        raise SceneError("range", "does not enter this model", "the range of the attraction determines λ of Maugis and Dugdale",
+                         "leave it out, or take --model maugis")
+    return Question(Indenter(shape, length("radius", given["radius"]) if size == "radius" else float(given["angle"])),
+                    NAN if poisson is None else poisson, given["model"], None if given["range"] is None else length("range", given["range"]),
+                    None if given["interference"] is None else length("interference", given["interference"]))
+
+
+def fitted(question: Question, measured: ForceCurve) -> FittedCurve:
+    """Fits both directions of a curve, and returns it with its numbers."""
+    fits: dict[str, Compared] = {}
+    failed: dict[str, str] = {}
+    found: dict[str, Regions] = {}
+    for retracting, way in WAYS.items():
+        try:
+            found[way] = regions(*measured.direction(retracting))
+            model = question.model
+            if model != "auto" and model != "hertz" and not found[way].dip:
+                raise Unfit("no attraction is seen")
+            fits[way] = compared(question.indenter, found[way], measured.stiffness, model, question.range, question.period)
+        except Unfit as reason:
+            failed[way] = str(reason)
+    one = FittedCurve(measured, fits, failed, [])
+    one.numbers = _numbers(question, one)
+    return one
+
+
+def _numbers(question: Question, one: FittedCurve) -> list[Number]:
+    """Returns the numbers of a curve with the parts of their errors."""
+    main, numbers = one.main, []
+    if main is not None:
+        others = [found for found in one.fits.values() if found is not main]
+        between = {}
+        if others:  # as far as the errors of both directions do not explain the difference
+            scatter = sum(error**2 for found in (main, *others) for error in (found.of_fit[1], found.of_model[1]))
+            between["direction"] = Found(0.0, 0.5 * main.modulus * math.sqrt(max(0.0, math.log(others[0].modulus / main.modulus) ** 2 - scatter)))
+        if "work" in main.stated.values:
+            parts = {"fit": Found(0.0, 1e3 * main.work * main.of_fit[0]), "model": Found(0.0, 1e3 * main.work * main.of_model[0])}
+            numbers.append(Number("work", "w", "work of adhesion", "mJ/m²", 1e3 * main.work, parts, least=0.0))
+        unit = _modulus_unit(main.modulus)
+        parts = {"fit": Found(0.0, main.modulus * main.of_fit[1]), "model": Found(0.0, main.modulus * main.of_model[1]), **between}
+        for path, symbol, name, factor in (("modulus", "E*", "contact modulus E/(1-ν²)", 1.0),
+                                           ("young", "E", "Young's modulus", 1 - question.poisson**2)):
+            if factor == factor:
+                scaled = {part: Found(0.0, factor / UNITS[unit] * shift.error) for part, shift in parts.items()}
+                numbers.append(Number(path, symbol, name, unit, factor * main.modulus / UNITS[unit], scaled, least=0.0))
+    if way := one.fits.get("retraction"):
+        force, noise = way.stated.force, way.stated.noise
+        smooth = np.convolve(force, np.ones(FEW) / FEW, "valid")
+        least = int(np.argmin(smooth))
+        step = 0.5 * abs(float(force[least:least + FEW].min() - smooth[least]))
+        numbers.append(Number("pull_off_force", "F_pull-off", "largest attraction on the way out", "nN", max(0.0, -float(smooth[least])),
+                              {"noise": Found(0.0, noise / math.sqrt(FEW)), "step": Found(0.0, step),
+                               "baseline": Found(0.0, way.stated.errors["offset"])}, least=0.0))
+    if len(one.fits) == 2:
+        ways = [one.fits[way].stated for way in ("approach", "retraction")]
+        low, high = max(w.height.min() for w in ways), min(w.height.max() for w in ways)
+        at = np.linspace(low, high, 4000)
+        area, scatter, shift = 0.0, 0.0, 0.0
+        for sign, way in zip((1.0, -1.0), ways):
+            area += sign * (high - low) * float(np.interp(at, way.height[::-1], way.force[::-1]).mean())
+            scatter = math.hypot(scatter, way.noise * (high - low) / math.sqrt(len(way.height) / way.slack))
+            shift = math.hypot(shift, way.errors["offset"] * (high - low))
+        numbers.append(Number("lost", "W_lost", "energy lost in a cycle", "aJ", area, {"noise": Found(0.0, scatter), "baseline": Found(0.0, shift)}))
+    return numbers
+
+
+def _means(curves: list[FittedCurve]) -> list[Number]:
+    """Returns the numbers of a single curve, or the means of several with the error by their scatter."""
+    if len(curves) == 1:
+        return curves[0].numbers
+    found = []
+    for path in ("work", "modulus", "young", "pull_off_force", "lost"):
+        own = [n for one in curves for n in one.numbers if n.path == path and n.estimate == n.estimate]
+        if not own:
+            continue
+        unit = sorted(own, key=lambda n: n.estimate)[len(own) // 2].unit
+        values = np.array([n.estimate * _scale(n.unit) / _scale(unit) for n in own])
+        scatter = float(np.std(values, ddof=1)) if len(own) > 1 else NAN
+        parts = {"scatter of the curves": Found(0.0, scatter / math.sqrt(len(own)))}
+        found.append(Number(path, own[0].symbol, own[0].name, unit, float(values.mean()), parts,
+                            condition=f"mean of {len(own)} curves, which scatter by {scatter:.2g} {unit}",
+                            withheld="" if len(own) > 1 else "a single curve has it"))
+    return found
+
+
+def curves_of(file: str, question: Question, stiffness: str | None, sensitivity: str | None, jobs: int = 1) -> Curves:
+    """Reads and fits the force curves of a file.
+
+    Parameters
+    ----------
+    file : str
+        The file.
+    question : Question
+        Tip and model.
+    stiffness, sensitivity : str, optional
+        Stiffness and sensitivity of the cantilever with their units, which hold over what the file says.
+    jobs : int
+        Number of curves that are fitted at the same time.
+
+    Returns
+    -------
+    Curves
+        The curves with their fits and numbers.
+
+    Raises
+    ------
+    InputOutputError
+        The file cannot be read, or none of its curves can be fitted.
+    """
+    measured, refused = read_force_curves(file, stiffness, sensitivity)
+    if jobs > 1 and len(measured) > 1:
+        with ProcessPoolExecutor(jobs) as pool:
+            found = list(pool.map(partial(fitted, question), measured))
+    else:
+        found = [fitted(question, one) for one in measured]
+    good = [one for one in found if one.fits]
+    refused = refused + [f"{one.name}: {way}: {why}" for one in found for way, why in one.failed.items()]
+    if not good:
+        raise InputOutputError(file, "has no curve that can be fitted", refused[0] if refused else "it holds none",
+                               "look at the curve: force over height, with a baseline and a contact")
+    notes = list(dict.fromkeys(note for one in good for note in one.measured.notes))
+    for one in good[:1]:
+        parameter = one.main.parameter if one.main else (NAN, NAN, NAN)
+        if question.range is None and parameter[2] > 2 * parameter[1]:
+            notes.append(f"Maugis' λ is not known better than {parameter[1]:.2g} to {parameter[2]:.2g}: the error of w has this; the range of the "
+                         "attraction (--range) determines λ")
+    notes.append("the errors of radius and stiffness of the cantilever are not included: w grows as 1/R, E* as 1/√R")
+    return Curves(file, question, _means(good), good, refused, notes)
