@@ -25,6 +25,8 @@ from .curve_fit import Compared, Regions, Unfit, compared, regions
 from .stated_number import NAN, Found, Number
 
 WAYS = {False: "approach", True: "retraction"}
+OF_LAW = 0.05
+"""Share of w that depends on the law of the attraction: of an exponential law, fitted by Dugdale's of the same range, 4 % at λ = 0.6."""
 FEW = 3
 """Neighbouring points over which a pull-off force is averaged."""
 
@@ -196,6 +198,7 @@ def fitted(question: Question, measured: ForceCurve) -> FittedCurve:
 def _numbers(question: Question, one: FittedCurve) -> list[Number]:
     """Returns the numbers of a curve with the parts of their errors."""
     main, numbers = one.main, []
+    given = "" if question.model == "auto" else f"if the model of the contact is {question.model}: its error is not included"
     if main is not None:
         others = [found for found in one.fits.values() if found is not main]
         between = {}
@@ -204,14 +207,16 @@ def _numbers(question: Question, one: FittedCurve) -> list[Number]:
             between["direction"] = Found(0.0, 0.5 * main.modulus * math.sqrt(max(0.0, math.log(others[0].modulus / main.modulus) ** 2 - scatter)))
         if "work" in main.stated.values:
             parts = {"fit": Found(0.0, 1e3 * main.work * main.of_fit[0]), "model": Found(0.0, 1e3 * main.work * main.of_model[0])}
-            numbers.append(Number("work", "w", "work of adhesion", "mJ/m²", 1e3 * main.work, parts, least=0.0))
+            if question.range is not None:
+                parts["law of the attraction"] = Found(0.0, OF_LAW * 1e3 * main.work)
+            numbers.append(Number("work", "w", "work of adhesion", "mJ/m²", 1e3 * main.work, parts, least=0.0, condition=given))
         unit = _modulus_unit(main.modulus)
         parts = {"fit": Found(0.0, main.modulus * main.of_fit[1]), "model": Found(0.0, main.modulus * main.of_model[1]), **between}
         for path, symbol, name, factor in (("modulus", "E*", "contact modulus E/(1-ν²)", 1.0),
                                            ("young", "E", "Young's modulus", 1 - question.poisson**2)):
             if factor == factor:
                 scaled = {part: Found(0.0, factor / UNITS[unit] * shift.error) for part, shift in parts.items()}
-                numbers.append(Number(path, symbol, name, unit, factor * main.modulus / UNITS[unit], scaled, least=0.0))
+                numbers.append(Number(path, symbol, name, unit, factor * main.modulus / UNITS[unit], scaled, least=0.0, condition=given))
     if way := one.fits.get("retraction"):
         force, noise = way.stated.force, way.stated.noise
         smooth = np.convolve(force, np.ones(FEW) / FEW, "valid")
