@@ -17,7 +17,8 @@
 //     a, stiffness of the lower surface below a clamped upper one, times Q / (4 (1 - nu) mu q),
 //         Q = k^2 sinh^2 X - X^2:
 //         k sinh cosh - X,   k sinh cosh + X,   coupling -(k c sinh^2 - X^2) / (2 (1 - nu)),
-//     p^-1, stiffness of the lower surface below a free upper one, over 2 mu q e / M, with e = 1 + c,
+//     p^-1, stiffness of the lower surface below a free upper one, over 2 mu q e / M, with e = 1 +
+//     c,
 //         M = e^2 + (1 + 2 c) sinh^2 X + X^2:
 //         sinh cosh + X,     sinh cosh - X,     coupling -(c sinh^2 + X^2) / e,
 //     t, displacement of the free upper surface by that of the lower one, over e / M:

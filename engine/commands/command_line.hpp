@@ -91,8 +91,8 @@ Option out(const std::string& otherwise);
 /// found, prints the reason and returns the exit code. Must be called before MPI is initialised.
 std::optional<int> hand_over_to_python(const std::vector<Command>& commands, int argc, char** argv);
 
-/// Returns true for calls by programs, with --json, --progress json, `theory-points`, `stress-below` or `hold`,
-/// whose errors are printed as JSON.
+/// Returns true for calls by programs, with --json, --progress json, `theory-points`,
+/// `stress-below` or `hold`, whose errors are printed as JSON.
 bool is_for_programs(int argc, char** argv);
 /// Returns true if the call prints nothing but results (--quiet or --json).
 inline bool only_results(const Arguments& given) { return given.quiet || given.json; }

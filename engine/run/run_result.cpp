@@ -108,7 +108,8 @@ void add_mesh_errors(const Case& c, io::Result& result) {
     const double edges = *area > 0.0 ? *counted / *area - 1.0 : 0.0, pinning = c.edge_pinning - 1.0;
     for (const MeshRule& rule : mesh_rules) {
         const auto value = result.number(rule.number);
-        const bool of_lattice = !c.simulation.block.continuum; // its waves are too soft
+        // Waves of a lattice are too soft: no rule tells the errors of its numbers.
+        const bool of_lattice = !c.simulation.block.continuum;
         if (!value || (of_lattice && rule.number.name != "contact_area")) continue;
         result.set(rule.error,
                    std::abs(*value) * std::hypot(rule.edges * edges, rule.pinning * pinning));

@@ -68,7 +68,7 @@ private:
     double squares_ = 0.0; ///< sum of squares, eV^2
     double first_ = 0.0;   ///< place of the first instability, Å
     double before_ = 0.0;  ///< number of instabilities so far
-    double missing_ = 0.0; ///< what the last smooth step missed, eV
+    double missing_ = 0.0; ///< energy that the last smooth step missed, eV
 };
 
 } // namespace asperity
