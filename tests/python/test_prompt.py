@@ -72,7 +72,7 @@ def test_numbers_may_have_units():
             assert str(error.value).startswith(called) and says in str(error.value)
     with pytest.raises(asperity.SceneError, match="restore: is given 3\n.*\n.*copy()"):
         statics.restore(3)
-    with pytest.raises(asperity.SceneError, match="hold: is given None"):
+    with pytest.raises(asperity.SceneError, match="time is None\n.*\n.*give a number or a text"):
         statics.hold(None)
 
 

@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from ..arguments import checks_calls
 from ..errors import Named, SceneError, UnknownName
 from ..files import store
 from ..results.result import Result, RunFile, State
@@ -42,6 +43,7 @@ class LargestStress(Named):
     parts: dict[str, float] = field(default_factory=dict)
 
 
+@checks_calls
 @dataclass
 class Stress(Named):
     """Stresses below a state, GPa; tension is positive, and depths (Å) lead from the surface into the block.
