@@ -35,7 +35,8 @@ def _print_error(error: Error, as_json: bool) -> None:
     """Prints an error as the program does (engine/commands/exit_code.hpp)."""
     text = str(error)
     if as_json:
-        print(json.dumps({"error": {"code": error.code, "problems": error.listed, "text": text}}, ensure_ascii=False).encode("utf-8", "replace").decode(), file=sys.stderr)
+        said = json.dumps({"error": {"code": error.code, "problems": error.listed, "text": text}}, ensure_ascii=False)
+        print(said.encode("utf-8", "replace").decode(), file=sys.stderr)
         return
     print(folded(text, 2), file=sys.stderr)
     if error.code == SceneError.code:

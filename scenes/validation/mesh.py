@@ -83,7 +83,8 @@ def run(number: int, factor: int, out: pathlib.Path) -> asperity.Result:
 
 def of(result: asperity.Result, path: str) -> float:
     """Returns a number of a result, those of a segment from its last; NaN: it is not there."""
-    found = result.find(path.removeprefix("slide.")) if "slide." not in path else result["segments"][-1].get(path[6:]) if "segments" in result else None
+    slid = path.startswith("slide.")
+    found = result.find(path) if not slid else result["segments"][-1].get(path[6:]) if "segments" in result else None
     return math.nan if found is None else float(found)
 
 
@@ -126,8 +127,9 @@ def main() -> None:
         off = np.array([abs(r["off"]) for r in some])
         print(f"{path}: {(off <= 1).sum()} of {len(off)} within the error, {sum(r['relative'] < 0.05 for r in some)} errors below 5 %")
     scenes = {r["scene"]: [one for one in rows if one["scene"] == r["scene"]] for r in rows}.values()
-    print(f"{sum(all(math.isnan(r['error']) or abs(r['off']) <= 1 for r in some) for some in scenes)} of {len(scenes)} scenes with all numbers within "
-          f"their errors, {sum(any(math.isnan(r['error']) for r in some) for some in scenes)} say of a number that the mesh is not included")
+    right = sum(all(math.isnan(r["error"]) or abs(r["off"]) <= 1 for r in some) for some in scenes)
+    print(f"{right} of {len(scenes)} scenes with all numbers within their errors, "
+          f"{sum(any(math.isnan(r['error']) for r in some) for some in scenes)} say of a number that the mesh is not included")
 
 
 if __name__ == "__main__":

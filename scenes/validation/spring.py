@@ -209,7 +209,8 @@ def of_program(out: pathlib.Path, reach: float, sites: int, k: float, wide: floa
     D0, F0, box = a0 * a0 / R, math.pi * work * R, 2 * wide * math.cbrt(6) * a0
     held = {} if math.isinf(k) else {"drive.stiffness": f"{k * F0 / D0} N/m"}
     result = asperity.run({}, {
-        "interface.kind": "wall", "block.model": "lattice", "interface.adhesion": f"{work} J/m^2", "interface.range": f"{reach * D0} nm", "block.poisson": 0.3,
+        "interface.kind": "wall", "block.model": "lattice", "interface.adhesion": f"{work} J/m^2", "interface.range": f"{reach * D0} nm",
+        "block.poisson": 0.3,
         "block.young": f"{E * 0.91} GPa", "drive.mode": "quasistatic", "drive.displacement_step": f"{0.05 * D0} nm",
         "drive.path": ["height 0 nm", "pull-off"], "surface.kind": "flat", "surface.radius": f"{R} nm",
         "surface.boundary": "free", "surface.sites": sites, "surface.spacing": f"{box / sites} nm", "output.fields": ["segments"],

@@ -21,7 +21,8 @@ SENSE = {"scene": SCENE, "map": "map.npy", "source": "map.txt", "target": "map.h
          "adhesion": "50 mJ/m2", "size": "32 nm", "unit": "Å", "sites": 16, "radius": "20 nm", "stiffness": "20 N/m",
          "prony": [(2.0, "1 ns")], "frequency": "1 GHz", "velocity": "1 m/s", "tip_radius": "10 nm", "values": {"surface.rms": [0.5, 0.6]}}
 """Arguments of a call that works, by their names in all functions."""
-NONSENSE = {"an object": object(), "nan": math.nan, "a negative number": -3, "a text": "nonsense \x1b[31m\n", "bytes": b"bytes", "a list": [3.5, None],
+NONSENSE = {"an object": object(), "nan": math.nan, "a negative number": -3, "a text": "nonsense \x1b[31m\n", "bytes": b"bytes",
+            "a list": [3.5, None],
             "True": True}
 PUBLIC = {name: getattr(asperity, name) for name in sorted(asperity._LAZY) if inspect.isfunction(getattr(asperity, name))} | {
     "Simulation": asperity.Simulation, "Statics": asperity.Statics} | {

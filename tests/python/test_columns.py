@@ -73,7 +73,8 @@ CALLS = {  # of each command what it is called with, and what is refused
     "convert": (["scan.txt", "scan.h5", "--channel", "1"], [FAR]), "prony": (["curve.csv", "rubber.toml"], ["curve.csv", "--relaxed", "3"]),
     "scenes": (["copied"], ["copied", "--bogus"]), "defaults": ([], ["--bogus"]), "info": ([], ["--bogus"]),
     "init": ([f"{FAR}_more.toml"], [f"{FAR}_more.toml"])}
-CALLS |= {name: (None, ["--bogus"]) for name, _ in commands_of(say(PROGRAM, "--help")) if name not in (*CALLS, "theory-points", "stress-below", "hold")}
+OF_PROGRAMS = ("theory-points", "stress-below", "hold")
+CALLS |= {name: (None, ["--bogus"]) for name, _ in commands_of(say(PROGRAM, "--help")) if name not in (*CALLS, *OF_PROGRAMS)}
 
 
 def too_wide(text):

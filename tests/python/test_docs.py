@@ -57,7 +57,8 @@ def test_commands(work, line, request):
     elif re.search(" (run|sweep) ", words) and "--theory-only" not in words:
         scene = re.search(r" (scenes/\S+\.toml)", words)
         is_half_space = bool(scene) and 'boundary = "free"' in (ROOT / scene[1]).read_text()
-        words += (SMALL.replace(" block.thickness=32", "") if is_half_space else SMALL) + (SHORT if wanted == 0 else "")  # what is meant to fail has to get there
+        words += SMALL.replace(" block.thickness=32", "") if is_half_space else SMALL
+        words += SHORT if wanted == 0 else ""  # what is meant to fail has to get there
         if " sweep scenes/paper/" in words and "surface.rms=" not in words:
             words += FEW
     if words.split()[1] in OF_PYTHON and words.startswith("./"):
