@@ -12,19 +12,22 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 namespace asperity {
 namespace {
 
-/// A smooth sphere; range in nm.
-Case sphere(double range, const char* more) {
+/// A smooth sphere; range in nm. finer: 10 nm over the spacing.
+Case sphere(double range, const char* more, int finer = 1) {
     return read_case_text(
-        fmt::format("[surface]\nkind = \"flat\"\nsites = 32\nspacing = \"10 nm\"\n"
+        fmt::format("[surface]\nkind = \"flat\"\nsites = {}\nspacing = \"{} nm\"\n"
                     "radius = \"1 µm\"\n[block]\nyoung = \"3 GPa\"\npoisson = 0.33\n[interface]\n"
                     "kind = \"wall\"\nadhesion = \"70 mJ/m²\"\nrange = \"{} nm\"\n{}\n[drive]\n"
                     "mode = \"quasistatic\"\n",
-                    range, more),
+                    32 * finer, 10.0 / finer, range, more),
         "sphere.toml");
 }
 
@@ -44,6 +47,28 @@ TEST(SpacingLimits, TheFactorOfThePullOffForceIsThatOfASphere) {
             EXPECT_EQ(io::find(result, "jkr.edge_pinning"), nullptr);
         }
     }
+}
+
+TEST(SpacingLimits, ErrorsOfTheMeshCoverHalfOfTheSpacing) {
+    const auto result_of = [](double range, const char* law, int finer) {
+        const io::Scratch scratch;
+        const std::string keys = fmt::format("law = \"{}\"\nedge_pinning = \"allow\"", law);
+        return test::run_scene(sphere(range, keys.c_str(), finer), scratch / "run");
+    };
+    for (const auto& [law, range] : {std::pair{"exponential", 0.6}, {"dugdale", 1.4}}) {
+        const io::Json coarse = result_of(range, law, 1), fine = result_of(range, law, 2);
+        for (const char* name : {"pull_off_force", "approach_force", "binding_energy",
+                                 "work_of_drive.approach", "work_of_drive.pull_off"}) {
+            const std::string error = std::string("mesh_error.") + name;
+            const double stated = test::number(coarse, error);
+            EXPECT_NEAR(test::number(coarse, name), test::number(fine, name), stated)
+                << law << ": " << name;
+            EXPECT_LT(test::number(fine, error), stated) << law << ": " << name;
+            EXPECT_LT(stated, 0.3 * std::abs(test::number(coarse, name))) << law << ": " << name;
+        }
+    }
+    // Single rows hold the edge.
+    EXPECT_EQ(io::find(result_of(0.25, "exponential", 1), "mesh_error.pull_off_force"), nullptr);
 }
 
 TEST(SpacingLimits, TheFactorDependsOnTheLaw) {

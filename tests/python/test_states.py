@@ -54,7 +54,7 @@ def test_two_states_and_the_work_between_them(whole, place):
         statics.mean_height = z
         point = statics.relax()
         largest, work = max(largest, point.force), point.work
-    assert abs(point.force) < 1e-2 * largest and point.dissipated == 0.0
+    assert abs(point.force) < 1e-2 * largest and point.dissipated < 1e-3 * abs(point.work)
     assert -1000 * work / AREA == pytest.approx(deeper["binding_energy"] - first["binding_energy"], abs=1e-3)
     assert first["barrier"] == pytest.approx(largest / AREA * 160217.66, rel=0.01) and deeper["barrier"] is None
 
