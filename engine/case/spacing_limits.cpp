@@ -85,6 +85,8 @@ std::optional<std::string> note_on_contact_edge(const Case& c) {
         edge->strip, edge->strip / spacing, edge->pinning, edge->remedy);
 }
 
+bool tension_ends_suddenly(const Case& c) { return c.scene.interface.law == WallLawKind::dugdale; }
+
 double edge_pinning(const Case& c) {
     const auto edge = edge_of(c);
     return edge ? edge->pinning : 1.0;

@@ -16,6 +16,8 @@ namespace asperity {
 constexpr double largest_edge_pinning = 1.3;
 /// Computes Case::edge_pinning from the options of block and interface.
 double edge_pinning(const Case& c);
+/// Returns true if the tension of the wall's law ends suddenly, at its range.
+bool tension_ends_suddenly(const Case& c);
 /// Returns a note with Case::edge_pinning; nothing if the spacing resolves the edge of the contact.
 std::optional<std::string> note_on_contact_edge(const Case& c);
 /// Refuses the pull-off of a sphere if Case::edge_pinning exceeds largest_edge_pinning, unless

@@ -106,7 +106,7 @@ void add_mesh_errors(const Case& c, io::Result& result) {
     const auto counted = result.number("contact_fraction"), area = result.number("contact_area");
     if (!counted || !area || c.edge_pinning > largest_edge_pinning) return;
     const double edges = *area > 0.0 ? *counted / *area - 1.0 : 0.0, pinning = c.edge_pinning - 1.0;
-    const bool ends_suddenly = c.scene.interface.law == WallLawKind::dugdale;
+    const bool ends_suddenly = tension_ends_suddenly(c);
     for (const MeshRule& rule : mesh_rules) {
         const auto value = result.number(rule.number);
         // Waves of a lattice are too soft: no rule tells the errors of its numbers.

@@ -7,7 +7,7 @@
 // of it, work less energy gained, is energy lost or an error of this work. Both are summed as lost.
 // Losses of many small patches hardly change from step to step; the errors do. Their variance is
 // taken from the differences of following steps. Energy that a step gains beyond its work can only
-// be an error, and as much hides among the losses.
+// be an error, and as much hides among the losses: it counts twice.
 //
 // The work of a step h that passes an instability is uncertain by half of h times the jump of the
 // force. The relaxation also starts up to h beyond the instability: a second patch that becomes
@@ -33,8 +33,8 @@ public:
     void add_gap(double gap) { gap_ += std::abs(gap); }
     /// Adds a smooth step. missing: work less energy gained, eV.
     void add_smooth(double missing) {
-        gap_ += std::max(0.0, -missing);
-        squares_ += 2.0 * (missing - missing_) * (missing - missing_); // 4 halves of the square
+        gap_ += 2.0 * std::max(0.0, -missing);
+        squares_ += 4.5 * (missing - missing_) * (missing - missing_); // 9 halves of the square
         missing_ = missing;
     }
     /// Adds a step with an instability. at: end of the step, Å; step: its length, Å; uncertain:
@@ -48,10 +48,10 @@ public:
         squares_ += 4.0 * another * dissipated * dissipated;
         ++before_;
     }
-    /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of two
-    /// standard deviations of the works of smooth steps, of three times the uncertainties of the
-    /// works of others (which are not independent) and of two standard deviations of the dissipated
-    /// energies.
+    /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of
+    /// three standard deviations of the works of smooth steps, of three times the uncertainties of
+    /// the works of others (which are not independent) and of two standard deviations of the
+    /// dissipated energies.
     double total() const { return gap_ + std::sqrt(squares_); }
 
     template <class Visitor>

@@ -7,9 +7,10 @@
 # shellcheck source=tests/cli/common.sh
 . "$(dirname "$0")/common.sh"
 
-mkdir -p "a house/build/release/engine" "a house/cmake" elsewhere
+mkdir -p "a house/build/release/engine" "a house/cmake" "a house/python/asperity/commands" elsewhere
 cp "$source/asperity" "a house/asperity"
 cp "$source/cmake/packages.txt" "a house/cmake/"
+cp "$source/python/asperity/commands/table.txt" "a house/python/asperity/commands/"
 cp "$asperity" "a house/build/release/engine/asperity"
 asperity="$work/a house/asperity"
 export ASPERITY_SKIP_BUILD=1

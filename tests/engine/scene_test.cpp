@@ -417,6 +417,7 @@ TEST(Scene, AKeyWithoutEffectIsRefused) {
                                   still + wall + "interface.law = \"table\"\n",
                                   still + wall + "interface.law = \"8-2\"\n",
                                   still + wall + "surface.boundary = \"free\"\n",
+                                  still + wall + "output.fields = []\n",
                                   still + "drive.control = \"mean-height\"\n",
                                   still + "block.prony = [[1.0, \"1 ns\"]]\n",
                                   "block.model = \"lattice\"\n",

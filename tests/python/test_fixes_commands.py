@@ -74,6 +74,7 @@ EXCUSED = {
     "put the mpirun of that MPI into PATH": "a launcher to be installed",
     "result.py...check the path and its permissions": "whoever tests may read all files",
     "only rank 0 would have it": "ranks (test_ranks.py)",
+    "stress_below.cpp...name a state of a run over a wall without holes": "a command for programs",
     "this is no result": "damage that its digest does not show",
     "this is no JSON that can be read": "damage that its digest does not show",
 }
@@ -500,6 +501,27 @@ def test_a_fix_of_an_argument(wrong, right):
         wrong()
     right()
     followed(str(error.value))
+
+
+WALL = ('[surface]\nsites = 16\nrms = 0.5\n[block]\nthickness = 8\n[interface]\nkind = "wall"\nadhesion = "0 mJ/m^2"\nrange = "2 Å"\n'
+        '[drive]\nmode = "quasistatic"\npath = ["relax"]\nload = "100 MPa"\n')
+
+
+def test_fixes_of_stresses():
+    Path("w.toml").write_text(WALL)
+    good("run", "w.toml", "--out", "pressed")
+    for where, wrong in (("still", ()), ("a", ["--set", "block.model=lattice"]), ("b", ["--set", "output.fields=[]"])):
+        if wrong:
+            good("run", "w.toml", "--out", where, *wrong)
+        followed(bad("stress", where))
+    followed(bad("stress", "pressed", "--friction", "9"))
+    good("stress", "pressed", "--friction", "0.3")
+
+
+def test_the_fix_of_a_surface_that_yields_as_a_whole():
+    Path("w.toml").write_text(WALL.replace('load = "100 MPa"\n', "").replace('"relax"', '"height -2 Å"'))
+    followed(bad("run", "w.toml", "--set", "interface.hardness=0.5 GPa", "--out", "o", code=3))
+    good("run", "w.toml", "--set", "interface.hardness=900 GPa", "--out", "p")
 
 
 def test_every_message_is_followed():

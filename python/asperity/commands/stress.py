@@ -70,6 +70,8 @@ def stress(result: Any, state: str | None = None, friction: float | None = None,
     """
     from ..results.result import Result
 
+    if not isinstance(result, str | os.PathLike | Result):
+        raise SceneError(f"result = {result!r:.60}", "is no result", "", "give the directory of a run, or its result")
     run = result if isinstance(result, Result) else Result(Path(result))
     return _computed(run, state, friction, depth, volume, None if out is None else os.fspath(out))[0]
 

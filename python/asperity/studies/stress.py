@@ -200,15 +200,12 @@ def refuse(run: Result) -> None:
     Raises
     ------
     SceneError
-        The substrate consists of atoms, the path is dynamic, or the block is a lattice.
+        The substrate consists of atoms, or the block is a lattice.
     """
     place = str(run.directory)
     if run.key("interface.kind") != "wall":
         raise SceneError(place, "has no stresses of a continuum", "interface.kind is not \"wall\": the forces between single atoms are no "
                          "pressure on a continuum", "run the scene with interface.kind = \"wall\"")
-    if run.find("run.effects.dynamic.on"):
-        raise SceneError(place, "has no stresses at rest", "the path is dynamic, and its solids are not in equilibrium",
-                         "run the scene with drive.mode = \"quasistatic\"")
     if run.key("interface.law") == "smeared" or run.key("block.model") in ("lattice", "multiscale"):
         if run.key("block.model") != "continuum":
             raise SceneError(place, "has no stresses of a continuum", "its block is a lattice",
