@@ -303,7 +303,6 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     if (step.of_energies) course_.work_left_out += step.gap;
     // An extension that is wrong acts on with the larger ones that follow: twice.
     course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
-    if (!jumped) course_.errors.add_smooth(step.lost);
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
         course_.errors.add_instability(at, way, step.uncertain,

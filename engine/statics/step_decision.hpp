@@ -44,8 +44,8 @@ struct StepDecision {
     /// Energy lost: work of the forces less energy gained, eV. Below zero it is an error of the
     /// work.
     double lost = 0.0;
-    double gap = 0.0;         ///< work of the forces less energy gained, if the work is not theirs,
-                              ///< eV
+    double gap = 0.0;         ///< work of the forces less energy gained, where it may be an error
+                              ///< of the work, eV
     double uncertain = 0.0;   ///< uncertainty of the work of a step that passes an instability, eV
     bool smooth = true;       ///< the force did not jump
     bool excess = false;      ///< the energy gained exceeds the work and its uncertainty
@@ -90,8 +90,11 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         // In a long step in time energies and dissipation are of fourth order in the step, the
         // forces at its ends of second.
         d.of_energies = !limits.short_in_time;
-        (d.of_energies ? d.gap : d.lost) = missing;
-        if (d.of_energies) d.work = gained;
+        d.gap = missing;
+        if (d.of_energies)
+            d.work = gained;
+        else
+            d.lost = missing;
         return d;
     }
     d.coarse = !limits.short_in_time;
@@ -106,6 +109,7 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
     const double least = d.uncertain + limits.missing;
     d.lost = d.work - gained;
     d.excess = -d.lost > least;
+    if (d.lost <= least) d.gap = d.lost; // no instability that could be told
     if ((known && !d.excess && limits.short_in_time) || limits.last_try)
         d.verdict = d.lost > least ? StepDecision::jump : StepDecision::accept;
     return d;

@@ -4,10 +4,9 @@
 // Errors of the work of a segment of a quasi-static path and of the energy that it has dissipated.
 //
 // In a smooth step the work of the forces is that of a polynomial through them. What a step misses
-// of it, work less energy gained, is energy lost or an error of this work. Both are summed as lost.
-// Losses of many small patches hardly change from step to step; the errors do. Their variance is
-// taken from the differences of following steps. Energy that a step gains beyond its work can only
-// be an error, and as much hides among the losses: it counts twice.
+// of it, work less energy gained, is energy lost or an error of this work; both are summed as lost.
+// The error is no larger than what is missing: where many small patches lose energy, it is stated
+// too large.
 //
 // The work of a step h that passes an instability is uncertain by half of h times the jump of the
 // force. The relaxation also starts up to h beyond the instability: a second patch that becomes
@@ -29,14 +28,8 @@ class WorkErrors {
 public:
     /// Begins a new segment.
     void begin() { *this = {}; }
-    /// Adds an error of the energy of a step, eV.
+    /// Adds the error of the energy or of the work of a step, eV.
     void add_gap(double gap) { gap_ += std::abs(gap); }
-    /// Adds a smooth step. missing: work less energy gained, eV.
-    void add_smooth(double missing) {
-        gap_ += 2.0 * std::max(0.0, -missing);
-        squares_ += 4.5 * (missing - missing_) * (missing - missing_); // 9 halves of the square
-        missing_ = missing;
-    }
     /// Adds a step with an instability. at: end of the step, Å; step: its length, Å; uncertain:
     /// uncertainty of its work, eV; dissipated: energy dissipated, eV.
     void add_instability(double at, double step, double uncertain, double dissipated) {
@@ -60,7 +53,6 @@ public:
         v("squares", squares_);
         v("first", first_);
         v("before", before_);
-        v("missing", missing_);
     }
 
 private:
@@ -68,7 +60,6 @@ private:
     double squares_ = 0.0; ///< sum of squares, eV^2
     double first_ = 0.0;   ///< place of the first instability, Å
     double before_ = 0.0;  ///< number of instabilities so far
-    double missing_ = 0.0; ///< energy that the last smooth step missed, eV
 };
 
 } // namespace asperity
