@@ -44,8 +44,8 @@ struct StepDecision {
     /// Energy lost: work of the forces less energy gained, eV. Below zero it is an error of the
     /// work.
     double lost = 0.0;
-    double gap = 0.0;         ///< work of the forces less energy gained, where it may be an error
-                              ///< of the work, eV
+    /// Work of the forces less energy gained, where it may be an error of the work, eV.
+    double gap = 0.0;
     double uncertain = 0.0;   ///< uncertainty of the work of a step that passes an instability, eV
     bool smooth = true;       ///< the force did not jump
     bool excess = false;      ///< the energy gained exceeds the work and its uncertainty
