@@ -516,6 +516,9 @@ def test_fixes_of_stresses():
         followed(bad("stress", where))
     followed(bad("stress", "pressed", "--friction", "9"))
     good("stress", "pressed", "--friction", "0.3")
+    said = error(lambda: asperity.stress(object()))
+    asperity.stress("pressed", out="again")
+    followed(said)
 
 
 def test_the_fix_of_a_surface_that_yields_as_a_whole():
