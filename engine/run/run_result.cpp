@@ -101,11 +101,13 @@ constexpr MeshRule mesh_rules[] = {
     {"pull_off_force", "mesh_error.pull_off_force", 0.2, 0.32, 1.8}};
 
 /// Adds the errors by the spacing of a continuum over a wall. The rule takes edges of contacts from
-/// the state at zero load. Where single rows hold the edge, no rule tells the error.
+/// the state at zero load. No rule tells the error without edges, where single rows hold them, or
+/// of a surface that yields.
 void add_mesh_errors(const Case& c, io::Result& result) {
     const auto counted = result.number("contact_fraction"), area = result.number("contact_area");
-    if (!counted || !area || c.edge_pinning > largest_edge_pinning) return;
-    const double edges = *area > 0.0 ? *counted / *area - 1.0 : 0.0, pinning = c.edge_pinning - 1.0;
+    if (!counted || !area || !(*counted > *area) || !(*area > 0.0)) return;
+    if (c.edge_pinning > largest_edge_pinning || c.effects.yielding) return;
+    const double edges = *counted / *area - 1.0, pinning = c.edge_pinning - 1.0;
     const bool ends_suddenly = tension_ends_suddenly(c);
     for (const MeshRule& rule : mesh_rules) {
         const auto value = result.number(rule.number);

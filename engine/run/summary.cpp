@@ -559,12 +559,14 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
             losses, of("energy.time_step") ? " + energy of the time step" : "",
             std::abs(*residual));
     }
-    if (state || drive_in)
+    if (state || drive_in || c.has_mesh())
         io::print_text(to,
                        "  Convergence: residual error of the solver.{} Cutoff, {}thickness, width, "
                        "velocity and "
                        "the choice of the surface are not included: asperity estimate.\n",
-                       c.has_mesh() ? " Mesh: error by the spacing, by rule." : "",
+                       c.has_mesh() ? " Mesh: error by the spacing, by rule; "
+                                      "numbers without one do not include it."
+                                    : "",
                        c.has_mesh() ? "" : "spacing, ");
     io::print_text(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",

@@ -35,14 +35,14 @@
 // halved if the force misses this slope by too much. This does not find all instabilities
 // (docs/explanation/relaxation.md). As long as the place of a failed try is kept, steps go half of
 // the way to that place. A relaxation whose force jumps by more than its step allows is abandoned:
-// with few exceptions the step would be halved anyway. Steps are
-// accepted in which up to drive.tolerance per site and Å of the step is missing: errors of the
-// work, which have both signs, and losses of patches that are small beside the box, which have one.
-// Both are summed, so that the energy lost does not depend on the size of the box; energy that is
+// with few exceptions the step would be halved anyway. Steps are accepted in which up to
+// drive.tolerance per site and Å of the step is missing. The missing energy is an error of the
+// work, which has either sign, or the loss of patches that are small beside the box. All of it
+// counts as lost, so that the energy lost does not depend on the size of the box; energy that is
 // gained without work is taken from the losses that follow, so that the energy lost never falls.
-// Points are relaxed to a quarter of the tolerance. The tolerance grows with a
-// pressing force that exceeds the scale of forces, and with the load to which a segment leads
-// without attraction. decide() (step_decision.hpp) chooses between accepting and halving.
+// Points are relaxed to a quarter of the tolerance. The tolerance grows with a pressing force that
+// exceeds the scale of forces, and with the load to which a segment leads without attraction.
+// decide() (step_decision.hpp) chooses between accepting and halving.
 //
 // An elastic block over a wall that only repels has a convex energy, and one state at each
 // position: nothing is dissipated, and the work of a step is the energy gained, however long it is.

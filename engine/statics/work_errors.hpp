@@ -42,9 +42,8 @@ public:
         ++before_;
     }
     /// Returns the uncertainty, eV: the sum of the gaps, plus the root of the sum of squares of
-    /// three standard deviations of the works of smooth steps, of three times the uncertainties of
-    /// the works of others (which are not independent) and of two standard deviations of the
-    /// dissipated energies.
+    /// three times the uncertainties of works (which are not independent) and of two standard
+    /// deviations of the dissipated energies.
     double total() const { return gap_ + std::sqrt(squares_); }
 
     template <class Visitor>

@@ -21,7 +21,7 @@ from conftest import command
 from following import followed, not_followed
 
 SOURCES = ("maps/force_curves.py", "studies/curves.py")
-EXCUSED = {"is in no format that is read without afmformats": "a package to be installed", "is none of these curves": "a name of Python",
+EXCUSED = {"is in no format that is read without afmformats": "a package to be installed",
            "holds no force curve": "a map without any", "of the cantilever...export it as text": "a file that lacks more"}
 RADIUS, MODULUS, WORK, STIFFNESS, CONTACT = 20.0, 3.0, 0.05, 2.0, 123.0
 TIP = Indenter("paraboloid", RADIUS)
@@ -293,7 +293,7 @@ def test_foreign_files_are_refused_in_a_line(tmp_path, monkeypatch, formats):
         followed(str(error.value))
     assert asperity.curve("d.ibw", radius="20 nm", model="dmt").curves
     assert asperity.curve("b.jpk-force", radius="20 nm", model="dmt", stiffness="2 N/m", sensitivity="60 nm/V").curves
-    with pytest.raises(asperity.SceneError, match="is none of these curves"):
+    with pytest.raises(asperity.SceneError, match="Curves: has no number .nothing."):
         asperity.curve("d.ibw", radius="20 nm", model="dmt", out="again").number("nothing")
     monkeypatch.setitem(sys.modules, "afmformats", None)
     with pytest.raises(asperity.InputOutputError, match="afmformats"):

@@ -403,3 +403,18 @@ def test_the_page_of_a_sweep_of_slides_has_friction_and_no_pull_off(tmp_path, li
     assert "mean of the slide" in shown and not any(word in label for label in shown for word in ("pull-off", "approach"))
     for word in ("pull-off", *["binding energy"] * (not adhesion)):
         assert word not in found.text.lower().partition("the scene that the points vary")[0], word
+
+
+@pytest.mark.parametrize("model, says", [("continuum", r"; ± [\d.e-]+ (meV/Å²|nN) by the mesh"), ("lattice", "; mesh not included")])
+def test_numbers_over_a_wall_have_the_error_of_the_mesh_or_lack_it(tmp_path, model, says):
+    """On the page and on the terminal; over atoms the sites are no mesh."""
+    rough = {"surface": {"sites": 32, "rms": "0.5 Å", "q_max": 8}, "block": {"thickness": 32, "young": "1 GPa"},
+             "drive": {"mode": "quasistatic", "control": "mean-height"}}
+    wall = {"interface": {"kind": "wall", "adhesion": "0.3 mJ/m2", "range": "3 Å"}}
+    run = asperity.run({**rough, **wall, "block": {**rough["block"], "model": model}}, out=tmp_path / model)
+    assert 0 < run.contact_area < run.contact_fraction < 1
+    notes = {one.name: one.note for one in sentences.key_numbers(run)}
+    for name in ("binding energy at zero load", "work that the drive gives, pull-off", "pull-off stress, the largest attraction of the pull-off"):
+        assert re.search(says, notes[name]), notes
+    atoms = asperity.run(rough, {"surface.sites": 16, "surface.q_max": 4, "drive.path": "relax"}, out=tmp_path / "atoms")
+    assert not any("mesh" in one.note for one in sentences.key_numbers(atoms))

@@ -22,7 +22,7 @@ from ..maps.force_curves import ForceCurve, read_force_curves
 from ..theories.indentation import SHAPES, Indenter
 from ..units import quantity
 from .curve_fit import Compared, Regions, Unfit, compared, regions
-from .stated_number import NAN, Found, Number
+from .stated_number import NAN, Found, Number, WithNumbers
 
 WAYS = {False: "approach", True: "retraction"}
 OF_LAW = 0.05
@@ -66,7 +66,7 @@ class FittedCurve(Named):
 
 @checks_calls
 @dataclass
-class Curves(Named):
+class Curves(WithNumbers):
     """Force curves of a file with their fits.
 
     numbers    work, modulus (E*), young (if Poisson's ratio is known), pull_off_force and lost, of a single curve with its errors, of several
@@ -82,29 +82,6 @@ class Curves(Named):
     refused: list[str]
     notes: list[str] = field(default_factory=list)
     directory: Path = Path()
-
-    def number(self, path: str) -> Number:
-        """Returns a number by its name.
-
-        Parameters
-        ----------
-        path : str
-            "work", "modulus", "young", "pull_off_force" or "lost".
-
-        Returns
-        -------
-        Number
-            The number with its error.
-
-        Raises
-        ------
-        SceneError
-            There is no number of this name.
-        """
-        for one in self.numbers:
-            if one.path == path:
-                return one
-        raise SceneError(f"number {path}", "is none of these curves", "they are " + ", ".join(n.path for n in self.numbers), "name one of them")
 
     def values(self, path: str) -> np.ndarray:
         """Returns a number of each curve, NaN where it is not stated, in the unit of number(path)."""

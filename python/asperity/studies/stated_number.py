@@ -10,7 +10,8 @@ import math
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from ..errors import Named
+from ..arguments import checks_calls
+from ..errors import Named, UnknownName
 from ..terminal import minus
 from ..units import MILLIJOULE, NANONEWTON, shown
 
@@ -222,3 +223,33 @@ def upwards(factor: float, bound: float) -> str:
     size = factor * abs(bound)
     step = 10.0 ** (math.floor(math.log10(size)) - 1)
     return ("-" if bound < 0.0 else "") + f"{float(f'{step * math.ceil(size / step * (1 - 1e-12)):.2g}'):g}"
+
+
+@checks_calls
+class WithNumbers(Named):
+    """Base class of results that have a list of numbers."""
+
+    numbers: list[Number]
+
+    def number(self, path: str) -> Number:
+        """Returns a number by its name.
+
+        Parameters
+        ----------
+        path : str
+            Name of the number: "pull_off_force" of a tip, "work" of force curves.
+
+        Returns
+        -------
+        Number
+            The number with its error.
+
+        Raises
+        ------
+        UnknownName
+            There is no number of this name.
+        """
+        known = {one.path: one for one in self.numbers}
+        if path not in known:
+            raise UnknownName.among(type(self).__name__, path, known, what="number")
+        return known[path]

@@ -22,7 +22,7 @@ from scipy.ndimage import uniform_filter
 from scipy.optimize import least_squares
 
 from ..arguments import checks_calls
-from ..errors import Named, SceneError
+from ..errors import SceneError
 from ..files import store
 from ..maps import height_map
 from ..results.result import Result, Values
@@ -32,7 +32,7 @@ from ..theories.sphere import RATIOS, jkr, maugis
 from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
 from .forecast import START, Forecast, Size, seconds_of
 from .map_scene import edge_of, named, read_square, with_unit
-from .stated_number import NAN, Found, Number
+from .stated_number import NAN, Found, Number, WithNumbers
 
 FEWEST, MOST = 64, 256
 """Sites along an edge of the box unless others are asked for."""
@@ -155,7 +155,7 @@ class Plan:
 
 @checks_calls
 @dataclass
-class Tip(Named):
+class Tip(WithNumbers):
     """Contact of a tip: numbers with their errors, the force curve, the fit of JKR, the smooth sphere's theory.
 
     drive, tip, force, retracting   the curve: separation of the undeformed surfaces by the drive (the piezo) and by the tip,
@@ -172,29 +172,6 @@ class Tip(Named):
     result: Result
     notes: list[str]
     directory: Path
-
-    def number(self, path: str) -> Number:
-        """Returns a number by its name.
-
-        Parameters
-        ----------
-        path : str
-            "pull_off_force", "jump_in_distance", "contact_radius" or "lost".
-
-        Returns
-        -------
-        Number
-            The number with its error.
-
-        Raises
-        ------
-        SceneError
-            There is no number of this name.
-        """
-        for one in self.numbers:
-            if one.path == path:
-                return one
-        raise SceneError(f"number {path}", "is none of a tip", "they are " + ", ".join(n.path for n in self.numbers), "name one of them")
 
     def __repr__(self) -> str:
         return f"<Tip {self.directory}: {self.numbers[0]}>"
