@@ -135,8 +135,8 @@ inline constexpr Quantity written_quantities[] = {
      "contact_fraction counts sites at the edges of contacts whole, and is too large by a multiple "
      "of the spacing"},
     {"contact_area_uncertainty", "1", per::area,
-     "error of contact_area by the spacing: half of the difference from contact_fraction, and more "
-     "where rows of sites hold the edge of a contact"},
+     "error of contact_area by the spacing: the difference from contact_fraction, and more where "
+     "rows of sites hold the edge of a contact"},
     {"mesh_error.binding_energy", "meV/Å^2", per::area,
      "error of binding_energy by the spacing of a continuum over a wall, by a rule that many "
      "scenes "

@@ -150,7 +150,7 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.in_contact = mean_from(contact, first);
     s.in_contact_error = error_of_mean(rest(contact));
     s.area = contact_sites(s.in_contact, mean_from(value(&SlidePoint::contact_edges), first));
-    s.area_error = std::hypot(0.5 * (s.in_contact - s.area), s.in_contact_error);
+    s.area_error = std::hypot(s.in_contact - s.area, s.in_contact_error);
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
     const double left_out = mean_from(rate(std::mem_fn(&SlidePoint::work_left_out)), first);

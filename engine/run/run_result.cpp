@@ -93,12 +93,12 @@ struct MeshRule {
     double edges, pinning, sudden;
 };
 constexpr MeshRule mesh_rules[] = {
-    {"contact_area", "contact_area_uncertainty", 0.6, 0.5, 1.0},
-    {"binding_energy", "mesh_error.binding_energy", 0.03, 0.05, 0.1},
-    {"work_of_drive.approach", "mesh_error.work_of_drive.approach", 0.08, 0.2, 0.7},
-    {"work_of_drive.pull_off", "mesh_error.work_of_drive.pull_off", 0.1, 0.27, 0.9},
-    {"approach_force", "mesh_error.approach_force", 0.2, 0.32, 1.1},
-    {"pull_off_force", "mesh_error.pull_off_force", 0.2, 0.32, 1.8}};
+    {"contact_area", "contact_area_uncertainty", 1.0, 0.5, 1.0},
+    {"binding_energy", "mesh_error.binding_energy", 0.05, 0.05, 0.1},
+    {"work_of_drive.approach", "mesh_error.work_of_drive.approach", 0.1, 0.2, 0.9},
+    {"work_of_drive.pull_off", "mesh_error.work_of_drive.pull_off", 0.12, 0.27, 1.0},
+    {"approach_force", "mesh_error.approach_force", 0.5, 0.4, 1.2},
+    {"pull_off_force", "mesh_error.pull_off_force", 0.4, 0.45, 1.8}};
 
 /// Adds the errors by the spacing of a continuum over a wall. The rule takes edges of contacts from
 /// the state at zero load. No rule tells the error without edges, where single rows hold them, or

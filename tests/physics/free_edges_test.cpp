@@ -274,7 +274,7 @@ TEST(ContactArea, LosesWhatItsEdgesCountTooMuch) {
             mean.counted += 0.25 * one.counted / wanted;
             mean.corrected += 0.25 * one.corrected / wanted;
         }
-        // What is left is within half of the difference, contact_area_uncertainty.
+        // What is left is within half of the difference.
         EXPECT_GT(mean.counted, 1.015) << sticks;
         EXPECT_NEAR(mean.corrected, 1.0, 0.5 * (mean.counted - mean.corrected)) << sticks;
         EXPECT_NEAR(mean.corrected, 1.0, sticks ? 0.015 : 0.003) << sticks;
