@@ -149,8 +149,9 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const std::vector<double> contact = value(&SlidePoint::in_contact);
     s.in_contact = mean_from(contact, first);
     s.in_contact_error = error_of_mean(rest(contact));
-    s.area = contact_sites(s.in_contact, mean_from(value(&SlidePoint::contact_edges), first));
-    s.area_error = std::hypot(s.in_contact - s.area, s.in_contact_error);
+    const double edges = mean_from(value(&SlidePoint::contact_edges), first);
+    s.area = contact_sites(s.in_contact, edges);
+    s.area_error = std::hypot(contact_sites_error(edges), s.in_contact_error);
     s.load = mean_from(value(&SlidePoint::load), first);
     s.mean_height = mean_from(value(&SlidePoint::mean_height), first);
     const double left_out = mean_from(rate(std::mem_fn(&SlidePoint::work_left_out)), first);

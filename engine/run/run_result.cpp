@@ -85,20 +85,20 @@ void add_path(const PathResults& results, const Case& c, io::Result& result) {
     if (out) result.set("jkr.pull_off", as_work(out->attraction));
 }
 
-/// Share of a number that is its error by the spacing: of the excess of the sites in contact over
-/// the area in contact, and of the excess of Case::edge_pinning over 1, which counts more if the
-/// tension of the law ends suddenly; as measured (docs/reports/mesh.md).
+/// Share of a number that is its error by the spacing: of contact_sites_error() beside the area in
+/// contact, and of the excess of Case::edge_pinning over 1, which counts more if the tension of the
+/// law ends suddenly; as measured (docs/reports/mesh.md).
 struct MeshRule {
     io::Key number, error;
     double edges, pinning, sudden;
 };
 constexpr MeshRule mesh_rules[] = {
-    {"contact_area", "contact_area_uncertainty", 1.0, 0.5, 1.0},
-    {"binding_energy", "mesh_error.binding_energy", 0.05, 0.05, 0.1},
+    {"contact_area", "contact_area_uncertainty", 1.0, 0.3, 0.5},
+    {"binding_energy", "mesh_error.binding_energy", 0.1, 0.2, 0.1},
     {"work_of_drive.approach", "mesh_error.work_of_drive.approach", 0.1, 0.2, 0.9},
-    {"work_of_drive.pull_off", "mesh_error.work_of_drive.pull_off", 0.12, 0.27, 1.0},
-    {"approach_force", "mesh_error.approach_force", 0.5, 0.4, 1.2},
-    {"pull_off_force", "mesh_error.pull_off_force", 0.4, 0.45, 1.8}};
+    {"work_of_drive.pull_off", "mesh_error.work_of_drive.pull_off", 0.12, 0.3, 0.9},
+    {"approach_force", "mesh_error.approach_force", 0.5, 0.3, 0.7},
+    {"pull_off_force", "mesh_error.pull_off_force", 0.5, 0.45, 1.2}};
 
 /// Adds the errors by the spacing of a continuum over a wall. The rule takes edges of contacts from
 /// the state at zero load. No rule tells the error without edges, where single rows hold them, or
@@ -107,7 +107,9 @@ void add_mesh_errors(const Case& c, io::Result& result) {
     const auto counted = result.number("contact_fraction"), area = result.number("contact_area");
     if (!counted || !area || !(*counted > *area) || !(*area > 0.0)) return;
     if (c.edge_pinning > largest_edge_pinning || c.effects.yielding) return;
-    const double edges = *counted / *area - 1.0, pinning = c.edge_pinning - 1.0;
+    const double edges = (*counted - *area) * c.sites() / excess_of_edge;
+    const double of_edges = contact_sites_error(edges) / (*area * c.sites());
+    const double pinning = c.edge_pinning - 1.0;
     const bool ends_suddenly = tension_ends_suddenly(c);
     for (const MeshRule& rule : mesh_rules) {
         const auto value = result.number(rule.number);
@@ -115,7 +117,7 @@ void add_mesh_errors(const Case& c, io::Result& result) {
         const bool of_lattice = !c.simulation.block.continuum;
         if (!value || (of_lattice && rule.number.name != "contact_area")) continue;
         const double held = (ends_suddenly ? rule.sudden : rule.pinning) * pinning;
-        result.set(rule.error, std::abs(*value) * std::hypot(rule.edges * edges, held));
+        result.set(rule.error, std::abs(*value) * std::hypot(rule.edges * of_edges, held));
     }
 }
 
