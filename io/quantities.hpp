@@ -224,6 +224,8 @@ inline constexpr Quantity written_quantities[] = {
      "error of steady_friction: the standard error, by blocking, as for the following values, at "
      "least the difference between the dissipated energy or the work and the work of the forces, "
      "divided by the distance; over a self-affine map of a continuum with the part of the spacing"},
+    {"segments[].steady_friction_mesh_error", "eV/Å", per::block,
+     "part of steady_friction_error: error by the spacing"},
     {"segments[].friction_stress", "MPa", "", "steady_friction divided by the area of the box"},
     {"segments[].friction_coefficient", "1", "",
      "steady_friction divided by the normal force; omitted under tension"},

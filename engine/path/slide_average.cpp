@@ -170,10 +170,9 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     s.friction_error = std::max(s.friction_error, std::abs(s.steady ? missing : left_out));
     if (lengths.shortest_wave > 0.0 && s.area > 0.0) {
         const double a_over_wave = lengths.spacing / lengths.shortest_wave;
-        const double mesh =
-            0.2 * std::hypot(a_over_wave * a_over_wave, s.in_contact / s.area - 1.0);
-        s.friction_error = std::hypot(s.friction_error, mesh * s.friction);
-        s.has_mesh_error = true;
+        s.mesh_error = 0.2 * std::abs(s.friction) *
+                       std::hypot(a_over_wave * a_over_wave, s.in_contact / s.area - 1.0);
+        s.friction_error = std::hypot(s.friction_error, s.mesh_error);
     }
     return s;
 }

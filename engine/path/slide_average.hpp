@@ -38,19 +38,20 @@ namespace asperity {
 struct SteadySlide {
     double running_in = 0.0;                         ///< distance left out, Å
     double friction = 0.0, friction_error = 0.0;     ///< force against the slide, eV/Å
+    double mesh_error = 0.0; ///< part of friction_error: that of the spacing; 0: not told
     double load = 0.0;                               ///< normal force, eV/Å
     double in_contact = 0.0, in_contact_error = 0.0; ///< number of sites in contact
     double area = 0.0, area_error = 0.0; ///< contact_sites(), with the error of the spacing
     double mean_height = 0.0;            ///< mean height of the lowest layer, Å
     Energies losses;                     ///< losses over the distance, eV/Å
     bool steady = false;                 ///< the friction no longer drifts
-    bool has_mesh_error = false;         ///< friction_error includes the error of the spacing
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("running_in", running_in);
         v("friction", friction);
         v("friction_error", friction_error);
+        v("mesh_error", mesh_error);
         v("load", load);
         v("in_contact", in_contact);
         v("in_contact_error", in_contact_error);
@@ -59,7 +60,6 @@ struct SteadySlide {
         v("mean_height", mean_height);
         v("losses", losses);
         v("steady", steady);
-        v("has_mesh_error", has_mesh_error);
     }
 };
 

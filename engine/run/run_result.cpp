@@ -144,6 +144,7 @@ void add_steady(const SteadySlide& s, const Case& c, std::size_t i, io::Result& 
     result.set("segments[].running_in", i, s.running_in);
     result.set("segments[].steady_friction", i, s.friction);
     result.set("segments[].steady_friction_error", i, s.friction_error);
+    if (s.mesh_error > 0.0) result.set("segments[].steady_friction_mesh_error", i, s.mesh_error);
     const double megapascal = 1.0 / (c.area() * units::megapascal);
     result.set("segments[].friction_stress", i, s.friction * megapascal);
     result.set("segments[].steady_pressure", i, s.load * megapascal);

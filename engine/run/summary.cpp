@@ -333,7 +333,7 @@ void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
                                                                mean.friction_error / mean.load));
         io::print_text(to, "{}, contact area {}, after {:.4g} Å{}{}.\n", text,
                        io::with_error(mean.area / c.sites(), mean.area_error / c.sites()),
-                       mean.running_in, mean.has_mesh_error ? "" : " (mesh not included)",
+                       mean.running_in, mean.mesh_error > 0.0 ? "" : " (mesh not included)",
                        mean.steady
                            ? "; steady"
                            : "; not steady yet: the friction still drifts at its end, and a longer "

@@ -154,6 +154,25 @@ def test_half_of_the_spacing_of_a_wall_leads_to_its_limit(place):
     assert abs(found.estimate - fine.binding_energy) <= 2 * found.error
 
 
+def test_a_slide_states_friction_with_a_part_of_the_spacing(place):
+    def slid(factor=1):
+        return {"surface": {"sites": 16 * factor, "spacing": 40.0 / factor, "rms": 8.0, "q_max": 4, "seed": 3},
+                "block": {"young": 0.02, "poisson": 0.48, "thickness": 32 * factor, "prony": [[30.0, "1 ns"]]},
+                "interface": {"kind": "wall", "adhesion": 0, "range": 9.0},
+                "drive": {"mode": "quasistatic", "control": "mean-height", "load": 2.0, "velocity": 1.0,
+                          "path": ["relax", "slide x 64 nm under load until steady"]}}
+
+    found = asperity.estimate(slid(), parts=["convergence", "spacing"], out=place / "slide")
+    friction, stress = found.numbers["slide.friction_coefficient"], found.numbers["slide.friction_stress"]
+    finer_run = asperity.run(slid(4), out=place / "finer")["segments"][-1]
+    assert stress.unit == "MPa" and stress.estimate == pytest.approx(2.0 * friction.estimate, rel=1e-3)
+    assert set(friction.parts) == {"convergence", "spacing"}
+    assert abs(friction.parts["spacing"].shift) > 2 * friction.error  # the scene's own number is off
+    assert abs(finer_run["friction_coefficient"] - friction.estimate) < 2 * friction.error
+    area = found.numbers["slide.steady_contact_area"]
+    assert abs(finer_run["steady_contact_area"] - area.estimate) < 2 * area.error
+
+
 def test_the_command(place):
     words = ["estimate", write_tiny(place), "--parts", "tail,thickness", "--progress", "off"]
     assert "4 runs" in command(*words, "--plan", "--out", "planned") and not (place / "planned").exists()

@@ -199,6 +199,8 @@ class Segment(Values):
     """eV/Å: mean force against the slide"""
     steady_friction_error: float
     """eV/Å: error of steady_friction"""
+    steady_friction_mesh_error: float
+    """eV/Å: part of steady_friction_error"""
     friction_stress: float
     """MPa: steady_friction divided by the area of the box"""
     friction_coefficient: float

@@ -20,7 +20,7 @@ from scipy.special import stdtrit
 from ..results.result import Values
 from ..running.pool import DONE
 from ..units import GIGAPASCAL
-from .quantities import Quantity, convergence_of, grain_of, number_of
+from .quantities import AREA, Quantity, convergence_of, grain_of, number_of, slide_of
 from .stated_number import INFINITE, Found, Number
 from .variations import AT_REST, NAN, Choice, Setting, Variation, Variations, joined
 
@@ -54,7 +54,9 @@ def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
     unpressed = keys.number("drive.load", 0.0) == 0.0 and not any(
         one.split()[0] not in ("relax", "approach", "pull-off", "hold") for one in map(str, keys.find("drive.path") or []))
     wall = keys.text("interface.kind") == "wall"
-    least, most, unresolved = 0.0, INFINITE, ""
+    least, most, unresolved, condition = 0.0, INFINITE, "", ""
+    if q.path.startswith("slide.") and (slide := slide_of(result)) and not slide.find("steady"):
+        condition = "for a slide that still drifts at its end; a longer one tells more"
     if q.path in ("binding_energy", "binding_energy_ratio") or q.path.startswith("work_of_drive."):
         size = flat if q.path != "binding_energy_ratio" else 1.0
         most = size if wall and q.path.startswith("binding_energy") else INFINITE
@@ -62,7 +64,7 @@ def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
             least, most = -size if wall else -INFINITE, 0.0
         if not unpressed:
             least, most = -INFINITE, most if q.path.startswith("binding_energy") else INFINITE
-    elif q.path == "contact_fraction":
+    elif q.path in ("contact_fraction", AREA.path, "slide.steady_contact_area"):
         most = 1.0
         unresolved = f"contact of {round(value * sites**2)} of {round(sites**2)} sites"
     elif q.path == "contact_radius.relaxed":
@@ -70,7 +72,7 @@ def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
     elif q.path == "pull_off_stress" and wall and keys.text("interface.law") == "exponential":
         most = flat / 1e3 / keys.number("interface.range", NAN) / (1e-3 * GIGAPASCAL)
     return Number(q.path, q.symbol, q.name, unit, value, least=least, most=most, grain=grain_of(result, q.path, value),
-                  unresolved=unresolved)
+                  unresolved=unresolved, condition=condition)
 
 
 Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]

@@ -298,7 +298,7 @@ def _numbers(plan: Plan, curved: bool, withheld: str) -> dict[str, Number]:
             continue
         unit = {"binding_energy_ratio": "", "pull_off_stress": "MPa"}.get(q.path)
         if unit is None:
-            unit = program.quantity(q.path)["unit"]
+            unit = program.quantity(re.sub("^slide", "segments[]", q.path))["unit"]
         found[q.path] = number = stated(q, unit, value, base)
         for part in plan.parts:
             if (one := part.found(q)) is not None:
@@ -331,9 +331,9 @@ class Estimating(Study):
         super().__init__(scene, overrides, out, "estimate", options, say, [RESULT, *also], notes)
         keys, varied = self.keys, self.varied
         path = keys["drive"]["path"]
-        if not {"relax", "approach", "pull-off"} & set(path):
-            raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach "
-                             "and no pull-off", 'for example --set drive.path=relax')
+        if not {"relax", "approach", "pull-off", "slide"} & {str(one).split()[0] for one in path}:
+            raise SceneError(scene, "has no number to estimate", f"its path, {path}, has no state at zero load, no approach, "
+                             "no pull-off and no slide", 'for example --set drive.path=relax')
         if seeds is not None and not (isinstance(seeds, Integral) and 2 <= seeds <= 1000):
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000",
                              "leave it out for 8, or 4 with a path")

@@ -18,7 +18,8 @@ class Quantity(NamedTuple):
     """A number of a result that can be stated."""
 
     path: str
-    """Of result.json; binding_energy_ratio: over delta_gamma; pull_off_stress: pull_off_force over the area."""
+    """Of result.json; binding_energy_ratio: over delta_gamma; pull_off_stress: pull_off_force over the area; slide.X: X of the
+    last slide in segments."""
     symbol: str
     name: str
     order: float
@@ -34,6 +35,11 @@ FLAT = (Quantity("binding_energy", "γ_eff", "binding energy at zero load", 2),
         Quantity("pull_off_stress", "σ_off", "pull-off stress: the largest attraction over the area", 1))
 CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jkr.pull_off", "γ_JKR", "work of adhesion by JKR", 1),
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
+AREA = Quantity("contact_area", "A/A₀", "contact area over the nominal area", 1)
+"""Over a wall instead of the contact area fraction."""
+SLIDING = (Quantity("slide.friction_stress", "τ", "friction stress of the last slide", 2),
+           Quantity("slide.friction_coefficient", "μ", "friction coefficient of the last slide", 2),
+           Quantity("slide.steady_contact_area", "A_slide/A₀", "contact area of the last slide over the nominal area", 1))
 
 
 def quantities_of(result: Values, curved: bool) -> tuple[Quantity, ...]:
@@ -51,8 +57,15 @@ def quantities_of(result: Values, curved: bool) -> tuple[Quantity, ...]:
     tuple[Quantity, ...]
         The quantities; each loss beside `lost` is one.
     """
-    return CURVED if curved else FLAT + tuple(
-        Quantity(name + ".cycle", f"w_{place}", f"energy dissipated in the {place} in a cycle", 1) for place, name in losses(result).items())
+    flat = tuple(AREA if q.path == "contact_fraction" and AREA.path in result else q for q in FLAT)
+    return (CURVED if curved else flat + tuple(
+        Quantity(name + ".cycle", f"w_{place}", f"energy dissipated in the {place} in a cycle", 1) for place, name in losses(result).items()
+    )) + (SLIDING if slide_of(result) else ())
+
+
+def slide_of(result: Values) -> Values | None:
+    """Returns the segment of the last slide with a mean friction; None if the path has none."""
+    return next((one for one in map(Values, reversed(result.listed("segments", dict))) if "steady_friction" in one), None)
 
 
 def number_of(result: Values, path: str) -> float:
@@ -63,7 +76,7 @@ def number_of(result: Values, path: str) -> float:
     result : Values
         Contents of result.json.
     path : str
-        Path of the number there, "binding_energy_ratio" or "pull_off_stress" (MPa).
+        Path of a Quantity; "pull_off_stress" is in MPa.
 
     Returns
     -------
@@ -75,6 +88,9 @@ def number_of(result: Values, path: str) -> float:
     if path == "pull_off_stress":
         edge = result.number("scene.surface.sites", NAN) * result.number("scene.surface.spacing", NAN)
         return result.number("pull_off_force", NAN) / edge**2 / (1e-3 * GIGAPASCAL)
+    if path.startswith("slide."):
+        slide = slide_of(result)
+        return slide.number(path.removeprefix("slide."), NAN) if slide else NAN
     return result.number(path, NAN)
 
 
@@ -94,6 +110,12 @@ def convergence_of(result: Values, path: str) -> float:
         The bound in the unit of the number; NaN if the result states none.
     """
     parent, _, leaf = path.rpartition(".")
+    if path.startswith("slide.") and (slide := slide_of(result)):
+        if leaf == "steady_contact_area":
+            return slide.number("steady_contact_fraction_error", NAN)
+        friction, error = (slide.number(f"steady_friction{name}", NAN) for name in ("", "_error"))
+        relative = math.sqrt(max(error**2 - slide.number("steady_friction_mesh_error", 0.0) ** 2, 0.0)) / abs(friction or NAN)
+        return relative * abs(number_of(result, path))
     if path == "binding_energy_ratio":
         return result.number("binding_energy_uncertainty", NAN) / (result.number("delta_gamma") or NAN)
     if leaf == "cycle":
@@ -120,7 +142,7 @@ def grain_of(result: Values, path: str, value: float) -> float:
     """
     flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
     sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
-    if path == "contact_fraction":
+    if path in ("contact_fraction", AREA.path, "slide.steady_contact_area"):
         return 1.0 / sites**2
     if path == "contact_radius.relaxed":
         return spacing**2 / (2.0 * math.pi * max(value, spacing))
