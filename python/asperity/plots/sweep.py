@@ -137,8 +137,8 @@ SIMULATED: dict[str, Spec] = {
     "friction": (COEFFICIENT, FRICTION, [
         Trace("mean of the slide", "slide.friction_coefficient", BLUE, "", "o", uncertainty="slide.friction_coefficient_error")]),
     "sliding-area": (CONTACT, SLIDING_AREA, [
-        Trace("mean of the slide", "slide.steady_contact_fraction", GREEN, "", "^",
-              uncertainty="slide.steady_contact_fraction_error")]),
+        Trace("mean of the slide", "slide.steady_contact_area", GREEN, "", "^",
+              uncertainty="slide.steady_contact_area_uncertainty")]),
     "hysteresis": (LOST, [], [
         Trace("approach", "lost.approach", BLUE, "", "o", uncertainty="lost.uncertainty.approach"),
         Trace("pull-off", "lost.pull_off", RED, "", "s", False, uncertainty="lost.uncertainty.pull_off"),

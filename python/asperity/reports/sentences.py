@@ -238,17 +238,18 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             add(f"{radius:.4g}", "nm", f"contact radius {at}", "√(area of the sites in contact / π)")
     else:
         gamma("binding_energy", f"binding energy {at}")
-        contact, theory = run.number("contact_fraction"), run.number("theory.persson.contact_fraction")
+        area, theory = run.number("contact_area"), run.number("theory.persson.contact_fraction")
+        contact = run.number("contact_fraction") if area is None else area
         if contact is not None:
-            add(percent(contact), "", f"of the sites in contact {at}",
+            add(percent(contact), "", f"of the {'sites' if area is None else 'area'} in contact {at}",
                 f"theory{pressed}: {percent(theory)}" if theory is not None else "")
-        slide = next((s for s in reversed(run.listed("segments", dict)) if {"friction_coefficient", "steady_contact_fraction"} <= set(s)), None)
+        slide = next((s for s in reversed(run.listed("segments", dict)) if {"friction_coefficient", "steady_contact_area"} <= set(s)), None)
         if slide is not None:
             theories = [run.number(f"theory.sliding.{name}") for name in ("friction_coefficient", "contact_fraction")]
             error = slide.get("friction_coefficient_error")
             add(f"{slide['friction_coefficient']:.3g}" + (f" ± {error:.1g}" if error else ""), "", "friction coefficient of the slide",
                 f"Persson’s theory of rubber friction: {theories[0]:.3g}" if theories[0] is not None else "")
-            add(percent(slide["steady_contact_fraction"]), "", "of the sites in contact while it slides",
+            add(percent(slide["steady_contact_area"]), "", "of the area in contact while it slides",
                 f"Persson’s theory of rubber friction: {percent(theories[1])}" if theories[1] is not None else "")
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
