@@ -323,7 +323,7 @@ void fill_motion(Case& c, io::Problems& refused) {
     const double highest = block.highest_frequency(c.scales.stiffness);
     double of_top = 0.0;
     if (const TopSpring& spring = block.top_spring; spring.mass > 0.0) {
-        const double column = (block.lame() + 2.0 * block.shear_modulus()) * block.spacing;
+        const double column = block.modulus_of_compression() * block.spacing;
         of_top = std::sqrt((spring.stiffness + column * c.sites()) / spring.mass);
     }
     c.longest_timestep = 2.0 / std::max(highest, of_top);

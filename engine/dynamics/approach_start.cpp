@@ -39,7 +39,7 @@ double yielded(Block& block, double force) {
     const BlockOptions& o = block.options();
     const double radius =
         o.spacing * std::abs(force) / (largest * std::sqrt(sum * std::numbers::pi));
-    const double edge = o.sites * o.spacing, modulus = o.lame() + 2.0 * o.shear_modulus();
+    const double edge = o.sites * o.spacing, modulus = o.modulus_of_compression();
     const double compliance = 1.0 / (2.0 * o.contact_modulus() * radius) +
                               o.thickness * o.spacing / (modulus * edge * edge);
     return 0.5 * force * force * compliance;

@@ -44,7 +44,6 @@ io::Problem only(const std::string& text, const std::vector<std::string>& overri
     return problems.empty() ? io::Problem{} : problems.front();
 }
 
-// Names and defaults are a contract: ReferencePagesAreUpToDate holds them to the page, key by key.
 TEST(Scene, EveryKeyIsDescribedAndTheDefaultsAreAScene) {
     Scene scene;
     const io::Schema schema = bind(scene);
@@ -662,6 +661,12 @@ TEST(Scene, WithoutQMaxTheSpectrumEndsAtNyquist) {
     EXPECT_EQ(heights({}), heights({"surface.q_max=32"}));
     EXPECT_EQ(heights({}), heights({"surface.q_max=512"}));
     EXPECT_NE(heights({}), heights({"surface.q_max=16"}));
+}
+
+TEST(Scene, DefaultsAreThoseOfTheContract) {
+    const std::string file =
+        io::contents(std::string(ASPERITY_SOURCE_DIR) + "/tests/engine/defaults.toml");
+    EXPECT_EQ(file.substr(file.find("\n\n") + 2), scene_toml(Scene{}, false));
 }
 
 TEST(Scene, ReferencePagesAreUpToDate) {
