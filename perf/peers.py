@@ -6,8 +6,9 @@
     python3 -m venv ENV && ENV/bin/pip install tamaas==2.9.0 contactmechanics==1.8.3 adhesion==0.93
 
 makes the environment of the others; without it the exit code is 77. Asperity finds the state under each load (MPa) over a wall with
-exponential attraction; the others, at its mean gap, the state over a hard wall, from the same map, E*, w and range. "lattice" is Adhesion
-with the stiffness of Asperity's block for each wave, read off Asperity's own state (pressure over displacement). Compared: mean pressure
+exponential attraction; the others, at its mean gap, the state over a hard wall, from the same map, E*, w and range. Rows "lattice" are
+Asperity with block.model = "lattice" and Adhesion with that block's stiffness for each wave, read off Asperity's own state (pressure over
+displacement): all others are the same continuum. Compared: mean pressure
 (difference over the largest tension w/range), contact area, energy of the gap (over w), processor seconds of the solution and of the
 whole process, largest memory.
 """
@@ -88,9 +89,10 @@ def observables(case: dict, gap: np.ndarray, heights: np.ndarray, softer: np.nda
 
 def solve(name: str, case: dict) -> dict:
     """One contact by another program, in its environment. The case has the map (npy, Å), the edge of the box (Å), E* (eV/Å³), w (eV/Å²),
-    range (Å), the mean gap (Å) and the tolerance of the residual (eV/Å for each site)."""
+    range (Å), the mean gap (Å), the tolerance of the residual (eV/Å for each site), and for Adhesion "softer" if the block is no
+    half-space: its stiffness for each wave over E* q/2 (npy)."""
     heights = np.load(case["map"])
-    softer = np.load(case["softer"]) if name == "lattice" else None
+    softer = np.load(case["softer"]) if "softer" in case else None
     gap, seconds, iterations = tamaas(case, heights) if name == "tamaas" else adhesion(case, heights, softer)
     return {"seconds": seconds, "iterations": iterations} | observables(case, gap, heights, 1.0 if softer is None else softer)
 
@@ -126,6 +128,45 @@ def stiffness(place: pathlib.Path, sites: int) -> np.ndarray:
     return softer
 
 
+def compare(a: argparse.Namespace, python: pathlib.Path, sites: int, load: float, model: str, others: tuple[str, ...]) -> None:
+    """Prints the rows of a contact of Asperity's block of this model and of other programs."""
+    w = 1e-3 * a.adhesion
+    attraction = w / a.range * 2.6**2  # of a site, eV/Å: what drive.tolerance is a fraction of
+    label = "" if model == "continuum" else f", {model}"
+    with tempfile.TemporaryDirectory() as scratch:
+        place = pathlib.Path(scratch) / "asperity"
+        keys = {"drive.path": "relax", "block.model": model, "block.thickness": sites, "interface.kind": "wall",
+                "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
+                "surface.q_max": sites / 8, "output.checkpoint": "none", "drive.load": load, "drive.tolerance": TOLERANCE / attraction}
+
+        def options(keys: dict, place: pathlib.Path) -> list[str]:
+            return [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set",
+                    *(f"{k}={v}" for k, v in keys.items()), "--out", str(place)]
+
+        _, process, memory = measured(options(keys, place))
+        result = json.loads((place / "result.json").read_text())
+        _, gap, heights = maps(place)
+        measured(options(keys | {"drive.tolerance": 1e-7 / attraction}, pathlib.Path(f"{place}-tight")))
+        softer = stiffness(pathlib.Path(f"{place}-tight"), sites)
+        np.save(f"{scratch}/map.npy", heights)
+        case = {"map": f"{scratch}/map.npy", "edge": sites * 2.6, "modulus": E, "adhesion": w, "range": a.range,
+                "gap": float(gap.mean()), "tolerance": TOLERANCE, "relative": 1e-6}
+        if model == "lattice":
+            np.save(f"{scratch}/softer.npy", softer)
+            case["softer"] = f"{scratch}/softer.npy"
+        pathlib.Path(f"{scratch}/case.json").write_text(json.dumps(case))
+        mine = observables(case, gap, heights, softer)["energy"] / w
+        print(f"{sites:5} {load:8g} {'asperity' + label:18} {result['contact_fraction']:.4f} {mine:9.5f} {0:20} "
+              f"{result['relaxed']['residual_force']:9.1e} {result['run']['iterations']:11} "
+              f"{result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}", flush=True)
+        for name in others:
+            text, process, memory = measured([str(python), __file__, "--solve", name, f"{scratch}/case.json"])
+            r = json.loads(text.splitlines()[-1])
+            difference = (r["pressure"] - load * 1e-3 * GPA) / (w / a.range)
+            print(f"{sites:5} {load:8g} {name + label:18} {r['area']:.4f} {r['energy'] / w:9.5f} {difference:20.5f} {r['residual']:9.1e} "
+                  f"{r['iterations']:11} {r['seconds']:8.2f} {process:10.2f} {memory:4.0f}", flush=True)
+
+
 def main() -> None:
     if sys.argv[1:2] == ["--solve"]:  # in the environment of the others
         print(json.dumps(solve(sys.argv[2], json.loads(pathlib.Path(sys.argv[3]).read_text()))))
@@ -142,42 +183,11 @@ def main() -> None:
     if not python.exists():
         print(f"peers: no {python}; make it as {__file__} says in its first lines", file=sys.stderr)
         sys.exit(77)
-    w = 1e-3 * a.adhesion
-    attraction = w / a.range * 2.6**2  # of a site, eV/Å: what drive.tolerance is a fraction of
-    print("sites load/MPa program   area    energy/w  pressure-difference  residual  iterations  solve/s  process/s  MB")
+    print("sites load/MPa program            area    energy/w  pressure-difference  residual  iterations  solve/s  process/s  MB")
     for sites in a.sites:
         for load in a.loads:
-            with tempfile.TemporaryDirectory() as scratch:
-                place = pathlib.Path(scratch) / "asperity"
-                keys = {"drive.path": "relax", "block.thickness": sites, "interface.kind": "wall", "block.model": "lattice",
-                        "interface.adhesion": a.adhesion, "interface.range": a.range, "surface.sites": sites, "surface.rms": 1.5,
-                        "surface.q_max": sites / 8, "output.checkpoint": "none", "drive.load": load,
-                        "drive.tolerance": TOLERANCE / attraction}
-                scene = [a.program, "run", str(ROOT / "scenes/first-contact.toml"), "--progress", "off", "--set"]
-
-                def options(keys, place, scene=scene):
-                    return scene + [f"{k}={v}" for k, v in keys.items()] + ["--out", str(place)]
-
-                _, process, memory = measured(options(keys, place))
-                result = json.loads((place / "result.json").read_text())
-                _, gap, heights = maps(place)
-                measured(options(keys | {"drive.tolerance": 1e-7 / attraction}, f"{place}-tight"))
-                softer = stiffness(pathlib.Path(f"{place}-tight"), sites)
-                np.save(f"{scratch}/map.npy", heights)
-                np.save(f"{scratch}/softer.npy", softer)
-                case = {"map": f"{scratch}/map.npy", "softer": f"{scratch}/softer.npy", "edge": sites * 2.6, "modulus": E, "adhesion": w,
-                        "range": a.range, "gap": float(gap.mean()), "tolerance": TOLERANCE, "relative": 1e-6}
-                pathlib.Path(f"{scratch}/case.json").write_text(json.dumps(case))
-                mine = observables(case, gap, heights, softer)["energy"] / w
-                print(f"{sites:5} {load:8g} asperity  {result['contact_fraction']:.4f} {mine:9.5f} {0:20} "
-                      f"{result['zero_load']['residual_force']:9.1e} {result['run']['iterations']:11} "
-                      f"{result['run']['phases']['relax']['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
-                for name in ("tamaas", "adhesion", "lattice"):
-                    text, process, memory = measured([str(python), __file__, "--solve", name, f"{scratch}/case.json"])
-                    r = json.loads(text.splitlines()[-1])
-                    difference = (r["pressure"] - load * 1e-3 * GPA) / (w / a.range)
-                    print(f"{sites:5} {load:8g} {name:9} {r['area']:.4f} {r['energy'] / w:9.5f} {difference:20.5f} {r['residual']:9.1e} "
-                          f"{r['iterations']:11} {r['seconds']:8.2f} {process:10.2f} {memory:4.0f}")
+            compare(a, python, sites, load, "continuum", ("tamaas", "adhesion"))
+            compare(a, python, sites, load, "lattice", ("adhesion",))
 
 
 if __name__ == "__main__":

@@ -43,7 +43,7 @@ class Runs:
         """The series of a path at a held mean height over this wall. A result that is there is an error."""
         begun = time.monotonic()
         result = asperity.run({}, {
-            "interface.kind": "wall", "block.model": "lattice", "interface.adhesion": 1e3 * law.adhesion, "interface.range": law.reach,
+            "interface.kind": "wall", "interface.adhesion": 1e3 * law.adhesion, "interface.range": law.reach,
             "interface.stiffness": law.stiffness / GPA, "drive.mode": "quasistatic", "drive.control": "mean-height",
             "output.fields": [], "output.checkpoint": "none",
             "block.thickness": keys["surface.sites"], **keys}, self.out / name)
@@ -165,7 +165,7 @@ def sticky(runs: Runs) -> list[dict]:
 
 def slope_and_curvature(runs: Runs, surface: dict) -> tuple[float, float]:
     """Root mean squares of the gradient and of the Laplacian of a surface, 1 and 1/Å."""
-    r = asperity.run({}, {**surface, "drive.path": "relax", "interface.kind": "wall", "block.model": "lattice", "interface.adhesion": 0,
+    r = asperity.run({}, {**surface, "drive.path": "relax", "interface.kind": "wall", "interface.adhesion": 0,
                           "drive.load": 10, "block.thickness": surface["surface.sites"],
                           "output.checkpoint": "none"}, runs.out / "surface")
     with h5py.File(r.directory / "run.h5") as file:

@@ -39,7 +39,7 @@ class Runs:
 
     def run(self, name: str, sites: int, box: float, keys: dict) -> dict:
         """The series of a quasi-static path over a wall, its result, and its processor time. A result that is there is an error."""
-        settings = {"interface.kind": "wall", "block.model": "lattice", "interface.adhesion": 0, "drive.mode": "quasistatic",
+        settings = {"interface.kind": "wall", "interface.adhesion": 0, "drive.mode": "quasistatic",
                     "block.poisson": POISSON,
                     "block.young": f"{E * (1 - POISSON**2)} GPa", "surface.kind": "flat", "surface.boundary": "free",
                     "surface.sites": sites, "surface.spacing": f"{box / sites} nm", "output.fields": ["segments"],

@@ -68,7 +68,7 @@ SETS = {  # name: keys that differ from the scene, roughnesses in Å
 }
 SURFACES = {"rolloff-1": range(1, 13)}  # few long waves: the surfaces differ
 INTERFACES = {"friction": {}, "frictionless": {"interface.frictionless": "true"},
-              "wall": {"interface.kind": "wall", "block.model": "lattice", "interface.law": "smeared"}}
+              "wall": {"interface.kind": "wall", "interface.law": "smeared"}}
 
 
 def interfaces(name: str) -> list[str]:

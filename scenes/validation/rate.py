@@ -170,7 +170,7 @@ def steady(v: float, nodes: int = 700) -> float:
 
 def crack_keys(sites: int, thickness: int) -> dict:
     return {"surface.kind": "flat", "surface.sites": sites, "surface.spacing": "1 nm", "block.thickness": thickness, "block.young": f"{E} MPa",
-            "block.poisson": NU, "block.prony": [[RATIO, f"{TIME} ns"]], "interface.kind": "wall", "block.model": "lattice",
+            "block.poisson": NU, "block.prony": [[RATIO, f"{TIME} ns"]], "interface.kind": "wall",
             "interface.adhesion": f"{WORK} mJ/m^2",
             "interface.range": f"{RANGE} nm", "interface.stiffness": HARD / 1e4, "interface.edge_pinning": "allow", "drive.mode": "quasistatic",
             "drive.control": "top", "drive.velocity": "1 m/s", "drive.path": ["approach", "pull-off"]}

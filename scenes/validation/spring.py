@@ -209,6 +209,7 @@ def of_program(out: pathlib.Path, reach: float, sites: int, k: float, wide: floa
     D0, F0, box = a0 * a0 / R, math.pi * work * R, 2 * wide * math.cbrt(6) * a0
     held = {} if math.isinf(k) else {"drive.stiffness": f"{k * F0 / D0} N/m"}
     result = asperity.run({}, {
+        # The cycles that docs/reports/validation.md states are the lattice's.
         "interface.kind": "wall", "block.model": "lattice", "interface.adhesion": f"{work} J/m^2", "interface.range": f"{reach * D0} nm",
         "block.poisson": 0.3,
         "block.young": f"{E * 0.91} GPa", "drive.mode": "quasistatic", "drive.displacement_step": f"{0.05 * D0} nm",

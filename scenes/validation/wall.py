@@ -46,10 +46,10 @@ class Runs:
 
     def state(self, name: str, keys: dict) -> asperity.Result:
         """The relaxed state of a scene over a wall. A result that is there is an error: it may be of another map."""
-        settings = {"numerics.precision": "double", "drive.path": "relax", "interface.kind": "wall", "block.model": "lattice",
+        settings = {"numerics.precision": "double", "drive.path": "relax", "interface.kind": "wall",
                     "output.checkpoint": "none", "drive.tolerance": 2.5e-6, **keys}
         settings.setdefault("block.thickness", settings["surface.sites"])
-        return asperity.run(ROOT / "scenes/paper/flat-3A.toml", settings, self.out / name)
+        return asperity.run({}, settings, self.out / name)
 
     def path(self, name: str, keys: dict) -> dict:
         """Force (eV/Å), mean height (Å), contact fraction along a path at a held mean height, and its result."""
@@ -156,7 +156,7 @@ def hertz(runs: Runs) -> None:
             with h5py.File(runs.out / f"hertz-{sites}-{force}" / "run.h5") as f:
                 highest = f["fields/relaxed/pressure"][:].max() * GPA / E * modulus
                 apex = f["substrate/height"][:].max()
-            found = box * math.sqrt(r["contact_fraction"] / math.pi)
+            found = box * math.sqrt(r["contact_area"] / math.pi)
             sunk = (apex - r["relaxed"]["mean_height"]) / unit - PHI0 * force / (math.pi * modulus * box)
             print(f"{sites:5} {force:5} {found:8.4f} {a:7.4f} {found / a - 1:9.4f} {sunk:9.4f} {delta:8.4f} {sunk / delta - 1:9.4f} "
                   f"{highest:9.4f} {p0:7.4f} {highest / p0 - 1:9.4f}")
@@ -208,8 +208,8 @@ def jkr(runs: Runs) -> None:
 
 
 def area(runs: Runs) -> None:
-    """κ of A/A0 = κ p/(E* h'), the same surfaces (H = 0.8, waves of 32 lengths down to box/16) at 128, 256 and 512 sites."""
-    print("p/(E*h')  A/A0 at 128, 256, 512 sites  extrapolated  κ       Persson, erf  (means of three surfaces)")
+    """κ of A/A0 = κ p/(E* h'), the same surfaces (H = 0.8, waves of 32 lengths down to box/16) at 64, 128 and 256 sites."""
+    print("p/(E*h')  A/A0 at 64, 128, 256 sites  extrapolated  κ       Persson, erf  (means of three surfaces)")
     box, modes = 332.8, 16
     surfaces = []
     for seed in (1, 2, 3):
@@ -221,18 +221,18 @@ def area(runs: Runs) -> None:
     slope = 0.1
     for reduced in (0.01, 0.02, 0.05, 0.1, 0.2, 0.4):
         means = []
-        for sites in (128, 256, 512):
+        for sites in (64, 128, 256):
             found = []
             for seed, spectrum in enumerate(surfaces, 1):
                 whole = np.zeros((sites, sites // 2 + 1), complex)
-                whole[:64, :64], whole[-63:, :64] = spectrum[:64, :64], spectrum[-63:, :64]
+                whole[:32, :32], whole[-31:, :32] = spectrum[:32, :32], spectrum[-31:, :32]
                 gradient = (2j * math.pi / box * np.fft.fftfreq(sites, 1 / sites)[:, None],
                             2j * math.pi / box * np.fft.rfftfreq(sites, 1 / sites)[None, :])
                 slopes = [np.fft.irfft2(g * whole, s=(sites, sites)) for g in gradient]
                 heights = np.fft.irfft2(whole, s=(sites, sites)) * slope / math.sqrt(sum(np.mean(g**2) for g in slopes))
                 r = runs.state(f"area-{reduced}-{sites}-{seed}", runs.map(f"area-{sites}-{seed}", heights) | {
                     "surface.spacing": box / sites, "interface.adhesion": 0, "drive.load": reduced * slope * E / GPA * 1e3})
-                found.append(r["contact_fraction"])
+                found.append(r["contact_area"])
             means.append(np.mean(found))
         a, b, c = means
         limit = 2 * c - b
