@@ -221,13 +221,15 @@ def test_a_map_of_curves(tmp_path, formats, monkeypatch):
     page = Path("results/map-curve/report.html").read_text()
     assert "histogram-work" in page and "map-modulus" in page
     assert "Errors are one standard error" in page and "cantilever 2 N/m" in page and "Not taken" in page
-frames = types.ModuleType("pandas")
-    frames.DataFrame = type("DataFrame", (dict,), {"attrs": property(lambda self: self.__dict__.setdefault("units_of", {}))})
-    monkeypatch.setitem(sys.modules, "pandas", frames)
-    frame, points = found.frame(), found.curves[0].frame()
+
+    class Frame(dict):
+        attrs: dict = {}
+
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=Frame))
+    frame = found.frame()
     assert frame.attrs["units"]["work.error"] == "mJ/m²" and list(frame["x"]) == [0.0, 1.0, 2.0]
     assert list(frame["work"]) == list(found.values("work")) and {len(column) for column in frame.values()} == {3}
-    fit = found.curves[0].fits["retraction"].stated
+    fit, points = found.curves[0].fits["retraction"].stated, found.curves[0].frame()
     back = points["retraction"]
     assert list(points["force"][back]) == list(fit.force) and np.allclose(points["residual"][back], fit.force - fit.fitted, equal_nan=True)
 
