@@ -28,11 +28,11 @@ from .studies.stated_number import Number
 from .studies.stress import Stress
 from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
-from .studies.tip import Tip
+from .studies.tip import Tip, load_tip
 from .terminal import html_table
 
 __all__ = ["Adhesion", "Curves", "Estimate", "Prony", "Result", "Stress", "Sweep", "Tip", "adhesion", "curve", "estimate", "load",
-           "load_curve", "load_estimate", "load_sweep", "prony", "run", "stress", "sweep", "tip"]
+           "load_curve", "load_estimate", "load_sweep", "load_tip", "prony", "run", "stress", "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:

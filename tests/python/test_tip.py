@@ -132,6 +132,15 @@ def test_the_command_says_the_same(smooth):
         assert answer["numbers"][n.path]["value"] == n.estimate and answer["numbers"][n.path]["error"] == n.error
     assert answer["fit"]["modulus"] == pytest.approx(found.fit.modulus)
     # An alias is the same argument, and nothing runs again.
+    loaded = asperity.load_tip(place / "smooth")
+    for n in found.numbers:
+        assert loaded.number(n.path).cells == n.cells and str(loaded.number(n.path)) == str(n)
+    assert np.allclose(loaded.force, found.force) and (loaded.retracting == found.retracting).all() and loaded.notes == found.notes
+    assert loaded.fit.work == found.fit.work and loaded.contact == found.contact and loaded.result.edge == found.result.edge
+    with pytest.raises(asperity.InputOutputError, match="holds no contact of a tip"):
+        asperity.load_tip(place)
+    for shape in (TipShape("cone", 5.0, 0.5), TipShape("measured", 7.0, half=20.0)):
+        assert TipShape.loaded(json.loads(json.dumps(shape.saved()))) == shape
     again = asperity.tip(radius="20 nm", E="3 GPa", nu=0.3, w="50 mJ/m2", stiffness="2 N/m", sites=SITES, range="0.3 nm", out=place / "smooth")
     assert again.number("lost").value == found.number("lost").value
 

@@ -16,14 +16,13 @@ from ..files import store
 from ..plots.run import map_of
 from ..plots.tip import force_curve
 from ..studies.stated_number import Number, finite, rounded, saved
-from ..studies.tip import RUN_OF, Tip
+from ..studies.tip import CURVE, RESULT, RUN_OF, Tip
 from .estimate import lines_of
 from .page import Page, page_files
 from .run import end
 
-RESULT = "tip.json"
 FIGURES = ("force-drive", "force-tip", "pressure", "gap")
-FILES = [RESULT, "curve.csv", *page_files(FIGURES)]
+FILES = [RESULT, CURVE, *page_files(FIGURES)]
 DEFINED = ("Forces press if they are positive. λ is Maugis' parameter with the largest stress w/range of the attraction, Tabor's number is "
            "(R w²/E*²)^(1/3) over the range: above λ = 5 JKR holds, below 0.1 DMT, between Maugis. E* = E/(1-ν²).")
 STATE = "relaxed"
@@ -103,7 +102,7 @@ def answer_of(found: Tip) -> dict[str, Any]:
     """
     contact = {"radius": found.contact.radius, "modulus": found.contact.modulus, "work": found.contact.work, "range": found.contact.range,
                "stiffness": found.contact.stiffness, "maugis": found.contact.parameter, "tabor": found.contact.tabor,
-               "model": found.contact.model, "shape": found.contact.words,
+               "model": found.contact.model, "tip": found.contact.words, "shape": found.contact.shape and found.contact.shape.saved(),
                "smooth_pull_off_force": found.contact.pull_off() if found.contact.shape is None else found.contact.pull_off_by_jkr()}
     fit: dict[str, Any] = {key: finite(value) for key, value in found.fit._asdict().items() if key != "failed"}
     if found.fit.failed:
@@ -134,9 +133,9 @@ def write(found: Tip) -> Path:
         The page.
     """
     rows = store.rows_of(found.columns(), found.units)
-    with store.outputs(found.directory, [RESULT, "curve.csv"]) as out:
+    with store.outputs(found.directory, [RESULT, CURVE]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))
-        out.write("curve.csv", store.csv_text(rows))
+        out.write(CURVE, store.csv_text(rows))
     lead = _set(str(found.numbers[0]))
     page = Page(found.directory, "asperity tip", f"A {found.contact.words} on {found.contact.stiffness:g} N/m", lead)
     page.section("curve", "Force curve")

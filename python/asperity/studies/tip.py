@@ -22,12 +22,12 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.ndimage import uniform_filter
 from scipy.optimize import least_squares
 
-from ..arguments import checks_calls
-from ..errors import Error, SceneError
+from ..arguments import checks_call, checks_calls
+from ..errors import Error, InputOutputError, SceneError
 from ..files import store
 from ..maps import height_map
 from ..results.frames import data_frame
-from ..results.result import Result, Values
+from ..results.result import Result, Values, read_json
 from ..running import program
 from ..running.scene import scene_file, toml_of
 from ..theories.sphere import RATIOS, jkr, maugis
@@ -35,12 +35,14 @@ from ..theories.tip_shape import STEEPEST, TipShape, measured_tip
 from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
 from .forecast import START, Forecast, Size, seconds_of
 from .map_scene import SITE_BYTES, edge_of, length, named, read_square, with_unit
-from .stated_number import NAN, Found, Number, WithNumbers
+from .stated_number import NAN, Found, Number, WithNumbers, numbers_of
 
 FEWEST, MOST = 64, 256
 """Sites along an edge of the box unless others are asked for."""
 LEAST = 24
 """Of which a coarser box can be made."""
+RESULT, CURVE = "tip.json", "curve.csv"
+"""Files of the numbers and of the force curve."""
 RANGE = "3 Å"
 ROOM = 1.3
 """Least width of the box over the diameter of the contact."""
@@ -743,3 +745,36 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
         notes.append(f"the contact comes within {edge:.2g} nm of the edge of the box: press less")
     return Tip(numbers, drive, tip, force, out, plan.contact, _fit_of(plan, numbers[0], tip[out], force[out]), results[""],
                notes, place)
+
+
+@checks_call
+def load_tip(directory: str | os.PathLike) -> Tip:
+    """Loads the contact of a tip in a directory. The map of a measured tip is not loaded.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Directory with tip.json.
+
+    Returns
+    -------
+    Tip
+        The numbers with their errors, the curve and the fit.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no contact of a tip, or it cannot be read.
+    """
+    place = Path(directory)
+    if not (place / RESULT).exists():
+        raise InputOutputError(str(directory), "holds no contact of a tip", f"{RESULT} is not in it" if place.is_dir() else
+                               "there is no such directory", "name a directory that asperity tip has written")
+    found = read_json(place / RESULT)
+    contact, fit = Values(found.part("contact")), found.part("fit")
+    shape = contact.find("shape")
+    drive, tip, force, retracting = np.loadtxt(place / CURVE, delimiter=",", skiprows=1, unpack=True)
+    described = [contact.needed(name) for name in ("radius", "modulus", "work", "range", "stiffness")]
+    return Tip(numbers_of(found.part("numbers")), drive, tip, force, retracting == 1, Contact(*described, shape and TipShape.loaded(shape)),
+               Fit(**{name: NAN if value is None else value for name, value in fit.items()}), Result(place / "tip"),
+               found.listed("notes", str), place)

@@ -15,10 +15,14 @@ Lengths in nm, forces in nN, moduli in GPa, works in N/m.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
+
+from ..errors import SceneError
 
 SHAPES = ("sphere", "cone", "pyramid")
 """Tips that are described by a radius and, but for the sphere, the angle between the axis and a flank."""
@@ -48,10 +52,23 @@ class TipShape:
             return f"{self.shape} of {math.degrees(math.atan(1 / self.slope)):.4g}° with an end of {self.radius:.4g} nm"
         return f"measured tip with an end of {self.radius:.4g} nm"
 
+    def saved(self) -> dict[str, float | str | None]:
+        """Returns the shape as JSON has it, without a map; loaded() reads it."""
+        return {"shape": self.shape, "radius": self.radius, **{name: value if math.isfinite(value) else None
+                                                              for name, value in (("slope", self.slope), ("half", self.half))}}
+
+    @classmethod
+    def loaded(cls, saved: Mapping[str, Any]) -> TipShape:
+        """Returns the shape that saved() wrote; a measured tip has no map."""
+        slope, half = (math.inf if saved[name] is None else saved[name] for name in ("slope", "half"))
+        return cls(saved["shape"], saved["radius"], slope, half=half)
+
     def rise(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """Returns the rise of the tip over its apex at places beside the axis."""
         if self.measured is not None:
             return -self.measured.ev(y, x)
+        if self.shape == "measured":
+            raise SceneError("the tip", "is measured, and its map is not loaded", "", "call tip() again, which runs nothing twice")
         R, s = self.radius, self.slope
         u, v = np.maximum(np.abs(x), np.abs(y)), np.minimum(np.abs(x), np.abs(y))
         with np.errstate(invalid="ignore", divide="ignore"):
