@@ -36,8 +36,10 @@ if TYPE_CHECKING:
         curve as curve,
         estimate as estimate,
         load as load,
+        load_curve as load_curve,
         load_estimate as load_estimate,
         load_sweep as load_sweep,
+        load_tip as load_tip,
         prony as prony,
         run as run,
         stress as stress,
@@ -58,8 +60,8 @@ if TYPE_CHECKING:
     from .studies.states import states as states
 
 _LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".forms", "estimate": ".forms", "load_estimate": ".forms",
-         "adhesion": ".forms", "curve": ".forms", "Curves": ".forms", "tip": ".forms", "stress": ".forms", "Tip": ".forms", "Stress": ".forms",
-         "Result": ".forms", "Sweep": ".forms",
+         "adhesion": ".forms", "curve": ".forms", "load_curve": ".forms", "Curves": ".forms", "tip": ".forms", "load_tip": ".forms",
+         "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
          "Estimate": ".forms", "Adhesion": ".forms",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
          "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".functions",

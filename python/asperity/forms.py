@@ -21,18 +21,18 @@ from .results.frames import Frames
 from .results.result import Group, Result, Values, load
 from .running.runs import run
 from .studies.cost import Cost
-from .studies.curves import Curves
+from .studies.curves import Curves, load_curve
 from .studies.estimates import Estimate, estimate, load_estimate
 from .studies.prony import Prony, prony
 from .studies.stated_number import Number
 from .studies.stress import Stress
 from .studies.sweeps import Sweep, load_sweep, sweep
 from .studies.tables import Columns, text_of
-from .studies.tip import Tip
+from .studies.tip import Tip, load_tip
 from .terminal import html_table
 
 __all__ = ["Adhesion", "Curves", "Estimate", "Prony", "Result", "Stress", "Sweep", "Tip", "adhesion", "curve", "estimate", "load",
-           "load_estimate", "load_sweep", "prony", "run", "stress", "sweep", "tip"]
+           "load_curve", "load_estimate", "load_sweep", "load_tip", "prony", "run", "stress", "sweep", "tip"]
 
 
 def _place(out: str | os.PathLike | None) -> Path | None:

@@ -15,7 +15,7 @@ import pytest
 import asperity
 from asperity.maps.force_curves import read_force_curves
 from asperity.studies.curve_fit import Unfit, compared, correlated, regions
-from asperity.studies.curves import curves_of, question_of
+from asperity.studies.curves import curves_of, missed, question_of
 from asperity.theories.indentation import Indenter, maugis_parameter, path, range_of
 from conftest import command
 from following import followed, not_followed
@@ -220,6 +220,48 @@ def test_a_map_of_curves(tmp_path, formats, monkeypatch):
     assert len(table) == 4 and "work, mJ/m²" in table[0]
     page = Path("results/map-curve/report.html").read_text()
     assert "histogram-work" in page and "map-modulus" in page
+    assert "Errors are one standard error" in page and "cantilever 2 N/m" in page and "Not taken" in page
+
+    class Frame(dict):
+        attrs: dict = {}
+
+    monkeypatch.setitem(sys.modules, "pandas", types.SimpleNamespace(DataFrame=Frame))
+    frame = found.frame()
+    assert frame.attrs["units"]["work.error"] == "mJ/m²" and list(frame["x"]) == [0.0, 1.0, 2.0]
+    assert list(frame["work"]) == list(found.values("work")) and {len(column) for column in frame.values()} == {3}
+    fit, points = found.curves[0].fits["retraction"].stated, found.curves[0].frame()
+    back = points["retraction"]
+    assert list(points["force"][back]) == list(fit.force) and np.allclose(points["residual"][back], fit.force - fit.fitted, equal_nan=True)
+
+
+def one_fit(told):
+    return told["curves"][0]["fits"]["retraction"]["models"]["jkr"]
+
+
+def test_the_fitted_tip_is_simulated(tmp_path, monkeypatch):
+    """The curve that `tip` computes, fitted for its range, gives numbers whose simulation is that curve again."""
+    monkeypatch.chdir(tmp_path)
+    given = {"radius": "20 nm", "stiffness": "2 N/m", "range": "0.3 nm"}
+    made = asperity.tip(**given, E="3 GPa", nu=0.3, w="50 mJ/m2", sites=28, out="made", load="8 nN", jobs=2)
+    draw = np.random.default_rng(0)
+    file = Path("tip.csv")
+    far = made.drive < 8
+    file.write_text(text_of(made.drive[far], made.force[far] + 0.005 * draw.normal(size=far.sum()), made.retracting[far]))
+    found = asperity.curve(file, **given, nu=0.3, simulate=True, sites=28, jobs=2)
+    for name, truth in (("work", 50), ("modulus", 3 / 0.91)):
+        number = found.number(name)
+        assert abs(number.estimate - truth) < 2 * number.error + 0.05 * truth, str(number)
+    simulated, measured = found.simulated.number("pull_off_force"), found.number("pull_off_force")
+    assert simulated.estimate == pytest.approx(measured.estimate, rel=0.1) and found.simulated.contact.stiffness == 2
+    own, model = missed(found.curves[0], found.simulated)
+    assert own < 0.3 and model < 0.3
+    page = Path("results/tip-curve/report.html").read_text()
+    assert "The fitted tip, simulated" in page and "In contact it misses the curve by" in page
+    assert Path("results/tip-curve/simulated/tip.json").exists() and Path("results/tip-curve/report/simulated.png").exists()
+    for shape, more, words in (("cone", {"angle": 60.0, "model": "jkr", "radius": None}, "has no round end"),
+                               ("paraboloid", {"model": "hertz"}, "needs a work")):
+        with pytest.raises(asperity.SceneError, match=words):
+            asperity.curve(file, **{**given, "range": None, "shape": shape, **more}, simulate=True, out=shape)
 
 
 def test_the_command(tmp_path, monkeypatch):
@@ -233,6 +275,17 @@ def test_the_command(tmp_path, monkeypatch):
     one = told["curves"][0]["fits"]["retraction"]["models"]["jkr"]
     assert np.array(one["covariance"]).shape == (2, 2) and one["points"] > 500
     assert {file.name for file in Path("results/force-curve").iterdir()} >= {"report.html", "curve.json", "curves.csv", "fit.csv"}
+    again = asperity.load_curve("results/force-curve")
+    for name, number in numbers.items():
+        one = again.number(name)
+        assert (one.estimate, one.error, one.unit) == (number["value"], number["error"], number["unit"]) and one.name == number["meaning"]
+    back = again.curves[0].fits["retraction"]
+    assert back.stated.values == one_fit(told)["values"] and 1e3 * back.work == pytest.approx(numbers["work"]["value"])
+    assert len(back.stated.height) > 500 and again.question.indenter == TIP and again.curves[0].main is back
+    assert len(again.columns()["work"]) == 1
+    with pytest.raises(asperity.InputOutputError, match="holds no fitted curves") as error:
+        asperity.load_curve("nowhere")
+    followed(str(error.value))
     said = command("curve", "force.csv", "--radius", "20nm", "--stiffness", "2N/m", "-o", "again")
     assert "The data allow JKR, DMT, Maugis and Dugdale" in said and "errors of radius and stiffness" in said
 

@@ -49,6 +49,8 @@ def test_commands(work, line, request):
         words += SHORT + " --progress off"
     elif " adhesion " in words:
         words = words.replace("--sites 128", "--sites 16") + " --progress off"
+    elif " tip " in words:
+        words += " --sites 28 --progress off"
     elif " estimate " in words:
         words += " --parts tail --progress off --set surface.sites=16 block.thickness=4 drive.path=relax"
     elif " cost " in words:

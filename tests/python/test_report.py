@@ -14,6 +14,7 @@ import pytest
 
 import asperity
 from asperity.reports import sentences
+from asperity.reports.page import Page
 from asperity.reports.sweep import key_numbers, write_page
 from asperity.theories import combined
 from conftest import ROOT, SMALL, STATE, command, unsealed
@@ -418,3 +419,14 @@ def test_numbers_over_a_wall_have_the_error_of_the_mesh_or_lack_it(tmp_path, mod
         assert re.search(says, notes[name]), notes
     atoms = asperity.run(rough, {"surface.sites": 16, "surface.q_max": 4, "drive.path": "relax"}, out=tmp_path / "atoms")
     assert not any("mesh" in one.note for one in sentences.key_numbers(atoms))
+
+
+def test_no_part_of_a_page_is_left_out(tmp_path):
+    """A form that the template does not have is an error, not an empty place."""
+    page = Page(tmp_path, "kicker", "title", "lead")
+    page.add("paragraph", "a sentence")
+    page.write()
+    assert "a sentence" in page.path.read_text()
+    page.add("text", "another one")
+    with pytest.raises(asperity.InternalError, match="no form of the name text"):
+        page.write()

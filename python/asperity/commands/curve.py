@@ -10,12 +10,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..arguments import checks_call
+from ..errors import SceneError
 from ..files import store
 from ..terminal import Voice
-from .options import Command, Options as Base, jobs, option, out, word
+from .options import SITES, Command, Options as Base, jobs, option, out, word
+from .tip import tip
 
 if TYPE_CHECKING:
     from ..studies.curves import Curves
+    from ..studies.tip import Tip
 
 SHAPES = ("paraboloid", "sphere", "cone", "pyramid", "punch")
 MODELS = ("auto", "hertz", "jkr", "dmt", "maugis")
@@ -35,6 +38,8 @@ class Options(Base):
     stiffness: str | None = option("0.2N/m", "of the cantilever; holds over what the file says", None)
     sensitivity: str | None = option("60nm/V", "of its deflection; holds over what the file says", None)
     interference: str | None = option("300nm", "period of a wave in the baseline, near which it is looked for", None)
+    simulate: bool = option("", "lay the contact of the fitted tip, as asperity tip computes it, over the first curve", False)
+    sites: int | None = option("N", "of --simulate: along an edge of the box (default: 64 to 256, as needed)", None, limits=SITES)
     out: str | None = out("results/<file>-curve")
     jobs: int = jobs("curves that are fitted at the same time (default: 1)")
 
@@ -42,7 +47,8 @@ class Options(Base):
 @checks_call
 def curve(file: str | os.PathLike, radius: str | None = None, shape: str = "paraboloid", angle: float | None = None, model: str = "auto",
           range: str | None = None, poisson: float | None = None, stiffness: str | None = None, sensitivity: str | None = None,
-          interference: str | None = None, out: str | os.PathLike | None = None, jobs: int = 1, *, nu: float | None = None) -> Curves:
+          interference: str | None = None, out: str | os.PathLike | None = None, jobs: int = 1, simulate: bool = False,
+          sites: int | None = None, *, nu: float | None = None) -> Curves:
     """Fits contact models to measured force curves, and writes a page.
 
         found = asperity.curve("scan.jpk-force", radius="20 nm", poisson=0.3)
@@ -71,7 +77,11 @@ def curve(file: str | os.PathLike, radius: str | None = None, shape: str = "para
     out : str or os.PathLike, optional
         Directory; None: results/<file>-curve.
     jobs : int
-        Number of curves that are fitted at the same time.
+        Number of curves that are fitted, or of runs, at the same time.
+    simulate : bool
+        True: computes the contact of the fitted tip as `tip` does, which takes minutes; found.simulated, and the page, have it.
+    sites : int, optional
+        Number of sites along an edge of the box of simulate; None: 64 to 256, depending on the contact.
     nu : optional
         Other name of poisson.
 
@@ -86,6 +96,8 @@ def curve(file: str | os.PathLike, radius: str | None = None, shape: str = "para
         An argument is refused, or files would be replaced.
     InputOutputError
         The file cannot be read, or none of its curves can be fitted.
+    Stopped
+        The runs of simulate stopped early; the same call continues.
     """
     return _carried_out(Options.of_call(locals()))
 
@@ -100,9 +112,27 @@ def _carried_out(given: Options) -> Curves:
     store.require_free({place: report_curve.FILES}, inputs=[given.file])
     found = curves_of(given.file, question_of(asdict(given)), given.stiffness, given.sensitivity, given.jobs)
     found.directory = place
+    if given.simulate:
+        found.simulated = _simulated(found, given, place / "simulated")
     with lock.in_use(place):
         report_curve.write(found)
     return found
+
+
+def _simulated(found: Curves, given: Options, place: Path) -> Tip:
+    """Runs the contact of the tip that was fitted to the first curve. Raises SceneError if it cannot be simulated."""
+    main = found.curves[0].main
+    if given.shape not in ("paraboloid", "sphere"):
+        raise SceneError("simulate", f"has no round end of this {given.shape}", "its edge would be simulated, not the tip", "leave it out")
+    if main is None or not main.work:
+        raise SceneError("simulate", "needs a work of adhesion", "the curve shows no attraction, or the model has none", "leave it out")
+    poisson = 0.3 if given.poisson is None else given.poisson  # of E* alone the contact depends
+    try:
+        return tip(radius=given.radius, young=f"{main.modulus * (1 - poisson**2):.6g} GPa", poisson=poisson, adhesion=f"{1e3 * main.work:.6g} mJ/m2",
+                   stiffness=f"{found.curves[0].measured.stiffness:.6g} N/m", load=f"{float(main.stated.force.max()):.4g} nN", range=given.range,
+                   sites=given.sites, out=place, jobs=given.jobs)
+    except SceneError as error:
+        raise SceneError.of([{**one, "where": "simulate", "fix": "leave it out"} for one in error.listed]) from None
 
 
 def _carry_out(given: Options, voice: Voice) -> int:
@@ -114,7 +144,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     voice.tell({**report_curve.answer_of(found), "directory": found.directory})
     for note in [*found.notes, *(f"not taken: {why}" for why in found.refused)]:
         voice.say(f"note: {note}")
-    voice.say(f"\nwritten: {found.directory}: report.html, curve.json, curves.csv, fit.csv")
+    voice.say(f"\nwritten: {found.directory}: report.html, curve.json, curves.csv, fit.csv" + "; the runs in simulated" * given.simulate)
     return 0
 
 

@@ -35,7 +35,11 @@ class Options(Base):
     """Options of `asperity tip`."""
 
     map: str | None = word("MAP", "heights of the sample, any map that convert reads (default: smooth)", None)
-    radius: str = option("20nm", "of the tip")
+    shape: str = option("SHAPE", "of the tip: sphere, or cone or pyramid with a round end (default: sphere)", "sphere",
+                        choices=("sphere", "cone", "pyramid"))
+    radius: str | None = option("20nm", "of the tip, or of the end of a cone or pyramid", None)
+    angle: float | None = option("65", "of a cone or pyramid: degrees between its axis and its surface", None)
+    tip_map: str | None = option("FILE", "heights of a measured tip, whose apex is put over the middle of the sample", None)
     young: str = option("3GPa", "Young's modulus of the sample")
     poisson: float = option("0.3", "its Poisson's ratio")
     adhesion: str = option("50mJ/m2", "work of adhesion of flat surfaces")
@@ -46,6 +50,7 @@ class Options(Base):
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
     channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
     sites: int | None = option("N", "along an edge of the box (default: 64 to 256, as needed)", None, limits=SITES)
+    error: str | None = option("10%", "of the pull-off force, over its size: take as many sites as reach it", None)
     plan: bool = plan()
     out: str | None = out("results/<map>-tip")
     jobs: int = jobs()
@@ -60,9 +65,10 @@ class Options(Base):
 def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: str | None = None, poisson: float | None = None,
         adhesion: str | None = None, stiffness: str | None = None, load: str | None = None, out: str | os.PathLike | None = None,
         range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
-        sites: int | None = None, jobs: int = 1, *, E: str | None = None, nu: float | None = None, work: str | None = None,
+        sites: int | None = None, jobs: int = 1, shape: str = "sphere", angle: float | None = None,
+        tip_map: str | os.PathLike | None = None, error: str | None = None, *, E: str | None = None, nu: float | None = None, work: str | None = None,
         w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
-    """Computes the force curve of a spherical tip on an elastic sample, with its numbers and their errors.
+    """Computes the force curve of a tip on an elastic sample, with its numbers and their errors.
 
         found = asperity.tip("scan.gwy", radius="20 nm", E="3 GPa", nu=0.3, work="50 mJ/m2", stiffness="0.2 N/m")
         found.number("pull_off_force"), found.drive, found.force
@@ -71,8 +77,8 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
     ----------
     map : str or os.PathLike, optional
         File of the sample's heights: HDF5, .npy, or any that `convert` reads; None: a smooth sample.
-    radius : str
-        Radius of the tip with its unit.
+    radius : str, optional
+        Radius of the tip, or of the end of a cone or pyramid, with its unit; None: of a measured tip.
     young : str
         Young's modulus of the sample with its unit.
     poisson : float
@@ -95,6 +101,14 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
         Number of sites along an edge of the box; None: 64 to 256, depending on the contact.
     jobs : int
         Number of simultaneous runs, which share the processors.
+    shape : str
+        "sphere"; "cone" or "pyramid" (of four sides), whose end is rounded by a ball that touches the flanks.
+    angle : float, optional
+        Angle between axis and surface of a cone or pyramid, degrees.
+    tip_map : str or os.PathLike, optional
+        File of the heights of a measured tip, with its size and unit, in place of radius, shape and angle.
+    error : str, optional
+        Error of the pull-off force over its size, "10%", that decides the number of sites; None: the contact decides.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
 
@@ -130,7 +144,8 @@ def _planned(given: Options) -> tuple[Plan, Path]:
 
     place = given.place
     require_free_runs(place, RUNS)
-    store.require_free({place: [*files_of(given.map is not None), *report_tip.FILES]}, inputs=[given.map] if given.map else [])
+    store.require_free({place: [*files_of(given.map is not None or given.tip_map is not None or given.shape != "sphere"), *report_tip.FILES]},
+                       inputs=[one for one in (given.map, given.tip_map) if one])
     return plan_of(given.map, place, asdict(given)), place
 
 
@@ -203,5 +218,5 @@ def _carry_out(given: Options, voice: Voice) -> int:
 
 
 COMMAND = Command(Options, _carry_out, more=(
-    "A rigid sphere on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without periodic "
+    "A rigid tip on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without periodic "
     "images: force curve, pull-off and jump-in with their errors, JKR's fit. The same command goes on where it stopped."))

@@ -516,6 +516,15 @@ def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
     return stream.getvalue()
 
 
+def rows_of(columns: Mapping[str, Iterable[Any]], units: Mapping[str, str]) -> list[list[str | float]]:
+    """Returns columns as the lines of csv_text(), below their names and units: "work, mJ/m²"; of "work.error" "work, mJ/m²: error"."""
+    heads: list[str | float] = []
+    for name in columns:
+        path, dot, _ = name.partition(".error")
+        heads.append(", ".join(filter(None, (path, units[name]))) + ": error" * bool(dot))
+    return [heads, *([one if isinstance(one, str) else float(one) for one in row] for row in zip(*columns.values()))]
+
+
 def chosen(out: str | None, otherwise: str) -> Path:
     """Returns the directory of a command.
 

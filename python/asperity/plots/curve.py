@@ -27,6 +27,16 @@ def with_fit(found: FittedCurve, ax: Axes) -> bool:
     return finish(ax, "height of the drive over the point of contact (nm)", "force on the sample (nN)")
 
 
+def with_simulation(found: Curves, ax: Axes) -> bool:
+    """Draws the first curve with its fits, and the simulated contact of the fitted tip."""
+    one, simulated = found.curves[0], found.simulated
+    with_fit(one, ax)
+    if simulated is not None:
+        for words, part, colour in (("approach", ~simulated.retracting, "c"), ("retraction", simulated.retracting, "m")):
+            curve(ax, simulated.drive[part], simulated.force[part], f"simulated, {words}", colour=colour, marker="")
+    return finish(ax, "height of the drive over the point of contact (nm)", "force on the sample (nN)")
+
+
 def residuals(found: FittedCurve, ax: Axes) -> bool:
     """Draws the residuals of the stated fits over their noise."""
     for way, one in found.fits.items():

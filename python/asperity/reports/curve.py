@@ -9,19 +9,16 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from .. import terminal
 from ..files import store
-from ..plots.curve import histogram, over_places, residuals, with_fit
-from ..studies.curves import Curves, FittedCurve
-from ..studies.stated_number import Number, rounded
+from ..plots.curve import histogram, over_places, residuals, with_fit, with_simulation
+from ..studies.curves import FIT, POINTS, RESULT, Curves, FittedCurve, missed, points_of
+from ..studies.stated_number import Number, finite, rounded, saved
 from .estimate import lines_of
 from .page import Page, page_files
 
-RESULT = "curve.json"
-TABLE, FIT = "curves.csv", "fit.csv"
-FIGURES = ("fit", "residuals", "histogram-work", "histogram-modulus", "map-work", "map-modulus", "map-pull_off_force")
+TABLE = "curves.csv"
+FIGURES = ("fit", "residuals", "simulated", "histogram-work", "histogram-modulus", "map-work", "map-modulus", "map-pull_off_force")
 FILES = [RESULT, TABLE, FIT, *page_files(FIGURES, ("png",))]
 NAMES = {"hertz": "Hertz", "jkr": "JKR", "dmt": "DMT", "maugis": "Maugis and Dugdale"}
 
@@ -71,61 +68,53 @@ def _apart(found: FittedCurve) -> str:
     return text
 
 
+def _simulated(found: Curves) -> str:
+    """Returns how the simulated tip compares with the first curve; "": it was not simulated."""
+    if found.simulated is None:
+        return ""
+    one, pulled = found.curves[0], found.simulated.number("pull_off_force")
+    measured = next((n for n in one.numbers if n.path == "pull_off_force"), None)
+    own, model = missed(one, found.simulated)
+    return (f"Simulated with these numbers, for a range of {found.simulated.contact.range:.3g} nm: {pulled}"
+            + (f"; measured {' ± '.join(rounded(measured.estimate, measured.error))} nN" if measured else "")
+            + f". In contact it misses the curve by {own:.2g} nN rms, the stated model by {model:.2g} nN.")
+
+
 def text_of(found: Curves) -> str:
     """Returns what the terminal shows: numbers, lines to quote, and the models of the first curve."""
     rows = [_cells(n)[:4] for n in found.numbers]
     one = found.curves[0]
     first = f"{one.name}:" if len(found.curves) > 1 else ""
+    table = terminal.table(HEADS, models(one, short=True), left=(0, 1))
     return "\n".join([terminal.table(["number", "value", "error", "unit"], rows), "", *lines_of(found.numbers), "", *([first] if first else []),
-                      terminal.table(HEADS, models(one, short=True), left=(0, 1)), "", _apart(one)])
+                      table, "", _apart(one), *(("", _simulated(found)) if found.simulated else ())])
 
 
 def answer_of(found: Curves) -> dict[str, Any]:
     """Returns what curve.json and --json have."""
-    def numbered(value: float) -> float | None:
-        return float(value) if np.isfinite(value) else None
-
-    def numbers(some: list[Number]) -> dict[str, Any]:
-        return {n.path: {"value": numbered(n.estimate), "error": numbered(n.error), "unit": n.unit, "reason": n.reason, "condition": n.condition,
-                         "parts": {name: numbered(part.error) for name, part in n.parts.items()}} for n in some}
-
     def fits(one: FittedCurve) -> dict[str, Any]:
         return {way: {"stated": next(name for name, fit in found.fits.items() if fit is found.stated), "excluded": found.excluded,
-                      "maugis": [numbered(value) for value in found.parameter],
+                      **{name: getattr(found, name) for name in ("work", "modulus", "of_fit", "of_model")},
+                      "maugis": [finite(value) for value in found.parameter],
                       "models": {name: {"values": fit.values, "errors": fit.errors, "covariance": fit.covariance.tolist(), "noise": fit.noise,
                                         "correlated": fit.slack, "points": fit.points, "worse_by": found.worse_by[name]}
                                  for name, fit in found.fits.items()}} for way, found in one.fits.items()}
 
-    return {"file": found.file, "tip": found.question.indenter._asdict(), "numbers": numbers(found.numbers), "notes": found.notes,
+    asked = {"poisson": finite(found.question.poisson), "model": found.question.model, "range": found.question.range,
+             "period": found.question.period}
+    return {"file": found.file, "tip": found.question.indenter._asdict(), "question": asked, "numbers": saved(found.numbers), "notes": found.notes,
             "refused": found.refused,
-            "curves": [{"name": one.name, "place": one.measured.place, "stiffness": one.measured.stiffness, "numbers": numbers(one.numbers),
+            "curves": [{"name": one.name, "place": one.measured.place, "stiffness": one.measured.stiffness, "numbers": saved(one.numbers),
                         "fits": fits(one), "failed": one.failed} for one in found.curves]}
-
-
-def _table(found: Curves) -> list[list[str | float]]:
-    paths = [n.path for n in found.numbers]
-    units = {n.path: n.unit for n in found.numbers}
-    rows: list[list[str | float]] = [["curve", "x, µm", "y, µm", *(f"{path}, {units[path]}{end}" for path in paths for end in ("", ": error"))]]
-    values = {path: found.values(path) for path in paths}
-    for k, one in enumerate(found.curves):
-        own = {n.path: n for n in one.numbers}
-        errors = {path: own[path].error * values[path][k] / own[path].estimate if path in own and own[path].estimate else np.nan for path in paths}
-        rows.append([one.name, *(one.measured.place or ("", "")), *(float(x) for path in paths for x in (values[path][k], errors[path]))])
-    return rows
 
 
 def write(found: Curves) -> Path:
     """Writes curve.json, curves.csv, fit.csv (of the first curve) and the page. Returns the page."""
     one = found.curves[0]
-    rows: list[list[str | float]] = [["height, nm", "force, nN", "model, nN", "residual, nN", "in the fit", "retraction"]]
-    for way, fits in one.fits.items():
-        fit = fits.stated
-        rows += [[float(h), float(f), float(m), float(f - m), int(u), int(way == "retraction")]
-                 for h, f, m, u in zip(fit.height, fit.force, fit.fitted, fit.used)]
     with store.outputs(found.directory, [RESULT, TABLE, FIT]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))
-        out.write(TABLE, store.csv_text(_table(found)))
-        out.write(FIT, store.csv_text(rows))
+        out.write(TABLE, store.csv_text(store.rows_of(found.columns(), found.units)))
+        out.write(FIT, store.csv_text(store.rows_of(points_of(one), POINTS)))
     tip = found.question.indenter
     size = f"{tip.size:g} nm" if tip.shape in ("paraboloid", "sphere", "punch") else f"{tip.size:g}°"
     lead = re.sub(r"_([\w-]+)", r"_{\1}", str(found.numbers[0]))
@@ -133,22 +122,27 @@ def write(found: Curves) -> Path:
     page = Page(found.directory, "asperity curve", title, lead, kinds=("png",))
     page.section("numbers", "Numbers")
     page.table(["number", "value", "error", "unit", "parts of the error, or why it is not stated"], [_cells(n) for n in found.numbers])
-    page.add("text", f"Tip: {tip.shape}, {size}; cantilever {one.measured.stiffness:.4g} N/m. E* = E/(1-ν²). Errors are one standard error.")
+    page.add("paragraph", f"Tip: {tip.shape}, {size}; cantilever {one.measured.stiffness:.4g} N/m. E* = E/(1-ν²). Errors are one standard error.")
     page.section("curve", "Curve and fit" if len(found.curves) == 1 else f"Curve and fit: {one.name}")
     page.figure(FIGURES[0], "Force curve", "Less its baseline; the lines are the stated models where they are fitted.", partial(with_fit, one))
     page.figure(FIGURES[1], "Residuals", "A fit that describes the curve leaves noise.", partial(residuals, one))
+    if found.simulated is not None:
+        page.section("simulated", "The fitted tip, simulated")
+        page.figure(FIGURES[2], "Force curve", "The contact of a tip with the stated numbers, as asperity tip computes it.",
+                    partial(with_simulation, found))
+        page.add("paragraph", _simulated(found))
     page.section("models", "Models")
     page.table(HEADS, models(one))
-    page.add("text", _apart(one))
+    page.add("paragraph", _apart(one))
     if len(found.curves) > 2:
         page.section("all", "All curves")
         there = [n.path for n in found.numbers]
-        for name in FIGURES[2:]:
+        for name in FIGURES[3:]:
             kind, _, path = name.partition("-")
             if path in there:
                 draw = histogram if kind == "histogram" else over_places
                 page.figure(name, found.number(path).name.capitalize(), "", partial(draw, found, path))
     for note in [*found.notes, *(f"not taken: {why}" for why in found.refused)]:
-        page.add("text", note[0].upper() + note[1:] + ".")
+        page.add("paragraph", note[0].upper() + note[1:] + ".")
     page.write()
     return page.path

@@ -14,7 +14,7 @@ import jinja2
 from markupsafe import Markup, escape
 from matplotlib.axes import Axes
 
-from ..errors import Error
+from ..errors import Error, InternalError
 from ..files import store
 from ..plots import style as figures
 
@@ -33,6 +33,11 @@ def _set(text: Any) -> Markup:
     out = re.sub(r"(?<=\d)e-(?=\d)", "e\u2011", out)  # no line ends in a number
     out = re.sub(r"`([^`]*)`", r"<code>\1</code>", out)
     return Markup(out.replace(" meV/Å", "\u00a0meV/\u2060Å").replace(" mJ/m", "\u00a0mJ/\u2060m"))
+
+
+def _no_such_form(kind: str) -> str:
+    """Raises InternalError: the template would leave out a part of the page."""
+    raise InternalError("page.html", f"has no form of the name {kind}", "a part of the page would be missing", "report it")
 
 
 def page_files(ids: Iterable[str], kinds: Iterable[str] = figures.KINDS) -> list[str]:
@@ -171,6 +176,7 @@ class Page:
         loader = jinja2.FileSystemLoader(Path(__file__).parent / "templates")
         environment = jinja2.Environment(loader=loader, autoescape=True, trim_blocks=True)
         environment.filters["set"] = _set
+        environment.globals["no_such_form"] = _no_such_form
         text = environment.get_template("page.html").render(page=self)
         with store.outputs(self.directory, [*self.made, self.path.name]) as out:
             for name, content in self.made.items():

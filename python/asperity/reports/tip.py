@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,17 +13,25 @@ import numpy as np
 
 from .. import terminal
 from ..files import store
+from ..plots.run import map_of
 from ..plots.tip import force_curve
-from ..studies.stated_number import Number, rounded
-from ..studies.tip import Tip
+from ..studies.stated_number import Number, finite, rounded, saved
+from ..studies.tip import CURVE, RESULT, RUN_OF, Tip
 from .estimate import lines_of
 from .page import Page, page_files
+from .run import end
 
-RESULT = "tip.json"
-FIGURES = ("force-drive", "force-tip")
-FILES = [RESULT, "curve.csv", *page_files(FIGURES)]
+FIGURES = ("force-drive", "force-tip", "pressure", "gap")
+FILES = [RESULT, CURVE, *page_files(FIGURES)]
 DEFINED = ("Forces press if they are positive. λ is Maugis' parameter with the largest stress w/range of the attraction, Tabor's number is "
-           "(R w²/E*²)^(1/3) over the range: above λ = 5 JKR holds, below 0.1 DMT, between Maugis.")
+           "(R w²/E*²)^(1/3) over the range: above λ = 5 JKR holds, below 0.1 DMT, between Maugis. E* = E/(1-ν²).")
+STATE = "relaxed"
+"""The state whose contact is drawn."""
+
+
+def _set(text: str) -> str:
+    """Returns a text with the subscripts of its symbols as a page sets them."""
+    return re.sub(r"_([\w-]+)", r"_{\1}", text)
 
 
 def _plain(symbol: str) -> str:
@@ -40,9 +49,9 @@ def _compared(found: Tip) -> list[list[str]]:
     contact, fit = found.contact, found.fit
     work = [rounded(1e3 * fit.work, 1e3 * fit.work_error), rounded(fit.modulus, fit.modulus_error)]
     pulled = found.number("pull_off_force")
-    by_pull_off = 1e3 * pulled.estimate / (1.5 * np.pi * contact.radius)
+    by_pull_off = f"{1e3 * pulled.estimate / (1.5 * np.pi * contact.radius):.4g}" if contact.shape is None and not fit.failed else ""
     shown = [" ± ".join(pair) for pair in work] if not fit.failed else ["no fit", "no fit"]
-    return [["work of adhesion, mJ/m²", f"{1e3 * contact.work:.4g}", shown[0], f"{by_pull_off:.4g}"],
+    return [["work of adhesion, mJ/m²", f"{1e3 * contact.work:.4g}", shown[0], by_pull_off],
             ["E*, GPa", f"{contact.modulus:.4g}", shown[1], ""]]
 
 
@@ -51,6 +60,9 @@ COMPARED = ["", "put in", "JKR fitted to the retraction", "pull-off over 1.5πR"
 
 def _theory(found: Tip) -> str:
     contact = found.contact
+    if contact.shape is not None:
+        return (f"The tip is a {contact.words}: its end alone has Maugis' λ {contact.parameter:.3g}, Tabor's number {contact.tabor:.3g}: "
+                f"{contact.model}. By JKR the pull-off force of the whole smooth tip is {contact.pull_off_by_jkr():.3g} nN.")
     return (f"A smooth tip: Maugis' λ {contact.parameter:.3g}, Tabor's number {contact.tabor:.3g}: {contact.model}. Its pull-off force is "
             f"{contact.pull_off():.3g} nN by Maugis, {1.5 * contact.unit:.3g} by JKR, {2 * contact.unit:.3g} by DMT.")
 
@@ -88,18 +100,23 @@ def answer_of(found: Tip) -> dict[str, Any]:
     dict
         Numbers with errors, the fit, the contact and the notes.
     """
-    def numbered(value: float) -> float | None:
-        return float(value) if np.isfinite(value) else None
-
-    numbers = {n.path: {"value": numbered(n.estimate), "error": numbered(n.error), "unit": n.unit, "reason": n.reason, "condition": n.condition,
-                        "parts": {name: numbered(part.error) for name, part in n.parts.items()}} for n in found.numbers}
     contact = {"radius": found.contact.radius, "modulus": found.contact.modulus, "work": found.contact.work, "range": found.contact.range,
                "stiffness": found.contact.stiffness, "maugis": found.contact.parameter, "tabor": found.contact.tabor,
-               "model": found.contact.model, "smooth_pull_off_force": found.contact.pull_off()}
-    fit: dict[str, Any] = {key: numbered(value) for key, value in found.fit._asdict().items() if key != "failed"}
+               "model": found.contact.model, "tip": found.contact.words, "shape": found.contact.shape and found.contact.shape.saved(),
+               "smooth_pull_off_force": found.contact.pull_off() if found.contact.shape is None else found.contact.pull_off_by_jkr()}
+    fit: dict[str, Any] = {key: finite(value) for key, value in found.fit._asdict().items() if key != "failed"}
     if found.fit.failed:
         fit = {"failed": found.fit.failed}
-    return {"numbers": numbers, "fit": fit, "contact": contact, "notes": found.notes}
+    return {"numbers": saved(found.numbers), "fit": fit, "contact": contact, "notes": found.notes}
+
+
+def _material(found: Tip) -> list[list[str]]:
+    """Returns the rows of what is pressed against what."""
+    keys, contact = found.result, found.contact
+    return [["tip", contact.words], ["Young's modulus E, GPa", f"{keys.number('scene.block.young', np.nan):.4g}"],
+            ["Poisson's ratio ν", f"{keys.number('scene.block.poisson', np.nan):.4g}"],
+            ["work of adhesion w, mJ/m²", f"{1e3 * contact.work:.4g}"], ["range of the attraction, nm", f"{contact.range:.4g}"],
+            ["stiffness of the cantilever k, N/m", f"{contact.stiffness:.4g}"], ["largest force, nN", f"{found.force.max():.4g}"]]
 
 
 def write(found: Tip) -> Path:
@@ -115,25 +132,36 @@ def write(found: Tip) -> Path:
     Path
         The page.
     """
-    rows: list[list[str | float]] = [["drive, nm", "tip, nm", "force, nN", "retraction"]]
-    rows += [[float(d), float(t), float(f), int(r)] for d, t, f, r in zip(found.drive, found.tip, found.force, found.retracting)]
-    with store.outputs(found.directory, [RESULT, "curve.csv"]) as out:
+    rows = store.rows_of(found.columns(), found.units)
+    with store.outputs(found.directory, [RESULT, CURVE]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))
-        out.write("curve.csv", store.csv_text(rows))
-    lead = re.sub(r"_([\w-]+)", r"_{\1}", str(found.numbers[0]))
-    page = Page(found.directory, "asperity tip", f"A tip of {found.contact.radius:g} nm on {found.contact.stiffness:g} N/m", lead)
+        out.write(CURVE, store.csv_text(rows))
+    lead = _set(str(found.numbers[0]))
+    page = Page(found.directory, "asperity tip", f"A {found.contact.words} on {found.contact.stiffness:g} N/m", lead)
     page.section("curve", "Force curve")
     page.figure(FIGURES[0], "As the instrument shows it", "The drive moves the far end of the cantilever.", lambda ax: force_curve(found, ax))
     page.figure(FIGURES[1], "Against the place of the tip", "The drive less the deflection of the cantilever, with JKR's fit.",
                 lambda ax: force_curve(found, ax, "tip"))
+    page.section("contact", "The contact at zero load")
+    for name, heading in (("pressure", "Pressure"), ("gap", "Gap")):
+        if STATE in found.result.fields:
+            page.figure(name, heading, "From above, in the middle of the box.", partial(map_of, found.result, found.result.fields[STATE], name))
     page.section("numbers", "Numbers")
     page.table(["number", "value", "error", "unit", "parts of the error, or why it is not stated"], [_cells(n) for n in found.numbers])
+    page.add("lists", [("Symbols", [_set(f"{n.symbol}: {n.name}") for n in found.numbers])])
+    page.section("quote", "To quote")
+    for line in lines_of(found.numbers):
+        page.add("paragraph", _set(line) + ".")
+    page.section("material", "Tip and sample")
+    page.table([], _material(found))
     page.section("fit", "What an experimentalist would have found")
     page.table(COMPARED, _compared(found))
-    page.add("text", found.fit.failed or f"The fit misses the curve by {found.fit.misfit:.2g} nN rms; its errors are those of the fit alone.")
-    page.add("text", _theory(found))
-    page.add("text", DEFINED)
-    for note in found.notes:
-        page.add("text", note[0].upper() + note[1:] + ".")
+    page.add("paragraph", found.fit.failed or f"The fit misses the curve by {found.fit.misfit:.2g} nN rms; its errors are those of the fit alone.")
+    page.add("paragraph", _theory(found))
+    page.add("paragraph", DEFINED)
+    page.section("notes", "Notes")
+    page.add("lists", found.notes and [("", [note[0].upper() + note[1:] + "." for note in found.notes])])
+    end(page, found.result, "The scene", found.result.part("scene"), "Every key with the value that was used; the runs of the error ("
+        + ", ".join(words for part, words in RUN_OF.items() if part) + ") have others.")
     page.write()
     return page.path

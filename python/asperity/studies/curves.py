@@ -7,26 +7,36 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..arguments import checks_calls
+from ..arguments import checks_call, checks_calls
 from ..errors import InputOutputError, Named, SceneError
 from ..maps.force_curves import ForceCurve, read_force_curves
+from ..results.frames import data_frame
+from ..results.result import Values, read_json
 from ..theories.indentation import SHAPES, Indenter
-from ..units import quantity
-from .curve_fit import Compared, Regions, Unfit, compared, regions
-from .stated_number import NAN, Found, Number, WithNumbers
+from .curve_fit import Compared, Fit, Regions, Unfit, compared, regions
+from .map_scene import length
+from .stated_number import NAN, Found, Number, WithNumbers, numbers_of
+
+if TYPE_CHECKING:
+    from .tip import Tip
 
 WAYS = {False: "approach", True: "retraction"}
 OF_LAW = 0.05
 """Share of w that depends on the law of the attraction: of an exponential law, fitted by Dugdale's of the same range, 4 % at λ = 0.6."""
+POINTS = {"height": "nm", "force": "nN", "model": "nN", "residual": "nN", "in the fit": "", "retraction": ""}
+"""Columns of the points of a curve, with their units."""
+RESULT, FIT = "curve.json", "fit.csv"
+"""Files of the fits, and of the points of the first curve."""
 FEW = 3
 """Neighbouring points over which a pull-off force is averaged."""
 
@@ -57,6 +67,10 @@ class FittedCurve(Named):
         """File of the curve and its number in it."""
         return self.measured.name
 
+    def frame(self):
+        """Returns the points of both directions, less the baseline, with the stated models, as a pandas DataFrame."""
+        return data_frame(points_of(self), POINTS)
+
     @property
     def main(self) -> Compared | None:
         """Fits of the direction whose numbers are stated: the retraction if attraction is seen, else the approach; None: there are none."""
@@ -73,6 +87,7 @@ class Curves(WithNumbers):
                their means with the error by their scatter
     curves     the curves, each with measured, fits and numbers
     refused    reasons for curves that are not taken
+    simulated  the contact of the fitted tip as `tip` computes it; None: it was not asked for
     """
 
     file: str
@@ -82,12 +97,35 @@ class Curves(WithNumbers):
     refused: list[str]
     notes: list[str] = field(default_factory=list)
     directory: Path = Path()
+    simulated: Tip | None = None
 
     def values(self, path: str) -> np.ndarray:
         """Returns a number of each curve, NaN where it is not stated, in the unit of number(path)."""
         own = self.number(path)
         found = [next((n for n in one.numbers if n.path == path), None) for one in self.curves]
         return np.array([NAN if n is None else n.estimate * (_scale(n.unit) / _scale(own.unit)) for n in found])
+
+    def columns(self) -> dict[str, Any]:
+        """Returns name and place (µm) of each curve, and its numbers with their errors, as columns."""
+        found: dict[str, Any] = {"curve": [one.name for one in self.curves]}
+        for k, name in enumerate("xy"):
+            found[name] = np.array([NAN if one.measured.place is None else one.measured.place[k] for one in self.curves])
+        for number in self.numbers:
+            found[number.path], errors = self.values(number.path), []
+            for one, value in zip(self.curves, found[number.path]):
+                own = next((n for n in one.numbers if n.path == number.path), None)
+                errors.append(own.error * value / own.estimate if own is not None and own.estimate else NAN)
+            found[f"{number.path}.error"] = np.array(errors)
+        return found
+
+    @property
+    def units(self) -> dict[str, str]:
+        """Unit of each column."""
+        return {"curve": "", "x": "µm", "y": "µm"} | {name: n.unit for n in self.numbers for name in (n.path, f"{n.path}.error")}
+
+    def frame(self):
+        """Returns the numbers of all curves as a pandas DataFrame, a row each; its attrs["units"] has the unit of each column."""
+        return data_frame(self.columns(), self.units)
 
     def __repr__(self) -> str:
         return f"<Curves {self.file}: {', '.join(map(str, self.numbers[:2]))}>"
@@ -96,20 +134,32 @@ class Curves(WithNumbers):
 UNITS = {"kPa": 1e-6, "MPa": 1e-3, "GPa": 1.0}
 
 
+def points_of(one: FittedCurve) -> dict[str, np.ndarray]:
+    """Returns the points of both directions of a curve with the stated models, as columns."""
+    found: dict[str, list[np.ndarray]] = {name: [] for name in POINTS}
+    for way, fits in one.fits.items():
+        fit = fits.stated
+        for column, values in zip(found.values(), (fit.height, fit.force, fit.fitted, fit.force - fit.fitted, fit.used,
+                                                   np.full(len(fit.height), way == WAYS[True]))):
+            column.append(np.asarray(values))
+    return {name: np.concatenate(column) if column else np.zeros(0) for name, column in found.items()}
+
+
+def missed(one: FittedCurve, simulated: Tip) -> tuple[float, float]:
+    """Returns by how much the simulated contact, and the stated model, miss the retraction where the model is fitted in contact: rms, nN."""
+    fit = one.fits["retraction"].stated if "retraction" in one.fits else one.fits["approach"].stated
+    at = fit.used & np.isfinite(fit.fitted) & (fit.fitted != 0.0)
+    held = simulated.retracting
+    there = np.interp(fit.height[at] - fit.values["contact"], simulated.drive[held], simulated.force[held])
+    return tuple(float(np.sqrt(np.mean((fit.force[at] - other) ** 2))) for other in (there, fit.fitted[at]))
+
+
 def _scale(unit: str) -> float:
     return UNITS.get(unit, 1.0)
 
 
 def _modulus_unit(value: float) -> str:
     return next((unit for unit in ("GPa", "MPa") if value >= 1.0 * UNITS[unit]), "kPa")
-
-
-def length(name: str, text: object) -> float:
-    """Returns a length above zero, nm. Raises SceneError in the words of the argument."""
-    value = quantity(text, "nm")
-    if value is None or not 0 < value < math.inf:
-        raise SceneError(f"{name} = {text}", "is no length above zero", "", f'for example {name} "20 nm"')
-    return value
 
 
 def question_of(given: Mapping[str, Any]) -> Question:
@@ -277,3 +327,54 @@ def curves_of(file: str, question: Question, stiffness: str | None, sensitivity:
                          "attraction (--range) determines λ")
     notes.append("the errors of radius and stiffness of the cantilever are not included: w grows as 1/R, E* as 1/√R")
     return Curves(file, question, _means(good), good, refused, notes)
+
+
+@checks_call
+def load_curve(directory: str | os.PathLike) -> Curves:
+    """Loads the fitted force curves in a directory. Points are those of fit.csv: of the first curve.
+
+    Parameters
+    ----------
+    directory : str or os.PathLike
+        Directory with curve.json.
+
+    Returns
+    -------
+    Curves
+        The numbers with their errors, and the fits of each curve.
+
+    Raises
+    ------
+    InputOutputError
+        The directory has no fitted curves, or they cannot be read.
+    """
+    place = Path(directory)
+    if not (place / RESULT).exists():
+        raise InputOutputError(str(directory), "holds no fitted curves", f"{RESULT} is not in it" if place.is_dir() else
+                               "there is no such directory", "name a directory that asperity curve has written")
+    found = read_json(place / RESULT)
+    asked = found.part("question")
+    question = Question(Indenter(**found.part("tip")), Values(asked).number("poisson", np.nan), asked["model"], asked["range"], asked["period"])
+    points = np.genfromtxt(place / FIT, delimiter=",", skip_header=1)
+    curves = []
+    for k, one in enumerate(map(Values, found.listed("curves", dict))):
+        fits = {way: _loaded(Values(fit), points[points[:, -1] == (way == "retraction")] if k == 0 else np.zeros((0, len(POINTS))))
+                for way, fit in one.part("fits").items()}
+        place_of = one.find("place")
+        measured = ForceCurve(one.text("name"), *np.zeros((2, 0)), np.zeros(0, bool), one.number("stiffness", np.nan), place_of and tuple(place_of))
+        curves.append(FittedCurve(measured, fits, one.part("failed"), numbers_of(one.part("numbers"))))
+    return Curves(found.text("file"), question, numbers_of(found.part("numbers")), curves, found.listed("refused", str),
+                  found.listed("notes", str), place)
+
+
+def _loaded(saved: Values, points: np.ndarray) -> Compared:
+    """Returns the fits of a direction as they are saved, with the points of the stated one."""
+    fits, stated = {}, saved.text("stated")
+    for name, one in saved.part("models").items():
+        at = points if name == stated else points[:0]
+        fits[name] = Fit(name.partition(" ")[0], one["values"], one["errors"], np.array(one["covariance"]), one["noise"], one["correlated"], np.nan,
+                         len(one["errors"]), one["points"], at[:, 0], at[:, 1], at[:, 2], at[:, 4] == 1, lambda height: 0.0 * height)
+    worse = {name: one["worse_by"] for name, one in saved.part("models").items()}
+    low_to_high = tuple(np.nan if one is None else one for one in saved.find("maugis"))
+    return Compared(fits, fits[stated], worse, saved.number("work", 0.0), saved.number("modulus", np.nan), tuple(saved.find("of_fit")),
+                    tuple(saved.find("of_model")), low_to_high)

@@ -35,7 +35,8 @@ class Size(NamedTuple):
 @dataclass
 class Forecast:
     """Runs of a study that are still to be made, of `all_runs`, the seconds that they take (NaN: not known), what is run beyond them,
-    the numbers that will not be stated, each with the reason, and, of a study whose runs differ in size, those that are left."""
+    the numbers that will not be stated, each with the reason, of a study whose runs differ in size, those that are left, and the errors
+    over their size that numbers are expected to have."""
 
     name: str
     directory: Path
@@ -45,6 +46,7 @@ class Forecast:
     beyond: str = ""
     unstated: list[tuple[str, str]] = field(default_factory=list)
     sizes: list[Size] = field(default_factory=list)
+    expected: dict[str, float] = field(default_factory=dict)
 
     def __str__(self) -> str:
         """Spells the forecast: "scan: 9 runs, about 3 min"."""
@@ -58,13 +60,16 @@ class Forecast:
         """The forecast and, in a line each, what will not be stated."""
         rows = [[one.run, str(one.sites), f"{one.width:.4g}", duration(one.seconds)] for one in self.sizes]
         sizes = [table(["run", "sites", "width, nm", "about"], rows)] if rows else []
-        return [*sizes, str(self), *(f"note: {names} will not be stated: {why}" for names, why in self.unstated)]
+        errors = [f"expected error of the {name.replace('pull_off', 'pull-off').replace('_', ' ')}: about {100 * error:.2g} %"
+                  for name, error in self.expected.items()]
+        return [*sizes, str(self), *errors, *(f"note: {names} will not be stated: {why}" for names, why in self.unstated)]
 
     def json(self) -> dict[str, Any]:
         """Returns the forecast as JSON has it."""
         return {"name": self.name, "directory": self.directory, "plan": str(self), "runs": self.all_runs, "left": self.runs,
                 "seconds": self.seconds, "unstated": [{"numbers": names, "why": why} for names, why in self.unstated]} | (
-                    {"sizes": [one._asdict() for one in self.sizes]} if self.sizes else {})
+                    {"sizes": [one._asdict() for one in self.sizes]} if self.sizes else {}) | (
+                    {"expected": self.expected} if self.expected else {})
 
 
 def seconds_of(scene: str, overrides: list[str]) -> float:

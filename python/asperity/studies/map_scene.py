@@ -96,6 +96,14 @@ def edge_of(size: object) -> float:
     return edge
 
 
+def length(name: str, text: object) -> float:
+    """Returns a length above zero, nm. Raises SceneError in the words of the argument."""
+    value = quantity(text, "nm")
+    if value is None or not 0 < value < math.inf:
+        raise SceneError(f"{name} = {text}", "is no length above zero", "", f'for example {name} "20 nm"')
+    return value
+
+
 def with_unit(name: str, value: object) -> str:
     """Returns the text of a quantity with its unit, as scenes have it.
 

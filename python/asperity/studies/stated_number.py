@@ -7,8 +7,9 @@ or with a reason why it is not stated. Tables, lines to quote, pages, estimate.j
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from ..arguments import checks_calls
 from ..errors import Named, UnknownName
@@ -223,6 +224,28 @@ def upwards(factor: float, bound: float) -> str:
     size = factor * abs(bound)
     step = 10.0 ** (math.floor(math.log10(size)) - 1)
     return ("-" if bound < 0.0 else "") + f"{float(f'{step * math.ceil(size / step * (1 - 1e-12)):.2g}'):g}"
+
+
+def finite(value: float) -> float | None:
+    """Returns a number as JSON has it: None if it is not finite."""
+    return float(value) if math.isfinite(value) else None
+
+
+def saved(numbers: Iterable[Number]) -> dict[str, Any]:
+    """Returns numbers without corrections as JSON has them; numbers_of() reads them."""
+    return {n.path: {"value": finite(n.estimate), "error": finite(n.error), "unit": n.unit, "reason": n.reason, "condition": n.condition,
+                     "symbol": n.symbol, "meaning": n.name, "least": finite(n.least), "grain": finite(n.grain),
+                     "parts": {name: finite(part.error) for name, part in n.parts.items()}} for n in numbers}
+
+
+def numbers_of(json: Mapping[str, Any]) -> list[Number]:
+    """Returns the numbers that saved() wrote."""
+    def number(value: float | None, otherwise: float = NAN) -> float:
+        return otherwise if value is None else value
+
+    return [Number(path, one["symbol"], one["meaning"], one["unit"], number(one["value"]),
+                   {name: Found(0.0, number(error)) for name, error in one["parts"].items()}, least=number(one["least"], -INFINITE),
+                   grain=number(one["grain"], 0.0), withheld=one["reason"], condition=one["condition"]) for path, one in json.items()]
 
 
 @checks_calls
