@@ -64,7 +64,7 @@ class TipShape:
         return cls(saved["shape"], saved["radius"], slope, half=half)
 
     def rise(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
-        """Returns the rise of the tip over its apex at places beside the axis."""
+        """Returns the rise of the tip over its apex at places beside the axis. Raises SceneError without the map of a measured tip."""
         if self.measured is not None:
             return -self.measured.ev(y, x)
         if self.shape == "measured":
