@@ -15,7 +15,7 @@ import pytest
 import asperity
 from asperity.maps.force_curves import read_force_curves
 from asperity.studies.curve_fit import Unfit, compared, correlated, regions
-from asperity.studies.curves import curves_of, missed, question_of
+from asperity.studies.curves import Question, curves_of, missed, question_of
 from asperity.theories.indentation import Indenter, maugis_parameter, path, range_of
 from conftest import command
 from following import followed, not_followed
@@ -232,6 +232,18 @@ def test_a_map_of_curves(tmp_path, formats, monkeypatch):
     fit, points = found.curves[0].fits["retraction"].stated, found.curves[0].frame()
     back = points["retraction"]
     assert list(points["force"][back]) == list(fit.force) and np.allclose(points["residual"][back], fit.force - fit.fitted, equal_nan=True)
+
+
+def test_a_fit_that_misses_the_curve_is_noted(tmp_path):
+    """A paraboloid's curve is none of a cone; with the right shape nothing is noted."""
+    place, held = path(TIP, "hertz", MODULUS, 0, 20).on_drive(STIFFNESS)
+    height = np.linspace(40, np.interp(-15, -held, place), 600)
+    force = np.where(height < 0, np.interp(height, place, held), 0.0) + 0.002 * np.random.default_rng(2).normal(size=600)
+    (tmp_path / "a.txt").write_text(text_of(np.r_[height, height[::-1]], np.r_[force, force[::-1]], np.repeat([0, 1], 600)))
+    for shape, size, missed_it in (("cone", 80.0, True), ("paraboloid", RADIUS, False)):
+        question = Question(Indenter(shape, size), model="hertz")
+        found = curves_of(str(tmp_path / "a.txt"), question, "2 N/m", None)
+        assert any("times the noise" in note for note in found.notes) == missed_it, (shape, found.notes)
 
 
 def one_fit(told):

@@ -84,6 +84,11 @@ class Fit:
     baseline: Callable[[np.ndarray], np.ndarray]
     notes: list[str] = field(default_factory=list)
 
+    @property
+    def residual(self) -> float:
+        """Rms residual over the noise of the points far from the sample."""
+        return math.sqrt(self.misfit / self.points)
+
 
 class Unfit(Exception):
     """Reason why a direction of a curve cannot be fitted."""

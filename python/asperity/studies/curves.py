@@ -37,6 +37,8 @@ POINTS = {"height": "nm", "force": "nN", "model": "nN", "residual": "nN", "in th
 """Columns of the points of a curve, with their units."""
 RESULT, FIT = "curve.json", "fit.csv"
 """Files of the fits, and of the points of the first curve."""
+POOR = 2.0
+"""Residual of a fit over the noise from which it does not describe the curve."""
 FEW = 3
 """Neighbouring points over which a pull-off force is averaged."""
 
@@ -325,6 +327,11 @@ def curves_of(file: str, question: Question, stiffness: str | None, sensitivity:
         if question.range is None and parameter[2] > 2 * parameter[1]:
             notes.append(f"Maugis' λ is not known better than {parameter[1]:.2g} to {parameter[2]:.2g}: the error of w has this; the range of the "
                          "attraction (--range) determines λ")
+    poor = {one.name: one.main.stated.residual for one in good if one.main and one.main.stated.residual > POOR}
+    if poor:
+        notes.append(f"the model misses {next(iter(poor)) if len(poor) == 1 else f'{len(poor)} of {len(good)} curves'} by {max(poor.values()):.2g} "
+                     "times the noise far from the sample at most: drift, viscosity, a tether or another shape of the tip is measured too, which "
+                     "the errors do not include")
     notes.append("the errors of radius and stiffness of the cantilever are not included: w grows as 1/R, E* as 1/√R")
     return Curves(file, question, _means(good), good, refused, notes)
 
