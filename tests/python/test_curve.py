@@ -7,6 +7,7 @@ import json
 import math
 import sys
 import types
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -140,6 +141,9 @@ def test_hertz_and_the_point_of_contact():
     with_wave = compared(TIP, regions(height + 50, waves), STIFFNESS, "hertz", period=12.5)
     assert with_wave.stated.values["period"] == pytest.approx(12, rel=0.01)
     assert with_wave.modulus == pytest.approx(MODULUS, abs=4 * MODULUS * with_wave.of_fit[1])
+    with warnings.catch_warnings(), pytest.raises(Unfit, match="stands still"):
+        warnings.simplefilter("error")
+        regions(np.full(500, 100.0), np.linspace(0, 5, 500))
     for nothing in (np.zeros(500), np.linspace(0, 5, 500)):
         with pytest.raises(Unfit):
             regions(np.linspace(100, 0, 500), nothing + 0.01 * np.random.default_rng(0).normal(size=500))

@@ -112,6 +112,8 @@ def regions(height: np.ndarray, force: np.ndarray) -> Regions:
     noise = float(np.median(np.abs(steps - np.median(steps)))) / 0.6745 / math.sqrt(2)
     noise = max(noise, 1e-4 * float(np.ptp(force)) / math.sqrt(count), 1e-12)
     middle = float(height[far].mean())
+    if float(np.ptp(height[far])) <= 1e-9 * abs(middle):
+        raise Unfit("the drive stands still far from the sample")
     tilt, offset = np.polyfit(height[far] - middle, force[far], 1)
     left = force - offset - tilt * (height - middle)
     width = max(3, count // 200)
@@ -295,7 +297,7 @@ def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period
         solved = least_squares(one.residuals, np.zeros(len(one.names)), jac=one.jacobian, method="lm", max_nfev=60)
         for _ in [0] * 5 if used is None and found.dip and one.adhesive else ():
             moved = np.abs(one.jacobian(solved.x)[:-1, one.names.index("work")])
-            steep = moved > STEEP * np.median(moved[moved > 0])
+            steep = moved > STEEP * np.median(moved[moved > 0] if moved.any() else moved)
             if not steep.any():
                 break
             one.used = one.used.copy()
