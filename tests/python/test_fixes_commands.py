@@ -30,6 +30,7 @@ from asperity.results import result
 from asperity.running import program
 from asperity.studies import grid, states, tip
 from asperity.studies.stated_number import Number
+from asperity.theories.tip_shape import TipShape
 from conftest import unsealed
 from following import ask, followed, not_followed
 
@@ -448,11 +449,21 @@ def test_scenes_of_another_folder():
 @pytest.mark.parametrize("bad, good", [
     ({"load": "5"}, {"load": "5 nN"}), ({"sites": 16}, {"sites": 24}), ({"load": "2 µN"}, {"load": "1 nN"}),
     ({"radius": "3 nm", "young": "0.5 GPa"}, {"radius": "3 nm", "young": "50 GPa"}), ({"range": "20 nm"}, {"range": "1 nm"}),
-    ({"range": "0.01 nm"}, {"range": None}), ({"file": "map.npy", "size": "10 nm"}, {"file": "map.npy", "size": "60 nm"})])
+    ({"range": "0.01 nm"}, {"range": None}), ({"file": "map.npy", "size": "10 nm"}, {"file": "map.npy", "size": "60 nm"}),
+    ({"error": "5%", "sites": 32}, {"error": "5%"}), ({"error": "3"}, {"error": "10%"}), ({"radius": None}, {"radius": "20 nm"}),
+    ({"angle": 60.0}, {"shape": "cone", "angle": 60.0}), ({"shape": "cone"}, {"shape": "cone", "angle": 65.0}),
+    ({"shape": "pyramid", "angle": 95.0}, {"shape": "pyramid", "angle": 65.0}),
+    ({"tip_map": "tip.txt"}, {"tip_map": "tip.txt", "radius": None}),
+    ({"tip_map": "tip.txt", "radius": None, "shape": "cone"}, {"tip_map": "tip.txt", "radius": None}),
+    ({"tip_map": "map.npy", "radius": None}, {"tip_map": "tip.txt", "radius": None}),
+    ({"tip_map": "slope.txt", "radius": None}, {"tip_map": "tip.txt", "radius": None})])
 def test_a_fix_of_a_tip(bad, good):
     np.save("map.npy", np.random.default_rng(0).normal(size=(32, 32)))
+    x, y = np.meshgrid(*[np.linspace(-20, 20, 41)] * 2)
+    for name, heights in (("tip.txt", -(x * x + y * y) / 40), ("slope.txt", 0.1 * x)):
+        np.savetxt(name, heights, header="Width: 41 nm\nHeight: 41 nm\nValue units: nm")
     given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "load": None, "range": None,
-             "size": None, "unit": "Å", "channel": None, "sites": None}
+             "size": None, "unit": "Å", "channel": None, "sites": None, "error": None, "shape": "sphere", "angle": None, "tip_map": None}
 
     def plan(file=None, **more):
         return tip.plan_of(file, Path("tip"), {**given, **more})
@@ -461,6 +472,39 @@ def test_a_fix_of_a_tip(bad, good):
         plan(**bad)
     assert plan(**good).scenes
     followed(str(error.value))
+
+
+def test_an_error_that_the_memory_holds(monkeypatch):
+    given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "shape": "sphere",
+             **dict.fromkeys(("load", "range", "size", "unit", "channel", "sites", "angle", "tip_map"))}
+    monkeypatch.setattr("os.sysconf", {"SC_PHYS_PAGES": 2**14, "SC_PAGE_SIZE": 2**12}.get)
+    with pytest.raises(asperity.SceneError) as error:
+        tip.plan_of(None, Path("tip"), {**given, "error": "0.6%"})
+    assert tip.plan_of(None, Path("tip"), {**given, "error": re.search(r"--error (\d+%)", str(error.value))[1]}).scenes
+    followed(str(error.value))
+
+
+def test_a_tip_is_loaded():
+    with pytest.raises(asperity.InputOutputError) as error:
+        asperity.load_tip("nowhere")
+    given = {"radius": "20 nm", "E": "3 GPa", "nu": 0.3, "w": "50 mJ/m2", "stiffness": "2 N/m", "range": "0.3 nm", "sites": 24}
+    asperity.tip(**given, out="made")
+    assert asperity.load_tip("made").number("pull_off_force").estimate > 0
+    followed(str(error.value))
+    with pytest.raises(asperity.SceneError) as error:
+        TipShape("measured", 20.0, half=30.0).rise(np.zeros(1), np.zeros(1))
+    assert asperity.tip(**given, out="made").contact.radius == 20
+    followed(str(error.value))
+
+
+def test_what_cannot_be_simulated():
+    height, force, way = test_curve.measured("jkr", count=300)
+    Path("a.txt").write_text(test_curve.text_of(height, force, way))
+    for given in ({"shape": "cone", "angle": 60.0, "model": "jkr"}, {"radius": "20 nm", "model": "hertz"}):
+        with pytest.raises(asperity.SceneError) as error:
+            asperity.curve("a.txt", stiffness="2 N/m", **given, simulate=True)
+        assert asperity.curve("a.txt", stiffness="2 N/m", **given, out=given["model"]).curves
+        followed(str(error.value))
 
 
 def test_a_number_of_a_tip():

@@ -37,7 +37,7 @@ def _set(text: Any) -> Markup:
 
 def _no_such_form(kind: str) -> str:
     """Raises InternalError: the template would leave out a part of the page."""
-    raise InternalError("page.html", f"has no form of the name {kind}", "a part of the page would be missing", "report it")
+    raise InternalError("page.html", f"has no form of the name {kind}", "this is a mistake in the program", "report it")
 
 
 def page_files(ids: Iterable[str], kinds: Iterable[str] = figures.KINDS) -> list[str]:
