@@ -414,7 +414,7 @@ TEST(Yield, BooksBalanceOnEachBlockAndMachine) {
         const char *name, *surface, *block, *drive;
     };
     const char *rough_map = "sites = 24\nspacing = 2\nrms = 0.8\nseed = 4",
-               *tip = "kind = \"flat\"\nsites = 30\nspacing = 3\nradius = 60\nboundary = \"free\"";
+               *tip = "kind = \"flat\"\nsites = 22\nspacing = 4\nradius = 60\nboundary = \"free\"";
     for (const Kind& kind : {Kind{"spring", rough_map, "", "stiffness = \"2 N/m\""},
                              Kind{"layers", rough_map, "layers = [[6, 30, 0.2], [10, 3, 0.4]]",
                                   "control = \"mean-height\""},
@@ -444,6 +444,7 @@ TEST(Yield, BooksBalanceOnEachBlockAndMachine) {
         const double set = run("yielding.mean_set");
         EXPECT_NEAR(gigapascal_length(plastic), 0.8 * set, 1e-9 * set);
         EXPECT_EQ(of_segment(run, 2, "mean_set"), of_segment(run, 1, "mean_set"));
+        if (kind.surface == tip) continue; // takes longer, and is one law with the others
         const test::Written elastic = run_of("\"none\""), hard = run_of("\"1e7 GPa\"");
         EXPECT_EQ(elastic.series("force"), hard.series("force"));
     }

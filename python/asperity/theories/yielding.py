@@ -62,7 +62,7 @@ class YieldingSphere(NamedTuple):
 
 
 class Unloading(NamedTuple):
-    """Reading of an unloading by Oliver and Pharr: hardness and E* (GPa), depth of the contact and at the end of the fitted law (nm), area of
+    """Result of Oliver and Pharr for an unloading: hardness and E* (GPa), depth of the contact and at the end of the fitted law (nm), area of
     the contact (nm²), slope at the largest depth (N/m), exponent of the law. failed: reason why there is no fit."""
 
     hardness: float = math.nan
