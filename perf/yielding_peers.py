@@ -87,16 +87,16 @@ def by_asperity(program: str, place: pathlib.Path, keys: dict, hardness: float) 
     text = "".join(f"{key} = {json.dumps(value) if not isinstance(value, str) or value[:1] not in '[' else value}\n" for key, value in keys.items())
     (place.parent / "scene.toml").write_text(text)
     _, seconds, _ = peers.measured([program, "run", str(place.parent / "scene.toml"), "--progress", "off", "--quiet", "--out", str(place)])
-    result = json.loads((place / "result.json").read_text())
     import h5py  # not in the environment of the others
 
     with h5py.File(place / "run.h5") as file:
         heights = file["substrate/height"][:]
+        fields = [(file[f"fields/segment-{i}/pressure"][:], file[f"fields/segment-{i}/gap"][:]) for i in range(len(PARTS))]
     np.save(place.parent / "map.npy", heights)
-    states = [{"area": one["contact_fraction"], "yielding": one["yielding_fraction"], "found": abs(one["pressure"] / load - 1) < 2 * FOUND}
-              for one, load in zip(result["segments"], loads)]
-    return states, seconds, {"map": str(place.parent / "map.npy"), "edge": keys["surface.sites"] * keys["surface.spacing"],
-                             "modulus": 10 * peers.GPA, "hardness": hardness * peers.GPA, "rms": float(heights.std())}
+    case = {"map": str(place.parent / "map.npy"), "edge": keys["surface.sites"] * keys["surface.spacing"],
+            "modulus": 10 * peers.GPA, "hardness": hardness * peers.GPA, "rms": float(heights.std())}
+    states = [state(case, part * case["hardness"], pressure * peers.GPA, gap) for part, (pressure, gap) in zip(PARTS, fields)]
+    return states, seconds, case
 
 
 def row(number: int, hardness: float, program: str, states: list[dict], seconds: float) -> dict:
