@@ -452,7 +452,8 @@ def test_scenes_of_another_folder():
 def test_a_fix_of_a_tip(bad, good):
     np.save("map.npy", np.random.default_rng(0).normal(size=(32, 32)))
     given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "load": None, "range": None,
-             "size": None, "unit": "Å", "channel": None, "sites": None, "hardness": None}
+             "size": None, "unit": "Å", "channel": None, "sites": None, "hardness": None, "shape": "sphere", "angle": None,
+             "tip_map": None, "error": None}
 
     def plan(file=None, **more):
         return tip.plan_of(file, Path("tip"), {**given, **more})

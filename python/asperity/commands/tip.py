@@ -67,8 +67,8 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
         adhesion: str | None = None, stiffness: str | None = None, load: str | None = None, out: str | os.PathLike | None = None,
         range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
         sites: int | None = None, jobs: int = 1, shape: str = "sphere", angle: float | None = None,
-        tip_map: str | os.PathLike | None = None, error: str | None = None, hardness: str | None = None, *, E: str | None = None, nu: float | None = None,
-        work: str | None = None, w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
+        tip_map: str | os.PathLike | None = None, error: str | None = None, hardness: str | None = None, *, E: str | None = None,
+        nu: float | None = None, work: str | None = None, w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
     """Computes the force curve of a tip on a sample that is elastic, or yields, with its numbers and their errors.
 
         found = asperity.tip("scan.gwy", radius="20 nm", E="3 GPa", nu=0.3, work="50 mJ/m2", stiffness="0.2 N/m")
