@@ -261,6 +261,8 @@ inline constexpr Quantity written_quantities[] = {
      "displacement of the top plane at the end of the segment"},
     {"segments[].contact_fraction", "1", per::sites,
      "contact fraction at the end of the segment; on dynamic paths one step later"},
+    {"segments[].contact_area", "1", per::area,
+     "area in contact with a wall at the end of the segment, as contact_area; quasi-static"},
     {"segments[].yielding_fraction", "1", per::sites,
      "sites whose net pressure is the hardness (interface.hardness) within 0.1 %, at the end of "
      "the segment"},
@@ -273,6 +275,8 @@ inline constexpr Quantity written_quantities[] = {
      "mean permanent set of a surface that yields (interface.hardness: a cap on the net pressure, "
      "without pile-up, hardening and dislocations)"},
     {"yielding.largest_set", "Å", "", "largest permanent set of a site"},
+    {"yielding.largest_fraction", "1", per::sites,
+     "largest share of sites at the hardness at the end of a segment"},
     {"yielding.tension_over_hardness", "1", "",
      "largest tension of flat surfaces divided by the smallest hardness, w/(ρ H): above about 1 "
      "the attraction at the edges of contacts is beyond what the solid bears, and tension does not "
@@ -328,6 +332,15 @@ inline constexpr Quantity written_quantities[] = {
     {"theory.persson.converged", "", "",
      "true if the errors are below 1e-3 (relative for a ratio above 1)"},
     {"theory.persson.note", "", "", "reason why the theory has no solution for this scene"},
+    {"theory.capped.pressure", "MPa", "",
+     "largest pressure at the end of a segment of a surface that yields, for which Persson's "
+     "theory with a cap is computed: without adhesion, the pressure absorbed at 0 and at the "
+     "hardness"},
+    {"theory.capped.contact_fraction", "1", per::area,
+     "contact area at that pressure by Persson's theory with a cap"},
+    {"theory.capped.yielding_fraction", "1", per::area,
+     "part of the area at the hardness at that pressure, by Persson's theory with a cap"},
+    {"theory.capped.note", "", "", "reason why the theory with a cap does not apply to this scene"},
     {"theory.renormalised.gamma_eff", "meV/Å^2", per::area,
      "effective work of adhesion, renormalised theory (in results of `asperity theory` and sweeps, "
      "like the following)"},

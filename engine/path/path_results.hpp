@@ -49,6 +49,7 @@ struct SegmentResults {
     std::optional<double> scatter; ///< scatter of a force averaged over thermal noise, eV/Å
     std::array<double, 2> slide{}; ///< Å
     long long in_contact = 0;      ///< sites
+    std::optional<double> area;    ///< contact_sites() over a wall; quasi-static only
     YieldState yielding;
     // Heights of a surface that yields, less its set: rms, Å, and rms slope, by differences.
     double yielded_rms = 0.0, yielded_slope = 0.0;
@@ -71,6 +72,7 @@ struct SegmentResults {
         v("top", top);
         v("slide", slide);
         v("in_contact", in_contact);
+        v("area", area);
         v("yielding", yielding);
         v("yielded_rms", yielded_rms);
         v("yielded_slope", yielded_slope);

@@ -130,6 +130,10 @@ void StaticPath::conclude() {
         works.steady = results_.slide.means(lengths());
     }
     ledger_.conclude(segment(), now(), works, {});
+    if (interface_.wall())
+        results_.segments.back().area =
+            contact_sites(static_cast<double>(now().in_contact),
+                          static_cast<double>(interface_.contact_edges(layer(), communicator())));
     if (interface_.yielding_wall()) look_at_heights();
 }
 

@@ -9,6 +9,7 @@
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
+#include "theory/capped_pressure.hpp"
 #include "theory/jkr.hpp"
 
 #include "io/json.hpp"
@@ -192,6 +193,7 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
+        if (s.area) result.set("segments[].contact_area", i, *s.area / c.sites());
         if (c.effects.yielding) {
             result.set("segments[].yielding_fraction", i, c.fraction(s.yielding.at_hardness));
             result.set("segments[].mean_set", i, s.yielding.mean_set);
@@ -202,6 +204,30 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
     }
 }
 
+/// Adds Persson's theory with a cap, beside the segment that ends under the largest pressure, or
+/// the reason why it does not apply.
+void add_capped_theory(const Case& c, const Surface& surface, const PathResults& results,
+                       io::Result& result) {
+    const InterfaceOptions& interface = c.simulation.interface;
+    const double pressure = most_pressed(results).force / c.area();
+    const char* why = c.effects.free_edges || c.radius() ? "the theory is of endless flat contacts"
+                      : interface.hardness_map           ? "the theory is of one hardness"
+                      : !c.effects.one_modulus()         ? "the theory is of one modulus"
+                      : pressure < 0.0 || pressure >= interface.mean_hardness()
+                          ? "no segment ends under a pressure below the hardness"
+                          : nullptr;
+    if (why) {
+        result.set("theory.capped.note", why);
+        return;
+    }
+    const double stress = 0.5 * c.simulation.block.contact_modulus() * surface.statistics.rms_slope;
+    const theory::CappedContact contact =
+        theory::capped_contact(pressure, interface.mean_hardness(), stress * stress);
+    result.set("theory.capped.pressure", pressure / units::megapascal);
+    result.set("theory.capped.contact_fraction", contact.area());
+    result.set("theory.capped.yielding_fraction", contact.yielding);
+}
+
 /// Adds what a surface that yields was, and has become at the end of the last segment.
 void add_yielding(const Case& c, const Surface& surface, const PathResults& results,
                   io::Result& result) {
@@ -210,6 +236,11 @@ void add_yielding(const Case& c, const Surface& surface, const PathResults& resu
         map ? map->least : c.simulation.interface.mean_hardness() / units::gigapascal;
     result.set("yielding.tension_over_hardness", c.largest_tension / softest);
     if (results.segments.empty()) return;
+    long long most = 0;
+    for (const SegmentResults& s : results.segments)
+        most = std::max(most, s.yielding.at_hardness);
+    result.set("yielding.largest_fraction", c.fraction(most));
+    add_capped_theory(c, surface, results, result);
     const auto n = static_cast<std::size_t>(surface.sites);
     const double a = c.simulation.block.spacing;
     const MapStatistics before = map_statistics(surface.height, n, n, a, a, !c.effects.free_edges);
@@ -254,6 +285,12 @@ void add_effects(const Effects& effects, io::Result& result) {
 }
 
 } // namespace
+
+const SegmentResults& most_pressed(const PathResults& results) {
+    return *std::max_element(
+        results.segments.begin(), results.segments.end(),
+        [](const SegmentResults& a, const SegmentResults& b) { return a.force < b.force; });
+}
 
 io::Result scene_result(const Scene& scene) {
     io::Result result;

@@ -15,6 +15,8 @@ namespace asperity {
 
 /// Returns a result with the scene's name, keys and their units.
 io::Result scene_result(const Scene& scene);
+/// Returns the segment that ends under the largest force. Requires a segment.
+const SegmentResults& most_pressed(const PathResults& results);
 /// Returns scene_result() with the statistics of the surface.
 io::Result surface_result(const Case& c, const Surface& surface);
 /// Returns surface_result() with the effects, the results of the path, theory, ranks and threads.

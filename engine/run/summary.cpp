@@ -242,6 +242,17 @@ void print_yielding(std::FILE* to, const Case& c, const PathResults& results, co
         io::number(100.0 * c.fraction(most.yielding.at_hardness), 2), c.path()[most.number].text,
         form.height(last.mean_set), form.height(last.largest_set), form.unit_of_height(),
         io::number(*of("yielding.slope_after"), 4), io::number(*of("yielding.slope_before"), 4));
+    if (const auto area = of("theory.capped.contact_fraction")) {
+        const SegmentResults& pressed = most_pressed(results);
+        io::print_text(to,
+                       "  Persson's theory with a cap (no adhesion, the pressure absorbed at 0 and "
+                       "at the hardness) has at the {} MPa of \"{}\" a contact of {}, of which {} "
+                       "are at the hardness; here {} and {}.\n",
+                       io::number(*of("theory.capped.pressure"), 1), c.path()[pressed.number].text,
+                       io::number(*area, 4), io::number(*of("theory.capped.yielding_fraction"), 4),
+                       io::number(c.fraction(pressed.in_contact), 4),
+                       io::number(c.fraction(pressed.yielding.at_hardness), 4));
+    }
     if (const double tension = *of("yielding.tension_over_hardness"); tension > 1.0)
         io::print_text(to,
                        "  The largest tension of flat surfaces is {} times the hardness: beside "

@@ -152,8 +152,11 @@ StepDecision QuasistaticPath::judge(const RelaxedState& state, const Try& t) con
 /// Returns the outcome of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
     if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
-    const bool apart = interface_.reference_height() + record_.top >= interface_.start_height() &&
-                       std::abs(record_.force) <= 1e-6 * strongest_;
+    // Without attraction a surface with a set is apart far below the heights that it had.
+    const bool clear =
+        interface_.yielding_wall() && !options_.attracts() && record_.in_contact == 0;
+    const bool beyond = interface_.reference_height() + record_.top >= interface_.start_height();
+    const bool apart = (clear || beyond) && std::abs(record_.force) <= 1e-6 * strongest_;
     switch (course_.rule.look(record_.force, apart, slack(record_.in_contact),
                               course_.aim.take_was_cut())) {
     case SegmentRule::End::at_load:

@@ -188,13 +188,15 @@ private:
 };
 
 /// Returns true if `force`, the sum of the forces on the sites, is that of the constraint within
-/// rounding. Collective.
-bool balanced(Response& block, double force, double balance, double rounding) {
+/// rounding. Where nothing attracts, a state without a load bears no force at all: then the sum may
+/// be as large as the minimiser leaves it. Collective.
+bool balanced(Response& block, double force, const RelaxOptions& options, double rounding) {
     const Constraint& constraint = block.constraint();
     if (constraint.is_mean_height()) return true;
     const double sites = static_cast<double>(block.slab().sites) * block.slab().sites;
     const double least = rounding * sites;
-    if (constraint.is_top()) return std::abs(force - block.top_force()) <= std::max(balance, least);
+    if (constraint.is_top())
+        return std::abs(force - block.top_force()) <= std::max(options.balance, least);
     ExactSum sum;
     const PlaneView<const double> f = std::as_const(block).interface_force().z;
     for (int y = 0; y < f.ny; ++y) {
@@ -203,6 +205,9 @@ bool balanced(Response& block, double force, double balance, double rounding) {
         sum.carry();
     }
     const double all = global_sum(block.communicator(), sum), load = constraint.load();
+    if (load == 0.0 && all - force <= load_accuracy * all)
+        return force <=
+               std::max(2.0 * Constants::mean_force_share * options.tolerance * sites, least);
     const double of = load == 0.0 ? all : std::max(std::abs(load), 1e-6 * all);
     return std::abs(force - load) <= std::max(load_accuracy * of, least);
 }
@@ -227,8 +232,8 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
         if (over || state.interrupted || state.residual <= options.tolerance) {
             state.residual = minimiser.conclude();
             state.balanced =
-                balanced(block, global_sum(block.communicator(), minimiser.sums().force_z),
-                         options.balance, rounding);
+                balanced(block, global_sum(block.communicator(), minimiser.sums().force_z), options,
+                         rounding);
             state.converged = state.residual <= options.tolerance && state.balanced;
             if (over || state.interrupted || state.converged) break;
         }

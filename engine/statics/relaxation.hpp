@@ -72,7 +72,8 @@ struct RelaxOptions {
 };
 
 /// Relative accuracy of a load. Zero load is met to this fraction of the sum of the absolute forces
-/// on the sites, and a load below a millionth of this sum to this fraction of the millionth.
+/// on the sites (without attraction, to what the tolerance leaves), and a load below a millionth of
+/// this sum to this fraction of the millionth.
 inline constexpr double load_accuracy = 1e-3;
 
 /// Constants that tune the minimisers, in the scales of the interface (scales.hpp): distances in

@@ -6,7 +6,9 @@
 // (tests/physics/data/README.md).
 #include "engine/case/flat_reference.hpp"
 #include "support/cases.hpp"
+#include "support/run_scene.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -141,6 +143,22 @@ TEST(ZeroLoad, SpectralOnALargerMap) {
     EXPECT_NEAR(r.mean_height, 4.1968680, 2e-5);
     EXPECT_EQ(r.state.in_contact, 2585);
     EXPECT_EQ(r.state.repulsive, 1315);
+}
+
+/// An approach to a wall that attracts nothing ends where the first site touches, without a force,
+/// on boxes of any size.
+TEST(ZeroLoad, WallThatAttractsNothingBearsNothing) {
+    for (const int sites : {24, 48, 96}) {
+        SCOPED_TRACE(sites);
+        const test::Written run(
+            fmt::format("[surface]\nsites = {}\nspacing = 2\nrms = 1.6\nq_max = 12\nseed = 3\n"
+                        "[block]\nyoung = 10\npoisson = 0\n[interface]\nkind = \"wall\"\n"
+                        "adhesion = 0\n[drive]\nmode = \"quasistatic\"\ncontrol = "
+                        "\"mean-height\"\npath = [\"approach\"]\n",
+                        sites));
+        EXPECT_NEAR(run("binding_energy"), 0.0, 1e-9);
+        EXPECT_LE(run("contact_fraction") * sites * sites, 2.0);
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Maps, ReferenceCase, testing::ValuesIn(cases));

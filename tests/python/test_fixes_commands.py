@@ -463,7 +463,8 @@ def test_a_fix_of_a_tip(bad, good):
     for name, heights in (("tip.txt", -(x * x + y * y) / 40), ("slope.txt", 0.1 * x)):
         np.savetxt(name, heights, header="Width: 41 nm\nHeight: 41 nm\nValue units: nm")
     given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "load": None, "range": None,
-             "size": None, "unit": "Å", "channel": None, "sites": None, "error": None, "shape": "sphere", "angle": None, "tip_map": None}
+             "size": None, "unit": "Å", "channel": None, "sites": None, "hardness": None, "shape": "sphere", "angle": None,
+             "tip_map": None, "error": None}
 
     def plan(file=None, **more):
         return tip.plan_of(file, Path("tip"), {**given, **more})

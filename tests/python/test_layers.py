@@ -17,7 +17,7 @@ SUBPACKAGES = {
     "results": ("values", "frames", "losses", "result"),
     "running": ("scene", "program", "lock", "pool", "runs", "engine"),
     "maps": ("channels", "arrays", "text", "columns", "master_curve", "force_curves", "atoms", "convert", "height_map", "missing_waves"),
-    "theories": ("renormalised", "sphere", "indentation", "tip_shape", "viscoelastic", "combined"),
+    "theories": ("renormalised", "sphere", "indentation", "tip_shape", "yielding", "viscoelastic", "combined"),
     "studies": ("grid", "tables", "forecast", "sweeps", "quantities", "variations", "cost_parameters", "cost", "stated_number", "estimate_parts",
                 "estimates", "map_scene", "tip", "prony", "curve_fit", "curves", "states", "stress"),
     "plots": ("style", "run", "prony", "tip", "curve", "stress", "sweep"),

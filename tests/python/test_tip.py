@@ -25,7 +25,8 @@ import tips
 GIVEN = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m"}
 OPTIONS = [word for name, value in GIVEN.items() for word in (f"--{name}", str(value))]
 SITES = 28
-NOT_GIVEN = {**dict.fromkeys(("radius", "angle", "tip_map", "load", "range", "size", "unit", "channel", "sites", "error")), "shape": "sphere"}
+NOT_GIVEN = {**dict.fromkeys(("radius", "angle", "tip_map", "load", "range", "size", "unit", "channel", "sites", "error",
+                             "hardness")), "shape": "sphere"}
 """Arguments of plan_of() that have defaults in tip()."""
 
 

@@ -36,6 +36,7 @@ class Options(Base):
     young: str = option("100GPa", "Young's modulus of the half-space")
     poisson: float = option("0.25", "its Poisson's ratio")
     adhesion: str = option("200mJ/m2", "work of adhesion of flat surfaces")
+    hardness: str | None = option("1GPa", "of the half-space, which then yields (default: it is elastic)", None)
     range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
     size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
@@ -89,10 +90,10 @@ class Adhesion(Named):
 @checks_call
 def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | None = None, adhesion: str | None = None,
              out: str | os.PathLike | None = None, range: str | None = None, size: str | None = None, unit: str | None = None,
-             channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None, *,
-             E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
+             channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None,
+             hardness: str | None = None, *, E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
              file_size: str | None = None, file_unit: str | None = None) -> Adhesion:
-    """Computes the adhesion of an elastic half-space on a measured, rigid map, with its error.
+    """Computes the adhesion of a half-space, elastic or one that yields, on a measured, rigid map, with its error.
 
         found = asperity.adhesion("scan.gwy", young="100 GPa", poisson=0.25, adhesion="200 mJ/m2")
         found.quote(), found.quote("lost.cycle"), found.notes
@@ -121,6 +122,8 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
         Number of simultaneous runs, which share the processors.
     line_noise : str, optional
         Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
+    hardness : str, optional
+        Hardness of the half-space with its unit, the largest pressure that it bears; None: it is elastic.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
 
@@ -168,7 +171,7 @@ def _estimating(given: Options, options: PoolOptions, say: Callable[[str], None]
     store.require_free({place: ["map.npy", f"{stem_of(given.map)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
                         place / "scene": page}, inputs=[given.map])
     made = scene_of(given.map, given.young, given.poisson, given.adhesion, place, reach=given.range, size=given.size, unit=given.unit,
-                    channel=given.channel, sites=given.sites, line_noise=given.line_noise)
+                    channel=given.channel, sites=given.sites, line_noise=given.line_noise, hardness=given.hardness)
     for line in (f"{given.map}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
         say(line)
     return made, Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,

@@ -43,8 +43,9 @@ class Options(Base):
     young: str = option("3GPa", "Young's modulus of the sample")
     poisson: float = option("0.3", "its Poisson's ratio")
     adhesion: str = option("50mJ/m2", "work of adhesion of flat surfaces")
+    hardness: str | None = option("1GPa", "of the sample, which then yields (default: it is elastic)", None)
     stiffness: str = option("0.2N/m", "of the cantilever")
-    load: str | None = option("5nN", "the largest force (default: 1.5πwR)", None)
+    load: str | None = option("5nN", "the largest force (default: 1.5πwR; with --hardness what brings all of the contact to it)", None)
     range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
     size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
@@ -66,9 +67,9 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
         adhesion: str | None = None, stiffness: str | None = None, load: str | None = None, out: str | os.PathLike | None = None,
         range: str | None = None, size: str | None = None, unit: str | None = None, channel: str | None = None,
         sites: int | None = None, jobs: int = 1, shape: str = "sphere", angle: float | None = None,
-        tip_map: str | os.PathLike | None = None, error: str | None = None, *, E: str | None = None, nu: float | None = None, work: str | None = None,
-        w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
-    """Computes the force curve of a tip on an elastic sample, with its numbers and their errors.
+        tip_map: str | os.PathLike | None = None, error: str | None = None, hardness: str | None = None, *, E: str | None = None,
+        nu: float | None = None, work: str | None = None, w: str | None = None, file_size: str | None = None, file_unit: str | None = None) -> Tip:
+    """Computes the force curve of a tip on a sample that is elastic, or yields, with its numbers and their errors.
 
         found = asperity.tip("scan.gwy", radius="20 nm", E="3 GPa", nu=0.3, work="50 mJ/m2", stiffness="0.2 N/m")
         found.number("pull_off_force"), found.drive, found.force
@@ -88,7 +89,7 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
     stiffness : str
         Stiffness of the cantilever with its unit, "0.2 N/m".
     load : str, optional
-        Largest force with its unit; None: 1.5πwR, the pull-off force of JKR.
+        Largest force with its unit; None: 1.5πwR, the pull-off force of JKR; with a hardness the force that brings all of the contact to it.
     out : str or os.PathLike, optional
         Directory; None: results/<map>-tip, or results/tip. Existing runs are reused.
     range : str, optional
@@ -109,6 +110,8 @@ def tip(map: str | os.PathLike | None = None, radius: str | None = None, young: 
         File of the heights of a measured tip, with its size and unit, in place of radius, shape and angle.
     error : str, optional
         Error of the pull-off force over its size, "10%", that decides the number of sites; None: the contact decides.
+    hardness : str, optional
+        Hardness of the sample with its unit, the largest pressure that it bears, under a sphere; None: the sample is elastic.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
 
@@ -218,5 +221,6 @@ def _carry_out(given: Options, voice: Voice) -> int:
 
 
 COMMAND = Command(Options, _carry_out, more=(
-    "A rigid tip on a cantilever is pressed onto an elastic sample, smooth or of a measured map, and pulled off, without periodic "
-    "images: force curve, pull-off and jump-in with their errors, JKR's fit. The same command goes on where it stopped."))
+    "A rigid tip on a cantilever is pressed onto a sample, smooth or of a measured map, and pulled off, without periodic "
+    "images: force curve, pull-off and jump-in with their errors, JKR's fit; with --hardness set, plastic work and what Oliver and Pharr read from "
+    "the unloading. The same command goes on where it stopped."))

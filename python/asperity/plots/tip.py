@@ -44,6 +44,36 @@ def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
     return finish(ax, f"separation by the {over} (nm)", "force on the sample (nN)")
 
 
+def indentation(found: Tip, ax: Axes) -> bool:
+    """Draws the force over the depth of a sample that yields, with what Oliver and Pharr fit to the unloading.
+
+    Parameters
+    ----------
+    found : Tip
+        Contact of a tip.
+    ax : Axes
+        Axes to draw into.
+
+    Returns
+    -------
+    bool
+        True: there is always something to draw.
+    """
+    shown = found.tip < _extent(found, found.tip) / 4
+    for words, part, colour in (("loading", ~found.retracting, BLUE), ("unloading", found.retracting, RED)):
+        curve(ax, -found.tip[part & shown], found.force[part & shown], words, colour=colour, marker="")
+    if (read := found.unloading) is not None and not read.failed:
+        top = int(np.argmax(found.force))
+        deepest, most = -found.tip[top], found.force[top]
+        depth = np.linspace(max(read.fitted_depth, deepest - 1.5 * most / read.slope), deepest, 100)
+        at_top = read.slope * (deepest - read.fitted_depth) / read.exponent
+        law = at_top * ((depth - read.fitted_depth) / (deepest - read.fitted_depth)) ** read.exponent
+        curve(ax, depth, law, "power law, fitted", colour=GREY, line="--", marker="")
+        line = np.array([deepest - most / read.slope, deepest])
+        curve(ax, line, most + read.slope * (line - deepest), "slope", colour=GREY, line=":", marker="")
+    return finish(ax, "depth (nm)", "force on the sample (nN)")
+
+
 def _extent(found: Tip, place: np.ndarray) -> float:
     """Returns the largest separation to be drawn, nm, somewhat beyond the range of the contact."""
     touching = np.abs(found.force) > 0.002 * np.abs(found.force).max()

@@ -14,14 +14,15 @@ import numpy as np
 from .. import terminal
 from ..files import store
 from ..plots.run import map_of
-from ..plots.tip import force_curve
+from ..plots.tip import force_curve, indentation
 from ..studies.stated_number import Number, finite, rounded, saved
 from ..studies.tip import CURVE, RESULT, RUN_OF, Tip
+from ..theories.yielding import EPSILON, UPPER, YieldingSphere
 from .estimate import lines_of
 from .page import Page, page_files
 from .run import end
 
-FIGURES = ("force-drive", "force-tip", "pressure", "gap")
+FIGURES = ("force-drive", "force-tip", "indentation", "pressure", "gap")
 FILES = [RESULT, CURVE, *page_files(FIGURES)]
 DEFINED = ("Forces press if they are positive. λ is Maugis' parameter with the largest stress w/range of the attraction, Tabor's number is "
            "(R w²/E*²)^(1/3) over the range: above λ = 5 JKR holds, below 0.1 DMT, between Maugis. E* = E/(1-ν²).")
@@ -44,22 +45,44 @@ def _cells(n: Number) -> list[str]:
     return [_plain(n.symbol), value, error, n.unit, n.reason or parts]
 
 
+OVER = "pull-off over 1.5πR"
+
+
 def _compared(found: Tip) -> list[list[str]]:
-    """Returns the rows of what was put in and what an experimentalist would have found."""
-    contact, fit = found.contact, found.fit
+    """Returns the head and the rows of what was put in and what an experimentalist would have found."""
+    contact, fit, pulled = found.contact, found.fit, found.number("pull_off_force")
+    by_pull_off = f"{1e3 * pulled.estimate / (1.5 * np.pi * contact.radius):.4g}"
+    if contact.yields:
+        read = [" ± ".join(found.number(path).cells).removesuffix(" ± ") for path in ("hardness", "modulus")]
+        return [["", "put in", "Oliver and Pharr", OVER], ["hardness, GPa", f"{contact.hardness:.4g}", read[0], ""],
+                ["E*, GPa", f"{contact.modulus:.4g}", read[1], ""],
+                ["work of adhesion, mJ/m²", f"{1e3 * contact.work:.4g}", "", "not stated" if pulled.reason else by_pull_off]]
     work = [rounded(1e3 * fit.work, 1e3 * fit.work_error), rounded(fit.modulus, fit.modulus_error)]
-    pulled = found.number("pull_off_force")
-    by_pull_off = f"{1e3 * pulled.estimate / (1.5 * np.pi * contact.radius):.4g}" if contact.shape is None and not fit.failed else ""
     shown = [" ± ".join(pair) for pair in work] if not fit.failed else ["no fit", "no fit"]
-    return [["work of adhesion, mJ/m²", f"{1e3 * contact.work:.4g}", shown[0], by_pull_off],
+    return [["", "put in", "JKR fitted to the retraction", OVER],
+            ["work of adhesion, mJ/m²", f"{1e3 * contact.work:.4g}", shown[0], by_pull_off if contact.shape is None and not fit.failed else ""],
             ["E*, GPa", f"{contact.modulus:.4g}", shown[1], ""]]
 
 
-COMPARED = ["", "put in", "JKR fitted to the retraction", "pull-off over 1.5πR"]
+def _fit(found: Tip) -> str:
+    """Returns the sentence on the fit."""
+    if (read := found.unloading) is not None:
+        return (f"No fit of Oliver and Pharr: {read.failed}." if read.failed else
+                f"Oliver and Pharr: a power law of the exponent {read.exponent:.3g}, fitted to the unloading from {100 * UPPER[1]:g} to "
+                f"{100 * UPPER[0]:g} % of the largest force, has a slope of {read.slope:.4g} N/m at the largest depth; less {EPSILON:g} F/slope "
+                f"the contact is {read.contact_depth:.4g} nm deep, and the sphere has an area of {read.area:.4g} nm² there (β = 1).")
+    return found.fit.failed or f"The fit misses the curve by {found.fit.misfit:.2g} nN rms; its errors are those of the fit alone."
 
 
 def _theory(found: Tip) -> str:
     contact = found.contact
+    if contact.yields:
+        most = float(found.force.max())
+        sphere = YieldingSphere(contact.radius, contact.modulus, contact.hardness, contact.work)
+        return (f"A smooth tip without adhesion begins to yield at {contact.first_yield:.3g} nN; the largest force is "
+                f"{most / contact.first_yield:.3g} times that. A contact that is all at the hardness under it comes off with "
+                f"{sphere.pull_off(most):.4g} nN if the attraction is short (Mesarovic and Johnson). The model is a cap on the pressure: no "
+                "pile-up, no hardening.")
     if contact.shape is not None:
         return (f"The tip is a {contact.words}: its end alone has Maugis' λ {contact.parameter:.3g}, Tabor's number {contact.tabor:.3g}: "
                 f"{contact.model}. By JKR the pull-off force of the whole smooth tip is {contact.pull_off_by_jkr():.3g} nN.")
@@ -81,10 +104,9 @@ def text_of(found: Tip) -> str:
         Tables and lines to quote.
     """
     rows = [[cells[0], cells[1], cells[2], cells[3]] for cells in map(_cells, found.numbers)]
-    fit = found.fit
-    said = fit.failed or f"the fit misses the curve by {fit.misfit:.2g} nN rms; its errors are those of the fit alone"
+    head, *compared = _compared(found)
     return "\n".join([terminal.table(["tip", "value", "error", "unit"], rows), "", *lines_of(found.numbers), "",
-                      terminal.table(COMPARED, _compared(found)), "", f"  {said}", "", _theory(found)])
+                      terminal.table(head, compared), "", _fit(found), "", _theory(found)])
 
 
 def answer_of(found: Tip) -> dict[str, Any]:
@@ -107,7 +129,12 @@ def answer_of(found: Tip) -> dict[str, Any]:
     fit: dict[str, Any] = {key: finite(value) for key, value in found.fit._asdict().items() if key != "failed"}
     if found.fit.failed:
         fit = {"failed": found.fit.failed}
-    return {"numbers": saved(found.numbers), "fit": fit, "contact": contact, "notes": found.notes}
+    answer: dict[str, Any] = {"numbers": saved(found.numbers), "fit": fit, "contact": contact, "notes": found.notes}
+    if (read := found.unloading) is not None:
+        contact |= {"hardness": found.contact.hardness, "first_yield": found.contact.first_yield}
+        answer["unloading"] = {"failed": read.failed} if read.failed else {key: finite(value) for key, value in read._asdict().items()
+                                                                           if key != "failed"}
+    return answer
 
 
 def _material(found: Tip) -> list[list[str]]:
@@ -140,8 +167,11 @@ def write(found: Tip) -> Path:
     page = Page(found.directory, "asperity tip", f"A {found.contact.words} on {found.contact.stiffness:g} N/m", lead)
     page.section("curve", "Force curve")
     page.figure(FIGURES[0], "As the instrument shows it", "The drive moves the far end of the cantilever.", lambda ax: force_curve(found, ax))
-    page.figure(FIGURES[1], "Against the place of the tip", "The drive less the deflection of the cantilever, with JKR's fit.",
-                lambda ax: force_curve(found, ax, "tip"))
+    page.figure(FIGURES[1], "Against the place of the tip", "The drive less the deflection of the cantilever" + ", with JKR's fit" *
+                (not found.contact.yields) + ".", lambda ax: force_curve(found, ax, "tip"))
+    if found.contact.yields:
+        page.figure(FIGURES[2], "Indentation", "Force over the depth below the undeformed surface; the law that Oliver and Pharr fit to the "
+                    "unloading, and its slope at the largest depth.", lambda ax: indentation(found, ax))
     page.section("contact", "The contact at zero load")
     for name, heading in (("pressure", "Pressure"), ("gap", "Gap")):
         if STATE in found.result.fields:
@@ -155,8 +185,9 @@ def write(found: Tip) -> Path:
     page.section("material", "Tip and sample")
     page.table([], _material(found))
     page.section("fit", "What an experimentalist would have found")
-    page.table(COMPARED, _compared(found))
-    page.add("paragraph", found.fit.failed or f"The fit misses the curve by {found.fit.misfit:.2g} nN rms; its errors are those of the fit alone.")
+    head, *compared = _compared(found)
+    page.table(head, compared)
+    page.add("paragraph", _fit(found))
     page.add("paragraph", _theory(found))
     page.add("paragraph", DEFINED)
     page.section("notes", "Notes")

@@ -239,6 +239,8 @@ class Segment(Values):
     """Å: displacement of the top plane at the end of the segment"""
     contact_fraction: float
     """contact fraction at the end of the segment"""
+    contact_area: float
+    """area in contact with a wall at the end of the segment, as contact_area"""
     yielding_fraction: float
     """sites whose net pressure is the hardness"""
     mean_set: float
@@ -253,6 +255,8 @@ class Yielding(Values):
     """Å: mean permanent set of a surface that yields"""
     largest_set: float
     """Å: largest permanent set of a site"""
+    largest_fraction: float
+    """largest share of sites at the hardness at the end of a segment"""
     tension_over_hardness: float
     """largest tension of flat surfaces divided by the smallest hardness, w/"""
     rms_before: float
@@ -331,6 +335,16 @@ class TheoryPersson(Values):
     note: str
     """reason why the theory has no solution for this scene"""
 
+class TheoryCapped(Values):
+    pressure: float
+    """MPa: largest pressure at the end of a segment of a surface that yields, for which Persson's theory with a cap ..."""
+    contact_fraction: float
+    """contact area at that pressure by Persson's theory with a cap"""
+    yielding_fraction: float
+    """part of the area at the hardness at that pressure, by Persson's theory with a cap"""
+    note: str
+    """reason why the theory with a cap does not apply to this scene"""
+
 class TheoryRenormalised(Values):
     gamma_eff: float
     """meV/Å^2: effective work of adhesion, renormalised theory"""
@@ -394,6 +408,7 @@ class TheorySliding(Values):
 
 class Theory(Values):
     persson: TheoryPersson
+    capped: TheoryCapped
     renormalised: TheoryRenormalised
     sphere: TheorySphere
     sliding: TheorySliding

@@ -64,6 +64,8 @@ def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
             least, most = -size if wall else -INFINITE, 0.0
         if not unpressed:
             least, most = -INFINITE, most if q.path.startswith("binding_energy") else INFINITE
+    elif q.path == "yielding.largest_fraction":
+        most = 1.0
     elif q.path in ("contact_fraction", AREA.path, "slide.steady_contact_area"):
         most = 1.0
         unresolved = f"contact of {round(value * sites**2)} of {round(sites**2)} sites"

@@ -31,7 +31,7 @@ from ..running.scene import Overrides, SceneLike, assignments, file_beside, inpu
 from ..units import GIGAPASCAL
 from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
 from .forecast import Forecast
-from .quantities import CURVED, FLAT, number_of, quantities_of
+from .quantities import CURVED, FLAT, YIELDING, number_of, quantities_of
 from .stated_number import Found, Number
 from .variations import Study, Variation
 
@@ -47,6 +47,8 @@ PINNED = 1.3
 """A factor of the pull-off force (Case::edge_pinning) above which a path over a wall says nothing of its strength."""
 OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "pull_off_stress", "pull_off_force", "jkr.pull_off")
 """Numbers that the edge of a contact and the range of the attraction decide."""
+OF_YIELD = (*(one.path for one in YIELDING), "dissipated_in_surface.cycle")
+"""Numbers that the range of the attraction decides."""
 
 
 @checks_calls
@@ -337,7 +339,7 @@ class Estimating(Study):
         if seeds is not None and not (isinstance(seeds, Integral) and 2 <= seeds <= 1000):
             raise SceneError(f"seeds = {seeds}", "is no number of surfaces to average over", "it is from 2 to 1000",
                              "leave it out for 8, or 4 with a path")
-        self.withheld, self.condition = withheld, condition
+        self.withheld, self.of_range, self.condition = withheld, withheld, condition
         pinning = self.answer.get("edge_pinning", 1.0)
         if varied.moves and pinning > PINNED and not withheld:
             self.withheld = ("the spacing does not resolve the range of the attraction, and rows of sites hold the edge of the contact "
@@ -368,7 +370,10 @@ class Estimating(Study):
         for part in self.plan.parts if self.judged else []:
             if part.name == "waves":
                 part.what, part.relative = self.judged.what, self.judged.relative
-        of_path = ", ".join(q.symbol for q in (CURVED if keys["surface"]["radius"] != "none" else FLAT) if q.path in OF_A_PATH)
+        known = CURVED if keys["surface"]["radius"] != "none" else FLAT
+        if keys["interface"]["hardness"] != "none" and self.of_range:
+            known += YIELDING
+        of_path = ", ".join(q.symbol for q in known if q.path in OF_A_PATH + OF_YIELD)
         self.unstated = [("the numbers", self.judged.withheld)] if self.judged and self.judged.withheld else \
             [(of_path, self.withheld)] if self.withheld and varied.moves else []
 
@@ -413,9 +418,10 @@ class Estimating(Study):
         result = self.plan.scene.outcome.result
         judged = self.judged
         numbers = _numbers(self.plan, result.number("scene.surface.radius") is not None, judged.withheld if judged else "")
-        for path in OF_A_PATH:
+        for path in (*OF_A_PATH, *OF_YIELD):
             if path in numbers:
-                numbers[path].withheld, numbers[path].condition = numbers[path].withheld or self.withheld, self.condition
+                why = self.withheld if path in OF_A_PATH else self.of_range
+                numbers[path].withheld, numbers[path].condition = numbers[path].withheld or why, self.condition
         parts = [{"name": p.name, "group": p.group, "what": p.what, "failed": p.failed if complete else ""}
                  for p in self.plan.parts]
         notes = self.notes + ([judged.note] if judged and judged.note else [])

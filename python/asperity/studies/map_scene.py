@@ -59,12 +59,14 @@ class Units(NamedTuple):
         return list(dict.fromkeys(found)) or [f"{text or 1} {unit}" for unit in self.usual]
 
 
-UNITS = {"young": Units(("GPa", "MPa"), "Pa", 1e3, 3e12), "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
+UNITS = {"young": Units(("GPa", "MPa"), "Pa", 1e3, 3e12), "hardness": Units(("GPa", "MPa"), "Pa", 1e3, 3e11),
+         "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
          "range": Units(("Å", "nm"), "m", 1e-12, 1e-5), "size": Units(("nm", "µm"), "m", 1e-9, 1e-2),
          "radius": Units(("nm", "µm"), "m", 1e-10, 1e-3), "stiffness": Units(("N/m", "mN/m"), "N/m", 1e-5, 1e5)}
 
 
 ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhesion": "adhesion", "interface.range": "range",
+             "interface.hardness": "hardness",
              "surface.radius": "radius", "drive.stiffness": "stiffness",
              "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
@@ -129,6 +131,20 @@ def with_unit(name: str, value: object) -> str:
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
                          "write the one that is meant: " + " or ".join(f'--{name} "{one}"' for one in UNITS[name].meant(text)))
     return text
+
+
+def with_hardness(value: object) -> dict[str, str]:
+    """Returns the keys of [interface] of a hardness with its unit; none if it is not given."""
+    return {} if value is None else {"hardness": with_unit("hardness", value)}
+
+
+def hardness_of(keys: Values, value: object) -> float | None:
+    """Returns the hardness in the keys of a scene, GPa; None if none is given. Raises SceneError if it is not one above zero."""
+    found = keys.number("interface.hardness")
+    if value is not None and not (found or 0.0) > 0.0:
+        raise SceneError(f"hardness = {value}", "is no hardness above zero", "it is the largest pressure that the solid bears",
+                         'for example "1 GPa", or leave it out for an elastic solid')
+    return found
 
 
 def read_square(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
@@ -222,7 +238,7 @@ class MapScene(NamedTuple):
 
 def scene_of(file: str, young: object, poisson: float, adhesion: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             line_noise: str | None = None) -> MapScene:
+             line_noise: str | None = None, hardness: object = None) -> MapScene:
     """Writes the scene of a map and the map beside it, after all checks.
 
     Parameters
@@ -249,6 +265,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         Sites along an edge; None: as many as the map has points, 256 at most.
     line_noise : str, optional
         Treatment of noise from line to line (surface.line_noise).
+    hardness : object
+        Hardness of the half-space with its unit; None: it is elastic.
 
     Returns
     -------
@@ -263,7 +281,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
     sections: dict[str, dict[str, Any]] = {"block": {"young": with_unit("young", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32},
                 "interface": {"kind": "wall", "adhesion": with_unit("adhesion", adhesion),
-                              "range": with_unit("range", reach or RANGE)}, "drive": {"path": ["relax"]}}
+                              "range": with_unit("range", reach or RANGE), **with_hardness(hardness)},
+                "drive": {"path": ["approach"], "mode": "quasistatic"}}
     asked = None if size is None else edge_of(size)
     choices = [None, *program.schema()["surface.line_noise"]["choices"]]
     if line_noise not in choices:
@@ -273,6 +292,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
         raise SceneError.of([{**one, "where": "", "what": named(one["what"])} for one in error.listed]) from None
+    hard = hardness_of(keys, hardness)
     if not keys.needed("interface.adhesion") > 0.0:
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = read_square(file, unit, asked, channel)
@@ -316,6 +336,9 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
                          f"{work / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
                          f"map stores {flattened:.3g} of the {1e3 * work * MILLIJOULE:.3g} mJ/m^2 of the work of adhesion",
                          f"{sites_for(rms)}a map with smaller pixels; or, if the attraction does reach so far, {longer}")
+    if hard is not None and work / used > hard * GIGAPASCAL:
+        notes.append(f"the largest tension of the attraction, {work / used / GIGAPASCAL:.3g} GPa, is more than the hardness: beside contacts "
+                     "it is more than such a solid bears, and tension does not yield here")
     withheld = condition = ""
     if used > 1.001 * asked:
         notes.append(f"the range of the attraction is {used:.4g} Å in place of {asked:.4g} Å, which a spacing of "
@@ -335,7 +358,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
                          "line_noise": line_noise},
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
-                           "frictionless": True},
+                           "frictionless": True, **({} if hard is None else {"hardness": hard})},
              "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
     stem = stem_of(file)
     with store.outputs(place, ("map.npy", f"{stem}.toml"), inputs=[file]) as out:

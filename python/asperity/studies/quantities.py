@@ -37,6 +37,8 @@ CURVED = (Quantity("pull_off_force", "F_off", "pull-off force", 1), Quantity("jk
           Quantity("contact_radius.relaxed", "a", "contact radius at zero load", 1))
 AREA = Quantity("contact_area", "A/A₀", "contact area over the nominal area", 1)
 """Over a wall instead of the contact area fraction."""
+YIELDING = (Quantity("yielding.largest_fraction", "A_H/A₀", "area fraction at the hardness, the largest of the path", 1),
+            Quantity("yielding.largest_set", "s_max", "largest permanent set of a site", 1))
 SLIDING = (Quantity("slide.friction_stress", "τ", "friction stress of the last slide", 2),
            Quantity("slide.friction_coefficient", "μ", "friction coefficient of the last slide", 2),
            Quantity("slide.steady_contact_area", "A_slide/A₀", "contact area of the last slide over the nominal area", 1))
@@ -58,9 +60,10 @@ def quantities_of(result: Values, curved: bool) -> tuple[Quantity, ...]:
         The quantities; each loss beside `lost` is one.
     """
     flat = tuple(AREA if q.path == "contact_fraction" and AREA.path in result else q for q in FLAT)
+    yielding = YIELDING if result.part("yielding") else ()
     return (CURVED if curved else flat + tuple(
         Quantity(name + ".cycle", f"w_{place}", f"energy dissipated in the {place} in a cycle", 1) for place, name in losses(result).items()
-    )) + (SLIDING if slide_of(result) else ())
+    )) + yielding + (SLIDING if slide_of(result) else ())
 
 
 def slide_of(result: Values) -> Values | None:
@@ -142,7 +145,7 @@ def grain_of(result: Values, path: str, value: float) -> float:
     """
     flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
     sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
-    if path in ("contact_fraction", AREA.path, "slide.steady_contact_area"):
+    if path in ("contact_fraction", AREA.path, "slide.steady_contact_area", "yielding.largest_fraction"):
         return 1.0 / sites**2
     if path == "contact_radius.relaxed":
         return spacing**2 / (2.0 * math.pi * max(value, spacing))

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""A tip on a cantilever, pressed onto an elastic sample and pulled off: scenes, force curve, and JKR's fit to it.
+"""A tip on a cantilever, pressed onto a sample that is elastic, or yields, and pulled off: scenes, force curve, JKR's fit to it, and the
+hardness and modulus that an instrument reads from the unloading.
 
 Tip and roughness are one rigid surface that faces a flat elastic half-space, without periodic images. The scene is run unchanged,
 and with a coarser spacing, a wider box and longer steps; the differences give the parts of the errors. Lengths are in nm, forces in
@@ -32,9 +33,10 @@ from ..running import program
 from ..running.scene import scene_file, toml_of
 from ..theories.sphere import RATIOS, jkr, maugis
 from ..theories.tip_shape import STEEPEST, TipShape, measured_tip
+from ..theories.yielding import FULLY, Unloading, YieldingSphere, oliver_pharr
 from ..units import ATTOJOULE, MILLIJOULE, NANONEWTON, conversion
 from .forecast import START, Forecast, Size, seconds_of
-from .map_scene import SITE_BYTES, edge_of, length, named, read_square, with_unit
+from .map_scene import SITE_BYTES, edge_of, hardness_of, length, named, read_square, with_hardness, with_unit
 from .stated_number import NAN, Found, Number, WithNumbers, numbers_of
 
 FEWEST, MOST = 64, 256
@@ -66,13 +68,15 @@ LARGE = 0.15
 """Error of the pull-off force over its size from which a note says what reduces it."""
 CUT = 0.02
 """Attraction beyond the box over the pull-off force from which JKR is not fitted."""
+ALL_AT_HARDNESS = 0.9
+"""Share of the contact at the hardness from which the load over the area is the hardness."""
 JKR_FROM, DMT_BELOW = 5.0, 0.1
 """Maugis' parameter."""
 
 
 class Contact(NamedTuple):
-    """A tip on a half-space: radius of its end, E*, work of adhesion, range of the attraction, stiffness of the cantilever, and the shape
-    of a tip that is no sphere."""
+    """A tip on a half-space: radius of its end, E*, work of adhesion, range of the attraction, stiffness of the cantilever, the shape
+    of a tip that is no sphere, and the hardness (infinite: the half-space is elastic)."""
 
     radius: float
     modulus: float
@@ -80,6 +84,17 @@ class Contact(NamedTuple):
     range: float
     stiffness: float
     shape: TipShape | None = None
+    hardness: float = math.inf
+
+    @property
+    def yields(self) -> bool:
+        """True if the half-space has a hardness."""
+        return math.isfinite(self.hardness)
+
+    @property
+    def first_yield(self) -> float:
+        """Load of the first yield without adhesion, nN."""
+        return YieldingSphere(self.radius, self.modulus, self.hardness).first_yield
 
     @property
     def stiffness_of_contact(self) -> float:
@@ -101,11 +116,13 @@ class Contact(NamedTuple):
         """Tabor's number (R w²/E*²)^(1/3)/range."""
         return float(np.cbrt(self.radius * self.work**2 / self.modulus**2)) / self.range
 
-    @property
-    def step(self) -> float:
-        """Step of the drive, nm. It moves the force by a hundredth of πwR, through cantilever and contact in series, or the tip by a
-        tenth of the length over which the attraction or the contact changes; at most the range, by which the tip moves before contact."""
+    def step(self, load: float) -> float:
+        """Returns the step of the drive, nm. It moves the force by a hundredth of πwR, through cantilever and contact in series, or the tip by a
+        tenth of the length over which the attraction or the contact changes; at most the range, by which the tip moves before contact.
+        A contact at the hardness changes over 2HA/E*."""
         contact = float(np.cbrt((self.unit / self.stiffness_of_contact) ** 2 / self.radius))
+        if self.yields:
+            contact = max(contact, 2 * math.sqrt(load * self.hardness / math.pi) / self.modulus)
         series = 1 / self.stiffness + 1 / (2 * self.modulus * self.radius_at(0.0))
         return min(self.range, max(0.01 * self.unit * series, 0.1 * min(self.range, contact)))
 
@@ -140,21 +157,29 @@ class Contact(NamedTuple):
         return math.hypot(OF_SPACING * spacing / contact.radius_at(0.0), longer, OF_STEP)
 
     def radius_at(self, force: float) -> float:
-        """Returns JKR's contact radius under a force, nm."""
+        """Returns JKR's contact radius under a force, nm; at least that of a contact at the hardness which bears the attraction too."""
         if self.shape:
             a, _, forces = self.shape.contact(self.modulus, self.work, force)
             stable = slice(int(np.argmin(forces)), None)
             return float(np.interp(force, forces[stable], a[stable]))
         f = 3 * self.unit
-        return float(np.cbrt(self.radius / self.stiffness_of_contact * (force + f + math.sqrt(2 * f * force + f * f))))
+        elastic = float(np.cbrt(self.radius / self.stiffness_of_contact * (force + f + math.sqrt(2 * f * force + f * f))))
+        return max(elastic, math.sqrt((force + 2 * self.unit) / (math.pi * self.hardness)))
 
     def force_at(self, radius: float) -> float:
-        """Returns JKR's force at a contact radius, nN."""
+        """Returns the force at a contact radius by the rule of radius_at(), nN."""
         if self.shape:
             a, _, forces = self.shape.contact(self.modulus, self.work, 3 * self.unit)
             return float(np.interp(radius, a, forces))
         cubed = self.stiffness_of_contact * radius**3
-        return cubed / self.radius - math.sqrt(6 * self.unit / self.radius * cubed)
+        return min(cubed / self.radius - math.sqrt(6 * self.unit / self.radius * cubed), math.pi * radius**2 * self.hardness - 2 * self.unit)
+
+    @property
+    def load(self) -> float:
+        """Largest force unless another one is given, nN: JKR's pull-off force; on a sample that yields the force from which all of the
+        contact is at the hardness, if slopes stay gentle."""
+        elastic = 1.5 * self.unit
+        return max(elastic, min(FULLY * self.first_yield, 0.8 * self.force_at(WIDEST * self.radius))) if self.yields else elastic
 
 
 class Fit(NamedTuple):
@@ -195,7 +220,7 @@ class Plan:
             return {}
         why = (f"the range of the attraction decides, and is {self.contact.range:.3g} nm, which the spacing resolves, in place of "
                f"{self.asked_range:.3g} nm: that takes {(self.contact.range / self.asked_range) ** 2:.2g} times as many sites along an edge (sites)")
-        return dict.fromkeys(("jump_in_distance", "lost"), why)
+        return dict.fromkeys(("jump_in_distance", "lost", *["pull_off_force"] * self.contact.yields), why)
 
 
 @checks_calls
@@ -203,6 +228,7 @@ class Plan:
 class Tip(WithNumbers):
     """Contact of a tip: numbers with their errors, the force curve, the fit of JKR, the smooth sphere's theory.
 
+    unloading                       what Oliver and Pharr read from the unloading of a sample that yields
     drive, tip, force, retracting   the curve: separation of the undeformed surfaces by the drive (the piezo) and by the tip,
                                     nm; force on the sample, nN, pressing is positive; True on the way out
     """
@@ -217,6 +243,7 @@ class Tip(WithNumbers):
     result: Result
     notes: list[str]
     directory: Path
+    unloading: Unloading | None = None
 
     def columns(self) -> dict[str, np.ndarray]:
         """Returns the force curve as columns."""
@@ -240,8 +267,8 @@ def _checked(given: dict[str, Any], radius: str) -> Values:
     return Values(_asked({"surface": {"kind": "flat", "sites": 32, "boundary": "free", "radius": radius},
                           "block": {"young": with_unit("young", given["young"]), "poisson": given["poisson"]},
                           "interface": {"kind": "wall", "adhesion": with_unit("adhesion", given["adhesion"]),
-                                        "range": with_unit("range", given["range"] or RANGE)},
-                          "drive": {"path": ["relax"], "mode": "quasistatic",
+                                        "range": with_unit("range", given["range"] or RANGE), **with_hardness(given["hardness"])},
+                          "drive": {"path": ["approach"], "mode": "quasistatic",
                                     "stiffness": with_unit("stiffness", given["stiffness"])}})["scene"])
 
 
@@ -264,9 +291,9 @@ def _scene(keys: Values, contact: Contact, load: float) -> dict[str, dict[str, A
     return {"surface": {"radius": f"{contact.radius:.10g} nm", "boundary": "free"} if contact.shape is None else {"boundary": "free"},
             "block": {"young": keys.number("block.young"), "poisson": keys.number("block.poisson")},
             "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": f"{contact.range:.10g} nm",
-                          "frictionless": True},
+                          "frictionless": True, **({"hardness": contact.hardness} if contact.yields else {})},
             "drive": {"mode": "quasistatic", "path": ["approach", "pull-off"], "load": f"{load:.10g} nN", "stiffness": contact.stiffness,
-                      "displacement_step": f"{contact.step:.10g} nm"},
+                      "displacement_step": f"{contact.step(load):.10g} nm"},
             "output": {"fields": ["relaxed"], "trajectory": "none"}}
 
 
@@ -364,7 +391,8 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     place : Path
         Directory to write to.
     given : dict
-        Arguments of tip(): shape, angle, tip_map, radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, error.
+        Arguments of tip(): shape, angle, tip_map, radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, error,
+        hardness.
 
     Returns
     -------
@@ -393,9 +421,12 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     poisson = keys.needed("block.poisson")
     contact = Contact(0.1 * keys.needed("surface.radius"), keys.needed("block.young") / (1 - poisson**2),
                       1e-3 * MILLIJOULE * keys.needed("interface.adhesion"), 0.1 * keys.needed("interface.range"), keys.needed("drive.stiffness"),
-                      shape)
+                      shape, hardness_of(keys, given["hardness"]) or math.inf)
+    if contact.yields and shape is not None:
+        raise SceneError("hardness", f"is given for a tip that is a {shape.words}", "the load of the first yield and the area that the unloading "
+                         "tells are those of a sphere", "leave out hardness, or take a sphere (radius alone)")
     asked = contact.range
-    load = float(f"{1.5 * contact.unit:.2g}") if given["load"] is None else _force(given["load"])
+    load = float(f"{contact.load:.2g}") if given["load"] is None else _force(given["load"])
     sample, rms = None, 0.0
     if file is not None:
         heights, edge, said = read_square(file, given["unit"], size, given["channel"])
@@ -467,7 +498,7 @@ def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
     beyond = 1.5 * as_sphere.unit * checked[""].needed("beyond_edges.part")
     scenes = {part: _written(place, name, scene, _heights(sample, shape, box, across), box, across)
               for part, (name, box, across) in boxes.items()}
-    return Plan(scenes, contact, load, asked, notes, f"drive.displacement_step={LONGER * contact.step:.10g} nm", width / sites, beyond,
+    return Plan(scenes, contact, load, asked, notes, f"drive.displacement_step={LONGER * contact.step(load):.10g} nm", width / sites, beyond,
                 math.hypot(expected(sites), beyond / (1.5 * contact.unit)), error)
 
 
@@ -632,7 +663,34 @@ def _measured(result: Result, contact: Contact) -> _Measured:
         missing["jump_in_distance"] = "the tip comes into contact without a jump: the cantilever is stiffer than the attraction"
     if not values["contact_radius"] > 0:
         missing["contact_radius"] = "the surfaces are apart at zero load"
+    if (unloading := _unloading(contact, tip, force)) is not None:
+        top = int(np.argmax(force))
+        values |= {"largest_depth": -float(tip[top]), "residual_depth": _depth_without_force(-tip[top:], force[top:]),
+                   "hardness": unloading.hardness, "modulus": unloading.modulus, "largest_set": 0.1 * result.number("yielding.largest_set", NAN),
+                   "plastic_work": float(result.series["dissipated_in_surface"][-1] / ATTOJOULE)}
+        if not values["largest_set"] > 0:
+            missing |= dict.fromkeys(("residual_depth", "hardness"), "the sample has not yielded: press more (load)")
+        elif unloading.failed:
+            missing |= dict.fromkeys(("hardness", "modulus"), unloading.failed)
     return _Measured(values, missing, errors)
+
+
+def _unloading(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Unloading | None:
+    """Returns what Oliver and Pharr read from the curve of a sample that yields; None: it is elastic."""
+    top = int(np.argmax(force))
+    return oliver_pharr(contact.radius, -tip[top:], force[top:]) if contact.yields else None
+
+
+def _depth_without_force(depth: np.ndarray, force: np.ndarray) -> float:
+    """Returns the depth at which an unloading has no force, nm; NaN if it ends before."""
+    after = int(np.argmax(force <= 0))
+    return float(np.interp(0.0, force[[after, after - 1]], depth[[after, after - 1]])) if force[after] <= 0 and after > 0 else NAN
+
+
+def _share_at_hardness(result: Result) -> float:
+    """Returns the share of the contact that is at the hardness under the largest force."""
+    pressed = Values(result.listed("segments", dict)[0])
+    return pressed.number("yielding_fraction", 0.0) / max(pressed.number("contact_fraction", 0.0), 1e-9)
 
 
 def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
@@ -667,6 +725,8 @@ def _fitted(contact: Contact, tip: np.ndarray, force: np.ndarray) -> Fit:
 
 def _fit_of(plan: Plan, pulled: Number, tip: np.ndarray, force: np.ndarray) -> Fit:
     """Fits JKR to the retraction of a sphere whose pull-off force is known."""
+    if plan.contact.yields:
+        return Fit(failed="a sample that yields does not unload as an elastic sphere")
     if plan.contact.shape is not None:
         return Fit(failed=f"JKR's closed form is that of a sphere, and the tip is a {plan.contact.words}")
     if pulled.reason or plan.beyond > CUT * pulled.value:
@@ -696,6 +756,11 @@ NUMBERS = {"pull_off_force": ("F_pull-off", "largest attraction on the way out",
            "jump_in_distance": ("d_jump-in", "separation of the undeformed surfaces at which the tip jumps in", "nm"),
            "contact_radius": ("a_0", "contact radius at zero load, of the area as a circle", "nm"),
            "lost": ("W_lost", "energy lost in a cycle", "aJ")}
+OF_YIELDING = {"largest_depth": ("h_max", "depth under the largest force", "nm"),
+               "residual_depth": ("h_r", "depth at which the unloading has no force", "nm"),
+               "hardness": ("H_OP", "hardness by Oliver and Pharr", "GPa"), "modulus": ("E*_OP", "E* by Oliver and Pharr", "GPa"),
+               "largest_set": ("s_max", "largest permanent set", "nm"), "plastic_work": ("W_p", "plastic work, beside the energy lost", "aJ")}
+"""Numbers of a sample that yields."""
 
 
 def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
@@ -719,7 +784,7 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
     others = {part: _measured(result, plan.contact) for part, result in results.items() if part}
     used = bool(plan.not_stated)
     numbers = []
-    for path, (symbol, name, unit) in NUMBERS.items():
+    for path, (symbol, name, unit) in (NUMBERS | (OF_YIELDING if plan.contact.yields else {})).items():
         value = own.values[path]
         parts = {part: Found(0.0, PARTS[part] * abs(value - measured.values[path])) for part, measured in others.items()}
         withheld = own.missing.get(path, "")
@@ -734,7 +799,9 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
             parts["range"] = Found(0.0, abs(plan.contact.pull_off() - plan.contact._replace(range=plan.asked_range).pull_off()))
         radius = own.values["contact_radius"]
         grain = GRAIN * abs(value) * plan.spacing / radius if path in ("pull_off_force", "lost") and radius > 0 else 0.0
-        condition = "" if used else f"for a range of {plan.contact.range:.3g} nm"
+        condition = "" if used or path in OF_YIELDING else f"for a range of {plan.contact.range:.3g} nm"
+        if path == "hardness" and (share := _share_at_hardness(results[""])) < ALL_AT_HARDNESS:
+            condition = f"of a contact of which {100 * share:.2g} % is at the hardness: below that of the sample"
         numbers.append(Number(path, symbol, name, unit, value, {} if withheld else parts, least=0.0, grain=grain, withheld=withheld,
                               condition=condition))
     drive, tip, force, segment = _curve(results[""])
@@ -744,7 +811,7 @@ def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
     if edge < 0.5:
         notes.append(f"the contact comes within {edge:.2g} nm of the edge of the box: press less")
     return Tip(numbers, drive, tip, force, out, plan.contact, _fit_of(plan, numbers[0], tip[out], force[out]), results[""],
-               notes, place)
+               notes, place, _unloading(plan.contact, tip, force))
 
 
 @checks_call
@@ -775,6 +842,7 @@ def load_tip(directory: str | os.PathLike) -> Tip:
     shape = contact.find("shape")
     drive, tip, force, retracting = np.loadtxt(place / CURVE, delimiter=",", skiprows=1, unpack=True)
     described = [contact.needed(name) for name in ("radius", "modulus", "work", "range", "stiffness")]
-    return Tip(numbers_of(found.part("numbers")), drive, tip, force, retracting == 1, Contact(*described, shape and TipShape.loaded(shape)),
+    made = Contact(*described, shape and TipShape.loaded(shape), contact.number("hardness", math.inf))
+    return Tip(numbers_of(found.part("numbers")), drive, tip, force, retracting == 1, made,
                Fit(**{name: NAN if value is None else value for name, value in fit.items()}), Result(place / "tip"),
-               found.listed("notes", str), place)
+               found.listed("notes", str), place, _unloading(made, tip, force))
