@@ -398,9 +398,9 @@ inline constexpr Quantity written_quantities[] = {
      "digest of the values read from surface.file: heights and width of a map, or positions and "
      "types of atoms. A sweep reuses a result only if the digest is unchanged"},
     {"surface.own.rms", "Å", "", "rms height of the block's surface, with surface.counter"},
-    {"surface.own.rms_slope", "1", "", "its rms slope"},
+    {"surface.own.rms_slope", "1", "", "rms slope of the block's surface, with surface.counter"},
     {"surface.counter.rms", "Å", "", "rms height of the second solid's surface"},
-    {"surface.counter.rms_slope", "1", "", "its rms slope"},
+    {"surface.counter.rms_slope", "1", "", "rms slope of the second solid's surface"},
     {"surface.counter.file_digest", "", "",
      "digest of the values read from surface.counter, as surface.file_digest"},
     {"surface.correlation", "1", "",

@@ -142,8 +142,8 @@ Surface with_key(const Case& c, const char* key, const Make& make) {
     }
 }
 
-/// Returns the surface of a map. whole: of the whole map with the spacing of the box in place of
-/// that in the box.
+/// Returns the surface of a map in the box. whole: true returns that of the whole map, with the
+/// spacing of the box.
 Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions options, bool whole,
                        const Communicator& world) {
     const std::string key(field.how.quantity.key);
@@ -173,7 +173,7 @@ Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions opt
     if (whole && covered != options.sites) {
         options.length *= static_cast<double>(covered) / options.sites;
         options.sites = covered;
-        options.periodic = options.repeats = false; // of the box that is cut out of it
+        options.periodic = options.repeats = false; // the box is cut out of it
     }
     Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
     surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
@@ -230,7 +230,7 @@ Surface own_surface(const Case& c, const SurfaceOptions& options, const Communic
 Surface surface_of(const Case& c, const Communicator& world) {
     require_memory_for_heights(c);
     SurfaceOptions own = c.surface;
-    if (own.counter) own.radius = 0.0; // of the pair
+    if (own.counter) own.radius = 0.0; // the pair has it
     Surface surface = with_key(c, c.scene.surface.reads_file() ? "surface.file" : "surface.kind",
                                [&] { return own_surface(c, own, world); });
     if (own.counter)

@@ -49,10 +49,10 @@ inline double cap_of(double radius, double dx, double dy) {
 
 /// The two surfaces of a pair of rough solids; the heights of each are outwards from its own solid.
 struct SurfacePair {
-    SurfaceStatistics own, counter; ///< of the block's surface, and of the second solid's
+    SurfaceStatistics own, counter; ///< statistics of the block's surface, and the second solid's
     /// Heights of the second solid in its place, Å: turned over, turned and shifted.
     std::vector<double> counter_height;
-    double correlation = 0.0;  ///< of the heights, 1 for equal ones; 0 if one surface is flat
+    double correlation = 0.0;  ///< correlation of the heights; 0 if one surface is flat
     double band_overlap = 0.0; ///< overlap of the spectra, 1 for proportional ones, 0 for disjoint
     std::uint32_t digest = 0;  ///< CRC-32 of the values read from the file of the second solid
 };

@@ -282,7 +282,7 @@ io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
         ranks.on_root([&] {
             std::vector<double> u = surface_displacement(block.counter_block(), pressure);
             for (double& z : u)
-                z *= -units::gigapascal; // of GPa, and into the second solid
+                z *= -units::gigapascal; // the pressure is in GPa, and pushes down
             put_member<double>(entry, data_set, "u_z_counter", {n, n}, u);
         });
     put("distance", of_box(whole(ranks, grid, maps.distance)));

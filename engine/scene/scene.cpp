@@ -116,8 +116,10 @@ void bind_counter(io::Schema& schema, Scene::Surface::Counter& counter, const Ne
         .number("counter_shift_x", counter.shift_x, "Å", {},
                 "shift of the second solid along x, after its turn")
         .needs = {needs.counter};
-    schema.number("counter_shift_y", counter.shift_y, "Å", {}, "its shift along y").needs = {
-        needs.counter};
+    schema
+        .number("counter_shift_y", counter.shift_y, "Å", {},
+                "shift of the second solid along y, after its turn")
+        .needs = {needs.counter};
     schema
         .number("counter_turn", counter.turn, "", between(-360.0, 360.0),
                 "turn of the second solid about the middle of its map, degrees, counter-clockwise "
@@ -129,7 +131,7 @@ void bind_counter(io::Schema& schema, Scene::Surface::Counter& counter, const Ne
         .needs = {needs.counter};
     schema
         .number("counter_poisson", counter.poisson, "", io::Range{-1.0, 0.5, true, true},
-                "its Poisson's ratio")
+                "Poisson's ratio of the second solid")
         .needs = {needs.counter, needs.elastic_counter};
     bind_layers(schema, "counter_layers", counter.layers,
                 "coatings of the second solid, from its surface inwards, as block.layers; it is "

@@ -117,7 +117,7 @@ struct Scene {
             double turn = 0.0;                   ///< degrees, counter-clockwise from above
             std::optional<double> young{};       ///< GPa; empty: rigid
             double poisson = 0.42;
-            std::vector<std::array<double, 3>> layers{}; ///< as Block::layers
+            std::vector<std::array<double, 3>> layers{}; ///< rows as in Block::layers
             double surface_stress = 0.0;                 ///< N/m
 
             bool given() const { return file != "none" && !file.empty(); }

@@ -193,7 +193,7 @@ Surface counter_in_box(const SurfaceOptions& box, const Surface& whole, const Co
     Surface counter = surface_from_heights(
         options, in_place(whole.height, whole.sites, spacing, place), whole.sites, whole.sites);
     counter.file_digest = whole.file_digest;
-    counter.doubts = whole.doubts; // of the file, not of the map in its place
+    counter.doubts = whole.doubts; // doubts belong to the file
     counter.notes.insert(counter.notes.begin(), whole.notes.begin(), whole.notes.end());
     if (!place.is_quarter())
         counter.notes.push_back(fmt::format(

@@ -30,7 +30,7 @@ struct CounterPlace {
     bool is_quarter() const;
 };
 
-/// Turns the map of a second solid over and moves it to its place. heights: n x n points at this
+/// Returns the map of a second solid, turned over and in its place. heights: n x n points at this
 /// spacing, Å; the map repeats.
 std::vector<double> in_place(std::vector<double> heights, int n, double spacing,
                              const CounterPlace& place);

@@ -224,7 +224,7 @@ class SecondSolid(NamedTuple):
         Parameters
         ----------
         file : str, optional
-            File of its map.
+            File of the map.
         young : object
             Young's modulus with its unit.
         poisson : float, optional
@@ -238,7 +238,7 @@ class SecondSolid(NamedTuple):
         Raises
         ------
         SceneError
-            It has a modulus without a map, or a Poisson's ratio without a modulus.
+            A modulus is given without a map, or a Poisson's ratio without a modulus.
         """
         if file is None and (young is not None or poisson is not None):
             raise SceneError(f"counter_young = {young}" if young is not None else f"counter_poisson = {poisson}", "has no effect",
