@@ -28,7 +28,8 @@ with style():
         box = {"origin": "lower", "extent": (0, edge, 0, edge)}
         if heights is None:
             ax.imshow(run.substrate.height, cmap="Greys_r", alpha=0.5, **box)
-            ax.imshow(np.ma.masked_less_equal(pressure, 0), cmap=PRESSURE.with_extremes(bad="none"), vmin=-np.max(pressure), vmax=np.max(pressure), **box)
+            most = np.max(pressure)
+            ax.imshow(np.ma.masked_less_equal(pressure, 0), cmap=PRESSURE.with_extremes(bad="none"), vmin=-most, vmax=most, **box)
         else:
             ax.imshow(heights, cmap=GAP, **box)
         ax.set_title(title, fontsize=9)

@@ -199,7 +199,8 @@ def test_stresses_in_each_solid(tmp_path, maps, coated):
 def test_a_slide_moves_the_second_map(tmp_path, maps):
     made = scene(tmp_path, *maps, counter_young=70, counter_poisson=0.2)
     made["interface"]["adhesion"] = 0.0
-    made["drive"] |= {"path": ["approach", "slide x 2.5 Å", "slide y 1 Å"], "load": 800.0, "control": "mean-height", "displacement_step": 0.1, "tolerance": 1e-4}
+    made["drive"] |= {"path": ["approach", "slide x 2.5 Å", "slide y 1 Å"], "load": 800.0, "control": "mean-height", "displacement_step": 0.1,
+                      "tolerance": 1e-4}
     made["output"] = {"fields": ["segments"]}
     slid = run(tmp_path, "slid", made)
     there = slid.fields["segment-2"]

@@ -434,13 +434,13 @@ class SurfaceOwn(Values):
     rms: float
     """Å: rms height of the block's surface, with surface.counter"""
     rms_slope: float
-    """its rms slope"""
+    """rms slope of the block's surface, with surface.counter"""
 
 class SurfaceCounter(Values):
     rms: float
     """Å: rms height of the second solid's surface"""
     rms_slope: float
-    """its rms slope"""
+    """rms slope of the second solid's surface"""
     file_digest: str
     """digest of the values read from surface.counter, as surface.file_digest"""
 
@@ -641,13 +641,13 @@ class SceneSurface(Values):
     counter_shift_x: Any
     """Å: shift of the second solid along x, after its turn"""
     counter_shift_y: Any
-    """Å: its shift along y"""
+    """Å: shift of the second solid along y, after its turn"""
     counter_turn: Any
     """turn of the second solid about the middle of its map, degrees, counter-clockwise from above"""
     counter_young: Any
     """GPa: Young's modulus of the second solid"""
     counter_poisson: Any
-    """its Poisson's ratio"""
+    """Poisson's ratio of the second solid"""
     counter_layers: Any
     """coatings of the second solid, from its surface inwards, as block.layers"""
     counter_surface_stress: Any
