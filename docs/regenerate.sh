@@ -43,6 +43,10 @@ made $gallery/tip.png
 "$python" $gallery/coating.py $place/coating $gallery/coating.png
 made $gallery/coating.png
 
+./asperity run scenes/ring/ring-and-liner.toml --progress off --out $place/ring-and-liner >$place/log.txt
+"$python" $gallery/pair.py $place/ring-and-liner $gallery/pair.png
+made $gallery/pair.png
+
 "$python" $gallery/examples.py
 made $gallery/examples-*.svg
 

@@ -340,7 +340,7 @@ HeightMap read_map_file(const std::string& name, const MapOptions& said) {
                            longest_edge),
                "cut a piece out of it before");
     complete(map, units, said);
-    if (said.quantity.unit == MapQuantity().unit) note_doubts(map);
+    if (said.quantity.unit == MapQuantity().unit) note_doubts(map, said.quantity.key);
     return map;
 }
 

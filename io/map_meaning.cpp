@@ -135,20 +135,20 @@ void complete(HeightMap& map, const MapUnits& units, const MapOptions& said) {
     if (quantity.unit == MapQuantity().unit && !(largest <= largest_height))
         refuse(map.source, fmt::format("a height of the map is {:g} Å", largest),
                fmt::format("that is more than {:g} Å (10 cm)", largest_height),
-               fmt::format("the heights are read in {}: set surface.file_unit, or mark points "
-                           "without a height as nan",
-                           map.unit));
+               fmt::format("the heights are read in {}: set {}_unit, or mark points without a "
+                           "height as nan",
+                           map.unit, quantity.key));
 }
 
-void note_doubts(HeightMap& map) {
+void note_doubts(HeightMap& map, std::string_view key) {
     const auto rows = map.rows, columns = map.columns;
     if (map.width) {
         const double pixel = *map.width / static_cast<double>(columns);
         if (pixel > largest_pixel || pixel < smallest_pixel)
             map.doubts.push_back(
                 fmt::format("the map is {:.4g} m wide, its pixels are {:.3g} Å: check the unit of "
-                            "its size (surface.file_size)",
-                            1e-10 * *map.width, pixel));
+                            "its size ({}_size)",
+                            1e-10 * *map.width, pixel, key));
     }
     // The lowest and the highest height, how many points have them, and those next to them.
     std::vector<double> sorted;

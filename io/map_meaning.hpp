@@ -27,7 +27,7 @@ struct MapUnits {
 void complete(HeightMap& map, const MapUnits& units, const MapOptions& said);
 
 /// Adds possible mistakes in the file to map.doubts: sizes that no map of roughness has, a value
-/// that marks missing points, several maps in one.
-void note_doubts(HeightMap& map);
+/// that marks missing points, several maps in one. key: key of the scene that names the map.
+void note_doubts(HeightMap& map, std::string_view key);
 
 } // namespace asperity::io

@@ -35,10 +35,11 @@ namespace asperity {
 
 /// A scene, checked and complete.
 struct Case {
-    Scene scene;            ///< scene of the case
-    int ranks = 1;          ///< number of ranks of the case
-    std::string file;       ///< path of the file of the map or atoms; empty: none
-    SurfaceOptions surface; ///< options of the substrate; a map with rms = 0 keeps its own
+    Scene scene;              ///< scene of the case
+    int ranks = 1;            ///< number of ranks of the case
+    std::string file;         ///< path of the file of the map or atoms; empty: none
+    SurfaceOptions surface;   ///< options of the substrate; a map with rms = 0 keeps its own
+    std::string counter_file; ///< path of the file of the map of a second solid; empty: none
     OutputOptions output;
     MapTimes maps;
     TheoryOptions theory;

@@ -5,6 +5,7 @@
 #include "engine/case/case.hpp"
 #include "engine/case/site_field.hpp"
 #include "engine/case/spacing_limits.hpp"
+#include "engine/surface/pair.hpp"
 
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
@@ -126,71 +127,128 @@ void require_memory_for_heights(const Case& c) {
 
 } // namespace
 
-Surface surface_of(const Case& c, const Communicator& world) {
-    require_memory_for_heights(c);
-    const auto& s = c.scene.surface;
-    SurfaceOptions options = c.surface;
+namespace {
+
+/// Calls make(). Adds its std::invalid_argument to the problems of a key.
+template <class Make>
+Surface with_key(const Case& c, const char* key, const Make& make) {
     try {
-        if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
-        if (options.kind != SurfaceKind::file) return make_surface(options);
-        io::HeightMap map = read_field(heights_of(c), world);
-        options.map_edge = map.width.value_or(0.0);
-        const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
-        if (points != covered && s.resample == Resample::none)
-            throw std::invalid_argument(fmt::format(
-                "the map in {} has {} x {} values, but covers {} x {} atoms of the substrate; give "
-                "a map of that size, set surface.sites = {}, or let it be resampled with "
-                "surface.resample = \"band-limited\"",
-                s.file, points, points, covered, covered, points));
-        // The resampled map and its waves, before the box is cut out of it.
-        if (points != covered)
-            io::require_memory(s.file, "the resampled map",
-                               32.0 * covered * static_cast<double>(covered));
-        const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
-        if (options.map_edge <= 0.0)
-            map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as "
-                                            "wide as the box, {:.6g} Å (surface.file_size)",
-                                            edge));
-        const double width = map.width.value_or(0.0);
-        const std::uint32_t digest =
-            io::digest_of(std::as_bytes(std::span(&width, 1)),
-                          io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
-        Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
-        surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
-        surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
-        surface.origin = std::move(map.origin);
-        surface.file_digest = digest;
-        surface.notes.insert(
-            surface.notes.begin(),
-            fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
-                        std::filesystem::path(s.file).filename().string(), points, points,
-                        edge / points, edge, map.unit));
-        surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
-        if (surface.statistics.rms > surface.length)
-            throw std::invalid_argument(fmt::format(
-                "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; {}",
-                surface.statistics.rms, map.unit, surface.length,
-                surface.doubts.empty()
-                    ? "correct the unit of the file (surface.file_unit), or its size"
-                    : fmt::format("{}", fmt::join(surface.doubts, "; "))));
-        for (std::string& note : notes_on_roughness(surface.statistics.rms,
-                                                    surface.statistics.rms_slope, surface.length))
-            surface.notes.push_back(std::move(note));
-        const double softness = lattice_softness(c.simulation.block, surface.statistics);
-        if (softness < 0.97)
-            surface.notes.push_back(fmt::format(
-                "the roughness has waves of a few spacings, for which a lattice is softer than a "
-                "continuum: to flatten this map takes {:.0f} % less energy than q E*/2 for each "
-                "wave; resample it on more sites (surface.resample) for a continuum's numbers",
-                100.0 * (1.0 - softness)));
-        return surface;
+        return make();
     } catch (const std::invalid_argument& e) {
         io::Problems problems = c.scene.problems();
-        problems.add(s.reads_file() ? "surface.file" : "surface.kind",
-                     std::string(": ") + e.what());
+        problems.add(key, std::string(": ") + e.what());
         problems.throw_if_any();
         throw;
     }
+}
+
+/// Returns the surface of a map in the box. whole: true returns that of the whole map, with the
+/// spacing of the box.
+Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions options, bool whole,
+                       const Communicator& world) {
+    const std::string key(field.how.quantity.key);
+    io::HeightMap map = read_field(field, world);
+    options.map_edge = map.width.value_or(0.0);
+    const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
+    if (points != covered && c.scene.surface.resample == Resample::none)
+        throw std::invalid_argument(fmt::format(
+            "the map in {} has {} x {} values, but covers {} x {} {}; give a map of that size, "
+            "set surface.sites = {}, or let it be resampled with surface.resample = "
+            "\"band-limited\"",
+            field.name, points, points, covered, covered,
+            c.surface.counter ? "sites" : "atoms of the substrate", points));
+    // The resampled map and its waves, before the box is cut out of it.
+    if (points != covered)
+        io::require_memory(field.name, "the resampled map",
+                           32.0 * covered * static_cast<double>(covered));
+    const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
+    if (options.map_edge <= 0.0)
+        map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as wide "
+                                        "as the box, {:.6g} Å ({}_size)",
+                                        edge, key));
+    const double width = map.width.value_or(0.0);
+    const std::uint32_t digest =
+        io::digest_of(std::as_bytes(std::span(&width, 1)),
+                      io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
+    if (whole && covered != options.sites) {
+        options.length *= static_cast<double>(covered) / options.sites;
+        options.sites = covered;
+        options.periodic = options.repeats = false; // the box is cut out of it
+    }
+    Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
+    surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
+    surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
+    surface.origin = std::move(map.origin);
+    surface.file_digest = digest;
+    surface.notes.insert(surface.notes.begin(),
+                         fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
+                                     std::filesystem::path(field.name).filename().string(), points,
+                                     points, edge / points, edge, map.unit));
+    surface.notes.insert(surface.notes.begin() + 1, map.notes.begin(), map.notes.end());
+    if (surface.statistics.rms > surface.length)
+        throw std::invalid_argument(fmt::format(
+            "the heights of the map, {:.4g} Å rms in {}, are larger than the box, {:.6g} Å; {}",
+            surface.statistics.rms, map.unit, surface.length,
+            surface.doubts.empty()
+                ? fmt::format("correct the unit of the file ({}_unit), or its size", key)
+                : fmt::format("{}", fmt::join(surface.doubts, "; "))));
+    return surface;
+}
+
+/// Returns the surface of the second solid in the box.
+Surface counter_of(const Case& c, const Communicator& world) {
+    const Scene::Surface::Counter& keys = c.scene.surface.counter;
+    SurfaceOptions box = c.surface;
+    box.kind = SurfaceKind::file;
+    box.rms = box.radius = 0.0;
+    box.holes = false;
+    const FieldFile field = counter_heights_of(c);
+    const Surface whole = surface_of_map(c, field, box, true, world);
+    const CounterPlace place{keys.turn, keys.shift_x, keys.shift_y};
+    if (whole.sites > box.sites && keys.crop == MapCrop::none)
+        throw std::invalid_argument(fmt::format(
+            "the map is {:.6g} Å wide, and the box {:.6g} Å; take "
+            "surface.counter_crop = \"middle\" to cut the box out of it, or stretch the "
+            "map on purpose with surface.counter_size = {:.6g}",
+            whole.length, box.length, box.length));
+    if (!place.is_quarter())
+        io::require_memory(field.name, "the turned map",
+                           400.0 * whole.sites * static_cast<double>(whole.sites));
+    return counter_in_box(box, whole, place);
+}
+
+/// Returns the surface of the block, or of the substrate of a case without a second solid.
+Surface own_surface(const Case& c, const SurfaceOptions& options, const Communicator& world) {
+    if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
+    if (options.kind == SurfaceKind::file)
+        return surface_of_map(c, heights_of(c), options, false, world);
+    return make_surface(options);
+}
+
+} // namespace
+
+Surface surface_of(const Case& c, const Communicator& world) {
+    require_memory_for_heights(c);
+    SurfaceOptions own = c.surface;
+    if (own.counter) own.radius = 0.0; // the pair has it
+    Surface surface = with_key(c, c.scene.surface.reads_file() ? "surface.file" : "surface.kind",
+                               [&] { return own_surface(c, own, world); });
+    if (own.counter)
+        surface = with_key(c, "surface.counter", [&] {
+            return pair_of(c.surface, std::move(surface), counter_of(c, world));
+        });
+    if (own.kind != SurfaceKind::file && !own.counter) return surface;
+    for (std::string& note :
+         notes_on_roughness(surface.statistics.rms, surface.statistics.rms_slope, surface.length))
+        surface.notes.push_back(std::move(note));
+    const double softness = lattice_softness(c.simulation.block, surface.statistics);
+    if (softness < 0.97)
+        surface.notes.push_back(fmt::format(
+            "the roughness has waves of a few spacings, for which a lattice is softer than a "
+            "continuum: to flatten this map takes {:.0f} % less energy than q E*/2 for each wave; "
+            "resample it on more sites (surface.resample) for a continuum's numbers",
+            100.0 * (1.0 - softness)));
+    return surface;
 }
 
 std::vector<std::string> notes_of(const Case& c, const Surface& surface) {
@@ -204,7 +262,7 @@ std::vector<std::string> examine(const Case& c, const Communicator& world) {
     io::Problems problems = c.scene.problems();
     for (const io::Problem& problem : c.refused)
         problems.add(problem);
-    if (c.scene.surface.reads_file()) {
+    if (c.surface.reads_file()) {
         try {
             notes = notes_of(c, surface_of(c, world));
         } catch (const io::SceneError& error) {

@@ -89,6 +89,19 @@ void check_path(const Case& c, io::Problems& problems) {
                 refuse("over a surface that yields",
                        "the heights move under the block, and a set by sliding is another one",
                        "leave interface.hardness out");
+            if (c.scene.surface.counter.given() && c.scene.surface.radius)
+                refuse("of a curved solid over another (surface.counter, surface.radius)",
+                       "the sum of two spheres moves with neither of them",
+                       "leave surface.radius or surface.counter out");
+            if (c.scene.surface.counter.given() && segment.until_steady)
+                refuse("over a second solid", "a rough block has no shape that slides on unchanged",
+                       "leave \"until steady\" out, and give the slide a length");
+            if (c.scene.surface.counter.given() && c.output.stress.points != StressPoints::none &&
+                c.output.stress.friction == 0.0)
+                refuse("over a second solid with output.stress",
+                       "of two rough solids the pressure acts on slopes of both, and the friction "
+                       "at each place is not known",
+                       "give output.stress_friction, a friction in phase with the pressure");
             for (const SiteMapKeys* map : c.scene.interface.site_maps())
                 refuse(fmt::format("over a field of the {}", map->of.words),
                        "the heights move under the block, and the field would stay",
@@ -125,6 +138,34 @@ void check_path(const Case& c, io::Problems& problems) {
     }
 }
 
+/// Checks that the layers of a solid are not too thin for the lattice, nor too thick for the block.
+void check_thickness(const Scene& scene, const char* key,
+                     const std::vector<std::array<double, 3>>& layers, io::Problems& problems) {
+    const bool continuum = scene.block_model() == BlockModel::continuum;
+    double sum = 0.0; // in cells
+    for (std::size_t i = 0; i < layers.size(); ++i) {
+        const double thickness = layers[i][0], spacing = scene.surface.spacing;
+        if (thickness < 0.5 * spacing && !continuum) {
+            problems.add(
+                key, fmt::format("has a layer {} of {:.4g} Å", i + 1, thickness),
+                fmt::format("a lattice layer is {:.4g} Å thick (surface.spacing)", spacing),
+                "take a thicker layer or a smaller surface.spacing");
+            return;
+        }
+        sum += continuum ? thickness / spacing : std::round(thickness / spacing);
+    }
+    if (!layers.empty() && sum >= scene.block.thickness && !scene.has_free_edges())
+        problems.add(
+            key,
+            fmt::format("are {:.6g} lattice layers thick, {:.4g} Å", sum,
+                        sum * scene.surface.spacing),
+            fmt::format("a solid has {} (block.thickness), and its own material is beyond its "
+                        "layers",
+                        scene.block.thickness),
+            fmt::format("take block.thickness = {:.0f} or more, or thinner layers",
+                        sum + std::max(1.0, 0.5 * scene.surface.sites)));
+}
+
 /// Checks the layers and the surface stress of the block.
 void check_layers(const Case& c, io::Problems& problems) {
     const Scene& scene = c.scene;
@@ -135,29 +176,9 @@ void check_layers(const Case& c, io::Problems& problems) {
                      "branches relax the whole stiffness of a wave, and the tension of a surface "
                      "does not relax",
                      "leave surface_stress or prony out");
-    const bool continuum = scene.block_model() == BlockModel::continuum;
-    double sum = 0.0; // in cells
-    for (std::size_t i = 0; i < block.layers.size(); ++i) {
-        const double thickness = block.layers[i][0], spacing = scene.surface.spacing;
-        if (thickness < 0.5 * spacing && !continuum) {
-            problems.add(
-                "block.layers", fmt::format("has a layer {} of {:.4g} Å", i + 1, thickness),
-                fmt::format("a lattice layer is {:.4g} Å thick (surface.spacing)", spacing),
-                "take a thicker layer or a smaller surface.spacing");
-            return;
-        }
-        sum += continuum ? thickness / spacing : std::round(thickness / spacing);
-    }
-    if (!block.layers.empty() && sum >= block.thickness && !scene.has_free_edges())
-        problems.add(
-            "block.layers",
-            fmt::format("are {:.6g} lattice layers thick, {:.4g} Å", sum,
-                        sum * scene.surface.spacing),
-            fmt::format("the block has {} (block.thickness), and its own material is above "
-                        "its layers",
-                        block.thickness),
-            fmt::format("take block.thickness = {:.0f} or more, or thinner layers",
-                        sum + std::max(1.0, 0.5 * scene.surface.sites)));
+    check_thickness(scene, "block.layers", block.layers, problems);
+    if (scene.surface.counter.is_elastic())
+        check_thickness(scene, "surface.counter_layers", scene.surface.counter.layers, problems);
 }
 
 /// Checks what a surface that yields cannot have.
@@ -479,6 +500,8 @@ std::vector<std::string> notes_on_keys(const Case& c) {
             "describes small strains",
             load, block.layers.empty() || block.free_edges ? "block" : "softest layer of the block",
             100.0 * strain));
+    if (surface.counter.given() && !surface.counter.is_elastic())
+        list.push_back("the second solid is rigid (surface.counter_young)");
     for (const MaterialLayer& layer : c.simulation.block.layers) {
         if (c.simulation.block.continuum) break;
         const std::ptrdiff_t number = &layer - c.simulation.block.layers.data() + 1;

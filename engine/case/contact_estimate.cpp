@@ -21,7 +21,7 @@ constexpr double negligible = 1e-3; ///< part of the pull-off force
 
 /// Returns 1 / (S^-1)_zz of a wave along x, eV/Å^2 per site.
 double normal_stiffness(const BlockOptions& block, double phase) {
-    return 1.0 / inverse(block.stiffness({std::cos(phase), std::sin(phase)}, {1.0, 0.0})).zz;
+    return 1.0 / block.normal_compliance({std::cos(phase), std::sin(phase)}, {1.0, 0.0});
 }
 
 } // namespace
@@ -29,18 +29,16 @@ double normal_stiffness(const BlockOptions& block, double phase) {
 double contact_modulus_at(const BlockOptions& block, double q) {
     const double phase = std::clamp(q * block.spacing, least_phase, largest_phase);
     const bool deep = block.free_edges || phase * block.thickness > 10.0;
-    if (deep && block.layers.empty() && block.surface_stress == 0.0) return block.contact_modulus();
-    BlockOptions own = block, plain = block;
+    if (deep && !block.is_coated()) return block.contact_modulus();
+    BlockOptions own = block, plain = block.uncoated();
     plain.thickness = 1 << 30;
     if (block.free_edges) own.thickness = plain.thickness;
-    plain.layers.clear();
-    plain.surface_stress = 0.0;
     return block.contact_modulus() * normal_stiffness(own, phase) / normal_stiffness(plain, phase);
 }
 
 double modulus_under_load(const BlockOptions& block) {
     if (block.free_edges) return contact_modulus_at(block, 2.0 * std::numbers::pi / block.edge());
-    return block.stiffness({}, {}).zz * block.thickness / block.spacing;
+    return block.thickness / (block.normal_compliance({}, {}) * block.spacing);
 }
 
 double edge_strip(const BlockOptions& block, double adhesion, double range) {

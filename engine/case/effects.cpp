@@ -41,7 +41,7 @@ std::vector<std::pair<const char*, Effect>> Effects::list() const {
             {"coarse levels", coarse_levels}, {"skipping of far sites", skipping},
             {"sliding", sliding}, {"long-range tail", tail},
             {"numbers of each site", site_maps}, {"curvature", curvature},
-            {"free edges", free_edges}, {"viscoelastic block", branches}, {"layers", layers},
+            {"second solid", counter}, {"free edges", free_edges}, {"viscoelastic block", branches}, {"layers", layers},
             {"surface stress", surface_stress}, {"yielding surface", yielding}, {"spring of the machine", spring},
             {"relaxation", relaxation},
             {"energies and contact", observation}, {"maps", maps}, {"trajectory", trajectory},
@@ -120,12 +120,27 @@ Effects effects_of(const Case& c) {
                   s.block.prony.empty()
                       ? "block.prony = []"
                       : fmt::format("block.prony has {} of them", s.block.prony.size())};
-    e.layers = {!s.block.layers.empty(),
-                s.block.layers.empty()
-                    ? "block.layers = []"
-                    : fmt::format("block.layers has {} of them", s.block.layers.size())};
-    e.surface_stress = {s.block.surface_stress > 0.0,
-                        fmt::format("block.surface_stress = {:.4g} N/m", s.block.surface_stress)};
+    const Scene::Surface::Counter& counter = s.surface.counter;
+    e.counter = {counter.given(), fmt::format("surface.counter = \"{}\"", counter.file)};
+    const auto of_either = [&](bool own, bool others, auto of_own, auto of_other) {
+        return Effect{own || (counter.is_elastic() && others),
+                      own || !(counter.is_elastic() && others) ? of_own() : of_other()};
+    };
+    const auto layers = [](const char* key, const auto& list) {
+        return list.empty() ? fmt::format("{} = []", key)
+                            : fmt::format("{} has {} of them", key, list.size());
+    };
+    e.layers = of_either(
+        !s.block.layers.empty(), !counter.layers.empty(),
+        [&] { return layers("block.layers", s.block.layers); },
+        [&] { return layers("surface.counter_layers", counter.layers); });
+    const auto tension = [](const char* key, double value) {
+        return fmt::format("{} = {:.4g} N/m", key, value);
+    };
+    e.surface_stress = of_either(
+        s.block.surface_stress > 0.0, counter.surface_stress > 0.0,
+        [&] { return tension("block.surface_stress", s.block.surface_stress); },
+        [&] { return tension("surface.counter_surface_stress", counter.surface_stress); });
     e.yielding = {s.interface.hardness.has_value(),
                   s.interface.hardness_map.given()
                       ? fmt::format("interface.hardness = \"{}\"", s.interface.hardness_map.source)
@@ -183,13 +198,19 @@ NoTheory no_theory(const Scene& scene, const Effects& effects) {
                     fmt::format("the {} differs from site to site", map->of.words),
                     fmt::format("of one {}", map->of.words),
                     fmt::format("give interface.{} a number, for example the mean", map->of.name));
+    if (effects.counter && effects.branches && effects.sliding)
+        return none("surface.counter", "the block may be rough itself, and slides",
+                    "of a flat block that slides", "leave surface.counter out");
+    const auto key_of = [](const Effect& effect) {
+        return effect.why.substr(0, effect.why.find(' '));
+    };
     if (effects.layers)
-        return none(
-            "block.layers", "the block has layers", one_modulus,
-            "leave block.layers out, with block.young that of the material that bends most");
+        return none(key_of(effects.layers), "a solid has layers", one_modulus,
+                    fmt::format("leave {} out, with the modulus of the material that bends most",
+                                key_of(effects.layers)));
     if (effects.surface_stress)
-        return none("block.surface_stress", "the surface has a tension", one_modulus,
-                    "leave block.surface_stress out");
+        return none(key_of(effects.surface_stress), "a surface has a tension", one_modulus,
+                    fmt::format("leave {} out", key_of(effects.surface_stress)));
     return {};
 }
 

@@ -39,10 +39,11 @@ struct Effects {
         tail,           ///< continuum correction beyond the cutoff
         site_maps,      ///< numbers of the interface that differ from site to site
         curvature,      ///< a spherical cap under the roughness
+        counter,        ///< a second solid with a surface of its own
         branches,       ///< memory of a viscoelastic block
         free_edges,     ///< a box without periodic images
-        layers,         ///< coatings of the block
-        surface_stress, ///< tension of the block's surface
+        layers,         ///< coatings of a solid
+        surface_stress, ///< tension of a solid's surface
         yielding,       ///< a surface that yields at its hardness
         spring,         ///< a spring that holds the top plane
         relaxation,     ///< states of equilibrium
@@ -53,7 +54,7 @@ struct Effects {
         theory,         ///< Persson's theory for the same scene
         device;         ///< time steps on a device in place of the processor
 
-    /// Returns true if the block has no layers and no surface stress, as the theories assume.
+    /// Returns true if the solids have no layers and no surface stress, as the theories assume.
     bool one_modulus() const { return !layers && !surface_stress; }
     /// Returns true if the contact ends within the box: of a sphere, or with free edges.
     bool bounded_contact() const { return curvature || free_edges; }

@@ -27,27 +27,42 @@ namespace asperity {
 
 namespace {
 
-/// Returns the file of kind = "file" or "atoms".
-std::string file_of(const Scene& scene, io::Problems& problems) {
-    if (!scene.surface.reads_file()) return {};
-    const bool atoms = scene.surface.kind == SurfaceKind::atoms;
-    std::string file = scene.surface.file, dataset;
+/// Returns the path of the file that a key names, with the data set of a map; empty, with a
+/// problem, if there is none. required_by: text of the problem if the scene does not set the key.
+std::string path_of_map(const Scene& scene, const std::string& key, const std::string& name,
+                        bool atoms, const std::string& required_by, io::Problems& problems) {
+    std::string file = name, dataset;
     if (const std::size_t colon = file.find(":/"); colon != std::string::npos && !atoms) {
         dataset = file.substr(colon);
         file.resize(colon);
     }
-    if (const std::string found = find_beside_scene(scene, file, "surface.file"); !found.empty())
+    if (const std::string found = find_beside_scene(scene, file, key); !found.empty())
         return found + dataset;
-    const std::string looked = places_looked_at(scene, file, "surface.file");
-    const bool named = scene.positions.is_set("surface.file");
-    problems.add(named ? "surface.file" : "surface.kind",
-                 named ? fmt::format("= \"{}\": there is no such file", scene.surface.file)
-                       : fmt::format("= \"{}\" needs surface.file", atoms ? "atoms" : "file"),
+    const std::string looked = places_looked_at(scene, file, key);
+    const bool named = scene.positions.is_set(key);
+    problems.add(named ? key : "surface.kind",
+                 named ? fmt::format("= \"{}\": there is no such file", name) : required_by,
                  "looked for " + looked,
                  fmt::format("give the path of a {}, relative to the scene or to the working "
                              "directory",
                              atoms ? "file of atoms" : "height map"));
     return {};
+}
+
+/// Returns the file of kind = "file" or "atoms".
+std::string file_of(const Scene& scene, io::Problems& problems) {
+    if (!scene.surface.reads_file()) return {};
+    const bool atoms = scene.surface.kind == SurfaceKind::atoms;
+    return path_of_map(scene, "surface.file", scene.surface.file, atoms,
+                       fmt::format("= \"{}\" needs surface.file", atoms ? "atoms" : "file"),
+                       problems);
+}
+
+/// Returns the file of the map of a second solid.
+std::string counter_file_of(const Scene& scene, io::Problems& problems) {
+    const Scene::Surface::Counter& counter = scene.surface.counter;
+    if (!counter.given()) return {};
+    return path_of_map(scene, "surface.counter", counter.file, false, {}, problems);
 }
 
 /// Parses output.fields, whose members the reader has accepted.
@@ -93,6 +108,7 @@ SurfaceOptions surface_options(const Scene& scene) {
     options.line_noise = s.line_noise;
     options.holes = s.kind == SurfaceKind::file && s.file_missing == MapMissing::hole;
     options.repeats = !scene.has_free_edges();
+    options.counter = s.counter.given();
     return options;
 }
 
@@ -110,9 +126,18 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
     block.finite_strain = scene.block.strain == Strain::finite;
     for (const auto& [ratio, time] : scene.block.prony)
         block.branches.push_back({ratio, time * units::picosecond});
-    for (const auto& [thickness, young, poisson] : scene.block.layers)
-        block.layers.push_back({{young * units::gigapascal, poisson}, thickness});
-    block.surface_stress = scene.block.surface_stress * units::newton_per_metre;
+    const auto coat = [](Solid& solid, const auto& layers, double surface_stress) {
+        for (const auto& [thickness, young, poisson] : layers)
+            solid.layers.push_back({{young * units::gigapascal, poisson}, thickness});
+        solid.surface_stress = surface_stress * units::newton_per_metre;
+    };
+    coat(block, scene.block.layers, scene.block.surface_stress);
+    if (const Scene::Surface::Counter& counter = scene.surface.counter; counter.is_elastic()) {
+        block.counter.emplace();
+        block.counter->young = *counter.young * units::gigapascal;
+        block.counter->poisson = counter.poisson;
+        coat(*block.counter, counter.layers, counter.surface_stress);
+    }
     block.top_spring = {scene.drive.stiffness.value_or(0.0) * units::newton_per_metre,
                         scene.drive.mass.value_or(0.0) * units::atomic_mass};
     block.free_edges = scene.has_free_edges() && !dynamic;
@@ -154,10 +179,7 @@ void fill_interface(Case& c) {
     }
     const double adhesion = i.adhesion / units::milli_per_unit;
     // E* q/2 of the shortest wave along an axis, q = pi / a, and the attraction's own curvature.
-    double modulus = 0.0;
-    for (const Material& material : c.simulation.block.materials())
-        modulus = std::max(modulus, material.contact_modulus());
-    const double shortest_wave = 0.5 * std::numbers::pi * modulus / a;
+    const double shortest_wave = 0.5 * std::numbers::pi * c.simulation.block.stiffest_modulus() / a;
     const double curvature = adhesion / (i.range * i.range);
     const double stiffness = i.stiffness ? *i.stiffness * units::gigapascal
                                          : std::max(1000.0 * shortest_wave, 50.0 * curvature);
@@ -486,6 +508,7 @@ std::vector<std::pair<std::string, std::uint32_t>> Case::digests() const {
 
 std::vector<std::string> Case::inputs() const {
     std::vector<std::string> files = {scene.file, file.substr(0, file.find(":/"))};
+    if (!counter_file.empty()) files.push_back(counter_file.substr(0, counter_file.find(":/")));
     files.insert(files.end(), table_files.begin(), table_files.end());
     if (!scene.fit.found.empty()) files.push_back(scene.fit.found);
     for (const auto& map : simulation.interface.site_maps())
@@ -528,6 +551,7 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     c.theory = scene.theory;
     c.levels = level_shapes(c.simulation.block);
     c.file = file_of(scene, found);
+    c.counter_file = counter_file_of(scene, found);
     c.maps = maps_of(scene, found);
     find_potentials(c, found);
     check_keys(c, found);

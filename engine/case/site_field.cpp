@@ -19,6 +19,18 @@ FieldFile heights_of(const Case& c) {
              s.file_size, s.file_missing == MapMissing::hole}};
 }
 
+FieldFile counter_heights_of(const Case& c) {
+    const Scene::Surface::Counter& s = c.scene.surface.counter;
+    return {s.file,
+            c.counter_file,
+            {s.unit,
+             s.missing == MapMissing::fill,
+             s.crop == MapCrop::middle,
+             s.size,
+             false,
+             {.key = "surface.counter"}}};
+}
+
 io::HeightMap read_field(const FieldFile& field, const Communicator& ranks) {
     io::HeightMap map;
     std::string head;

@@ -21,6 +21,8 @@ struct FieldFile {
 
 /// Returns the file of the heights of a case whose surface is a map.
 FieldFile heights_of(const Case& c);
+/// Returns the file of the heights of the second solid of a case that has one.
+FieldFile counter_heights_of(const Case& c);
 
 /// Reads the map of a field and returns it on every rank; only the root reads the file. Collective.
 /// Throws io::SceneError.

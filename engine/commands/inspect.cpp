@@ -267,6 +267,15 @@ void print_surface(const Surface& surface) {
     }
     table.row({"lowest", io::cell(statistics.lowest), "Å"});
     table.row({"highest", io::cell(statistics.highest), "Å"});
+    if (surface.pair) {
+        const SurfacePair& pair = *surface.pair;
+        table.row({"first solid", io::cell(pair.own.rms), "Å, rms height"});
+        table.row({"", io::cell(pair.own.rms_slope), "rms slope"});
+        table.row({"second solid", io::cell(pair.counter.rms), "Å, rms height"});
+        table.row({"", io::cell(pair.counter.rms_slope), "rms slope"});
+        table.row({"correlation", io::cell(pair.correlation), "of the heights"});
+        table.row({"overlap", io::cell(pair.band_overlap), "of the spectra"});
+    }
     table.print(stdout);
 }
 

@@ -31,7 +31,7 @@ class SurfaceCache {
 public:
     const Surface& of(const Case& c) {
         Json keys = scene_json(c.scene)["surface"];
-        if (c.surface.kind == SurfaceKind::self_affine) keys["rms"] = "any";
+        if (c.surface.kind == SurfaceKind::self_affine && !c.surface.counter) keys["rms"] = "any";
         if (const std::string text = io::json_text(keys); !surface_ || text != keys_) {
             surface_ = surface_of(c);
             keys_ = text;

@@ -10,7 +10,7 @@
 
 namespace asperity {
 
-HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
+HeightMap::HeightMap(const Surface& substrate, int sites, double spacing, bool slides)
     : height_(substrate.height), sites_(substrate.sites),
       spacing_(substrate.sites == sites ? spacing : sites * spacing / substrate.sites),
       radius_(substrate.radius) {
@@ -22,6 +22,9 @@ HeightMap::HeightMap(const Surface& substrate, int sites, double spacing)
     highest_ = -std::numeric_limits<double>::infinity();
     for (const double h : height_) // holes do not count
         highest_ = h > highest_ ? h : highest_;
+    if (!slides || !substrate.pair) return;
+    counter_ = substrate.pair->counter_height;
+    highest_ = substrate.pair->own.highest + substrate.pair->counter.highest;
 }
 
 void HeightMap::shift(int i, int j) {

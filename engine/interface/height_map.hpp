@@ -25,8 +25,9 @@ inline int blocks_in_row(const Tile& tile) {
 class HeightMap {
 public:
     /// Copies the heights of a substrate. sites: number of the block's sites across the box;
-    /// spacing: spacing of the block's sites, Å.
-    HeightMap(const Surface& substrate, int sites, double spacing);
+    /// spacing: spacing of the block's sites, Å; slides: the block slides over the substrate, or
+    /// over the second solid of a pair.
+    HeightMap(const Surface& substrate, int sites, double spacing, bool slides = false);
 
     /// Returns the height of atom (i, j), which stands at (i b, j b), Å.
     double at(int i, int j) const {
@@ -36,7 +37,13 @@ public:
     }
     int sites() const { return sites_; }        ///< returns the number of atoms across the box
     double spacing() const { return spacing_; } ///< returns b, Å
-    double highest() const { return highest_; } ///< returns the largest height, Å
+    /// Returns the largest height, Å; an upper bound if the second solid of a pair slides.
+    double highest() const { return highest_; }
+    /// Returns the part of the heights that moves under a block that slides: those of the second
+    /// solid of a pair, or all.
+    const std::vector<double>& moving() const { return counter_.empty() ? height_ : counter_; }
+    /// Returns true if a part of the heights belongs to the block and does not move under it.
+    bool is_pair() const { return !counter_.empty(); }
     /// Returns the radius of the spherical cap in the heights, Å; 0: none.
     double radius() const { return radius_; }
     SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
@@ -67,6 +74,7 @@ public:
 
 private:
     std::vector<double> height_;
+    std::vector<double> counter_; ///< heights of a second solid that slides; empty: none
     int sites_;
     double spacing_, highest_, radius_;
 };

@@ -72,7 +72,8 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
     : options_(within_single(options)), tile_(tile), spacing_(spacing),
       across_(static_cast<int>(std::lround(substrate.length / spacing))),
-      map_(substrate, across_, spacing), method_(method_for(options, substrate, tile.sites)),
+      map_(substrate, across_, spacing, options.slides),
+      method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
     set_reference_height(start_height());
     if (options.tail && !wall()) find_mean_heights();

@@ -9,13 +9,18 @@ namespace asperity {
 
 SlidingMap::SlidingMap(const HeightMap& map, const Tile& tile)
     : tile_(tile), sites_(map.sites()), spacing_(map.spacing()), radius_(map.radius()),
-      map_(map.heights()), shift_(sites_),
+      map_(map.moving()), shift_(sites_),
       height_(tile, 1, 0), slope_{Field<double>(tile, 1, 0), Field<double>(tile, 1, 0)} {
     if (radius_ > 0.0)
         for (int y = 0; y < sites_; ++y)
             for (int x = 0; x < sites_; ++x)
                 map_[at(x, y)] -=
                     cap_of(radius_, (x - 0.5 * sites_) * spacing_, (y - 0.5 * sites_) * spacing_);
+    if (map.is_pair()) {
+        own_ = map.heights();
+        for (std::size_t i = 0; i < own_.size(); ++i)
+            own_[i] -= map_[i];
+    }
     const std::size_t rows = static_cast<std::size_t>(tile.ny) * shift_.waves();
     waves_.resize(rows);
     waves_of_slope_.resize(rows);
@@ -80,6 +85,9 @@ void SlidingMap::slide_to(double x, double y) {
                 along_x(i, j) = slope[from] / spacing_;
                 along_y(i, j) = cross[from];
             }
+            if (!own_.empty())
+                for (int i = 0; i < tile_.nx; ++i)
+                    height(i, j) += own_[at(tile_.x0 + i, tile_.y0 + j)];
             if (!(radius_ > 0.0)) continue;
             const auto from_centre = [&](int site, double by) {
                 const double d = site * spacing_ + by - 0.5 * edge;
@@ -98,7 +106,7 @@ void SlidingMap::slide_to(double x, double y) {
 }
 
 std::size_t SlidingMap::bytes() const {
-    return map_.size() * sizeof(double) +
+    return (map_.size() + own_.size()) * sizeof(double) +
            (waves_.size() + waves_of_slope_.size()) * sizeof(Complex) + 3 * height_.bytes();
 }
 

@@ -5,7 +5,8 @@
 //
 // The map is moved under the block by a Fourier shift (decomposition/row_shift.hpp), always from
 // its original place, so that heights depend on the present place alone. The spherical cap of a
-// curved substrate is not band-limited: it is left out of the shift and added at its new place.
+// curved substrate is not band-limited: it is left out of the shift and added at its new place. Of
+// two rough solids the map of the second moves, and that of the block stays with the block's sites.
 #pragma once
 
 #include "decomposition/field.hpp"
@@ -43,7 +44,8 @@ private:
     Tile tile_;
     int sites_;
     double spacing_, radius_;
-    std::vector<double> map_; ///< heights without the cap, Å
+    std::vector<double> map_; ///< heights that move, without the cap, Å
+    std::vector<double> own_; ///< heights of the block's own surface, Å; empty: it is flat
     RowShift shift_;
     std::array<double, 2> place_{};
     /// Waves along x of the tile's rows at the present place along y: of the heights, Å, and of

@@ -4,15 +4,61 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace asperity {
 
-double BlockOptions::shortest_wave() const {
-    double wave = 0.0;
+namespace {
+
+/// Returns the modulus of two springs in series; of one, if the other is rigid.
+double in_series(double one, std::optional<double> other) {
+    return other ? one * *other / (one + *other) : one;
+}
+
+} // namespace
+
+double Solid::stiffest_modulus() const {
+    double modulus = 0.0;
     for (const Material& material : materials())
-        wave = std::max(wave, 0.5 * std::numbers::pi * material.contact_modulus() * spacing);
-    wave += 4.0 * surface_stress;
+        modulus = std::max(modulus, material.contact_modulus());
+    return modulus;
+}
+
+double BlockOptions::contact_modulus() const {
+    return in_series(Solid::contact_modulus(),
+                     counter ? std::optional(counter->contact_modulus()) : std::nullopt);
+}
+
+double BlockOptions::stiffest_modulus() const {
+    return in_series(Solid::stiffest_modulus(),
+                     counter ? std::optional(counter->stiffest_modulus()) : std::nullopt);
+}
+
+BlockOptions BlockOptions::uncoated() const {
+    BlockOptions plain = *this;
+    for (Solid* solid : {static_cast<Solid*>(&plain), plain.counter ? &*plain.counter : nullptr}) {
+        if (!solid) continue;
+        solid->layers.clear();
+        solid->surface_stress = 0.0;
+    }
+    return plain;
+}
+
+BlockOptions BlockOptions::counter_block() const {
+    BlockOptions block = *this;
+    static_cast<Solid&>(block) = *counter;
+    block.counter.reset();
+    block.branches.clear();
+    return block;
+}
+
+double BlockOptions::shortest_wave() const {
+    const auto of = [&](const Solid& solid) {
+        return 0.5 * std::numbers::pi * solid.stiffest_modulus() * spacing +
+               4.0 * solid.surface_stress;
+    };
+    double wave = in_series(of(*this), counter ? std::optional(of(*counter)) : std::nullopt);
     for (const Branch& branch : branches)
         wave *= 1.0 + branch.ratio;
     return wave;
@@ -25,11 +71,17 @@ double BlockOptions::sound_speed() const {
 
 CellElasticity BlockOptions::elasticity(int level) const { return cell(spacing * (1 << level)); }
 
-std::vector<Material> BlockOptions::materials() const {
+std::vector<Material> Solid::materials() const {
     std::vector<Material> all;
     for (const MaterialLayer& layer : layers)
         all.push_back(layer.material);
     all.push_back(*this);
+    return all;
+}
+
+std::vector<Material> BlockOptions::materials() const {
+    std::vector<Material> all = Solid::materials();
+    if (counter) std::ranges::copy(counter->materials(), std::back_inserter(all));
     return all;
 }
 
@@ -84,9 +136,15 @@ SurfaceMatrix BlockOptions::stiffness(WavePhase x, WavePhase y) const {
     return s;
 }
 
+double BlockOptions::normal_compliance(WavePhase x, WavePhase y) const {
+    const double own = inverse(stiffness(x, y)).zz;
+    return counter ? own + counter_block().normal_compliance(x, y) : own;
+}
+
 double BlockOptions::softest_wave() const {
-    if (layers.empty()) return contact_modulus() * std::numbers::pi / (grid() * spacing);
-    return 1.0 / inverse(stiffness(wave_phase(1, grid()), wave_phase(0, grid()))).zz /
+    if (layers.empty() && !(counter && !counter->layers.empty()))
+        return contact_modulus() * std::numbers::pi / (grid() * spacing);
+    return 1.0 / normal_compliance(wave_phase(1, grid()), wave_phase(0, grid())) /
            (spacing * spacing);
 }
 

@@ -8,6 +8,7 @@
 #include "kernels/elastic_level.hpp"
 #include "kernels/surface_stiffness.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace asperity {
@@ -43,6 +44,25 @@ struct MaterialLayer {
     double thickness = 0.0; ///< Å
 };
 
+/// An elastic solid below its surface.
+struct Solid : Material {
+    /// Layers of a solid at rest, from its surface inwards; the solid's own material is below the
+    /// last layer.
+    std::vector<MaterialLayer> layers{};
+    double surface_stress = 0.0; ///< tension of the surface of a solid at rest, eV/Å^2
+
+    /// Returns all materials, that of the surface first.
+    std::vector<Material> materials() const;
+    /// Returns the material of the surface.
+    const Material& surface_material() const {
+        return layers.empty() ? *this : layers.front().material;
+    }
+    /// Returns the largest E/(1 - nu^2) of all materials, eV/Å^3.
+    double stiffest_modulus() const;
+    /// Returns true if the solid has layers or a surface stress.
+    bool is_coated() const { return !layers.empty() || surface_stress > 0.0; }
+};
+
 /// The spring between the machine and the top plane of a block, and the plane's mass.
 struct TopSpring {
     double stiffness = 0.0; ///< eV/Å^2; 0: the machine moves the plane itself
@@ -50,8 +70,10 @@ struct TopSpring {
     explicit operator bool() const { return stiffness > 0.0; }
 };
 
-/// Shape, elasticity and resolution of a block.
-struct BlockOptions : Material {
+/// Shape, elasticity and resolution of a block, and the elasticity of a second solid against which
+/// the block is pressed (scene: surface.counter). Without friction the two solids are one in which
+/// the compliances of each wave add up, 1/S = 1/S_1 + 1/S_2.
+struct BlockOptions : Solid {
     int sites = 512;        ///< atoms across the box, N
     double spacing = 2.6;   ///< a, Å
     double atom_mass = 0.0; ///< eV fs^2/Å^2
@@ -61,25 +83,29 @@ struct BlockOptions : Material {
     bool continuum = false; ///< waves of a block at rest are those of a continuum, not of cells
     bool finite_strain = false;
     std::vector<Branch> branches{}; ///< branches of a viscoelastic block, without inertia
-    /// Layers of a block at rest, from its surface upwards; the block's own material is above the
-    /// last layer.
-    std::vector<MaterialLayer> layers{};
-    double surface_stress = 0.0; ///< tension of the surface of a block at rest, eV/Å^2
-    TopSpring top_spring{};      ///< spring that holds the top plane
-    bool free_edges = false;     ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
+    /// Second solid, as thick as the block, its lower end held; empty: it is rigid.
+    std::optional<Solid> counter{};
+    TopSpring top_spring{};  ///< spring that holds the top plane
+    bool free_edges = false; ///< no periodic images; a half-space (engine/waves/free_edges.hpp)
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }
     /// Returns the number of sites along an edge of the grid of waves: N, with free edges 2N.
     int grid() const { return free_edges ? 2 * sites : sites; }
-    /// Returns all materials, that of the surface first.
+    /// Returns all materials of the solids, that of the block's surface first.
     std::vector<Material> materials() const;
     /// Returns the smallest modulus of uniaxial strain of all materials, lambda + 2 mu, eV/Å^3.
     double softest_column() const;
-    /// Returns the material of the surface.
-    const Material& surface_material() const {
-        return layers.empty() ? *this : layers.front().material;
-    }
+    /// Returns E* of the solids without their layers, eV/Å^3: 1/E* is the sum of their 1/E*.
+    double contact_modulus() const;
+    /// Returns E* of the stiffest materials of the solids, eV/Å^3.
+    double stiffest_modulus() const;
+    /// Returns true if a solid has layers or a surface stress.
+    bool is_coated() const { return Solid::is_coated() || (counter && counter->is_coated()); }
+    /// Returns the block without the layers and the surface stresses of its solids.
+    BlockOptions uncoated() const;
+    /// Returns the second solid as a block of its own. Requires `counter`.
+    BlockOptions counter_block() const;
     /// Returns the layers of cells of the block at rest, from its surface upwards: `layers`, each
     /// of whole cells, then the block's own material. Neighbouring layers of the same material are
     /// merged.
@@ -87,9 +113,13 @@ struct BlockOptions : Material {
     /// Returns the layers of the block at rest as a continuum, from its surface upwards.
     std::vector<SolidLayer> solid() const;
     /// Returns the stiffness of a wave at the lowest layer of the block at rest, eV/Å^2 per site:
-    /// that of the continuum or of the lattice, plus, for the normal component, the surface stress
-    /// times (q a)^2, in the lattice (2 sin(p_x/2))^2 + (2 sin(p_y/2))^2.
+    /// that of the continuum or of the lattice, without the second solid, plus, for the normal
+    /// component, the surface stress times (q a)^2, in the lattice (2 sin(p_x/2))^2 + (2
+    /// sin(p_y/2))^2.
     SurfaceMatrix stiffness(WavePhase x, WavePhase y) const;
+    /// Returns the displacement of a wave by normal forces without friction, Å^2/eV: (S^-1)_zz,
+    /// summed over the solids.
+    double normal_compliance(WavePhase x, WavePhase y) const;
     /// Returns the stiffness of the longest wave of the box at the lowest layer of a thick block,
     /// eV/Å^4: E* q_L / 2, or the lattice's for a block with layers. Thin blocks are stiffer.
     double softest_wave() const;

@@ -47,6 +47,16 @@ inline double cap_of(double radius, double dx, double dy) {
     return -rho2 / (radius + std::sqrt(radius * radius - rho2));
 }
 
+/// The two surfaces of a pair of rough solids; the heights of each are outwards from its own solid.
+struct SurfacePair {
+    SurfaceStatistics own, counter; ///< statistics of the block's surface, and the second solid's
+    /// Heights of the second solid in its place, Å: turned over, turned and shifted.
+    std::vector<double> counter_height;
+    double correlation = 0.0;  ///< correlation of the heights; 0 if one surface is flat
+    double band_overlap = 0.0; ///< overlap of the spectra, 1 for proportional ones, 0 for disjoint
+    std::uint32_t digest = 0;  ///< CRC-32 of the values read from the file of the second solid
+};
+
 /// A substrate: its heights or atoms, and their statistics.
 struct Surface {
     int sites = 0;
@@ -58,6 +68,8 @@ struct Surface {
     AtomPositions atoms; ///< atoms in the box [0, length); empty: one atom per height
     long long holes = 0; ///< number of NaN heights, which mean no solid
     SurfaceStatistics statistics;
+    /// Surfaces whose heights add up to `height`; empty: one rough surface.
+    std::optional<SurfacePair> pair{};
     std::string origin; ///< author of a measured map, if its file names one
     /// CRC-32 of the values read from a file of a map or atoms, before any processing.
     std::optional<std::uint32_t> file_digest;

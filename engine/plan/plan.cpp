@@ -4,6 +4,7 @@
 
 #include "engine/device/device_block.hpp"
 #include "engine/path/expected_path.hpp"
+#include "engine/run/stress_record.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "io/atoms_file.hpp"
 #include "io/error.hpp"
@@ -74,7 +75,10 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
     const double bytes = piece.bytes[part];
     if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
-    if (part == Piece::maps) return rank == 0 ? bytes * whole : 0.0; // the root collects them
+    if (part == Piece::maps) // the root collects them, and holds an entry of the journal
+        return rank == 0
+                   ? bytes * whole + 2.0 * stress_bytes(c.simulation.block.sites, c.output.stress)
+                   : 0.0;
     if (c.effects.dynamic && (part == Piece::block || part == Piece::kept))
         return bytes * nodes_of(c.levels) / piece.nodes / whole * (tile.nx + h) * (tile.ny + h) /
                std::pow(piece.sites + h, 2);
@@ -146,7 +150,8 @@ Plan make_plan(const Case& c, int threads) {
                                      std::min(bytes[Piece::rest], bytes[Piece::maps]));
     }
     const double here = std::pow(c.simulation.block.sites, 2);
-    plan.state_bytes = bytes_of_maps(c.simulation.interface) * here;
+    plan.state_bytes = (bytes_of_maps(c.simulation.interface) + (block.counter ? 8.0 : 0.0)) * here;
+    if (c.effects.maps) plan.stress_bytes = stress_bytes(block.sites, c.output.stress);
     if (c.output.trajectory) plan.frame_bytes = (c.output.velocities ? 24.0 : 12.0) * here;
     if (!timed) return plan;
     const Piece& piece = pieces.back();
@@ -234,8 +239,11 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
     io::print_text(to, "memory      {} available here ({})\n", memory_text(there.bytes),
                    there.because);
     io::print_text(
-        to, "run.h5      {} for the maps of a state, before compression{}\n",
+        to, "run.h5      {} for the maps of a state, before compression{}{}\n",
         memory_text(plan.state_bytes),
+        plan.stress_bytes > 0.0
+            ? fmt::format("; {} for the stresses below it", memory_text(plan.stress_bytes))
+            : "",
         plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes)) : "");
     if (bytes > there.bytes)
         io::print_text(to,
@@ -278,6 +286,7 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
     bytes["rank"] = bytes_of_largest_rank(plan);
     bytes["available"] = io::available_memory().bytes;
     bytes["state"] = plan.state_bytes;
+    bytes["stress"] = plan.stress_bytes;
     bytes["frame"] = plan.frame_bytes;
     const Tile tile = c.grid(0).tile(0);
     seconds["surface"] = plan.making;

@@ -21,7 +21,8 @@ namespace asperity {
 struct Plan {
     std::array<double, Piece::parts> bytes{}; ///< memory of each part, all ranks together
     std::vector<double> bytes_of_rank;        ///< peak memory of each rank, bytes
-    double state_bytes = 0.0; ///< size of the maps of a state in run.h5 before compression, bytes
+    double state_bytes = 0.0;  ///< size of the maps of a state in run.h5 before compression, bytes
+    double stress_bytes = 0.0; ///< size of the stresses below a state there; 0: none are written
     /// Size of a frame of the trajectory in run.h5, bytes; 0: none is written.
     double frame_bytes = 0.0;
     // Seconds of idle processors, without messages between machines:
@@ -44,10 +45,10 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
 nlohmann::ordered_json effects_json(const Effects& effects);
 /// Returns the plan as JSON: {"name", "effects": {name: {"on", "because"}}, "ranks", "threads",
 /// "sites_of_rank", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
-/// "altogether", "rank", "available", "state", "frame"}, "seconds": {"surface", "steps", "rest",
-/// "altogether", "factor"}, "ended"}, named as the members of Plan and parts of Piece.
+/// "altogether", "rank", "available", "state", "stress", "frame"}, "seconds": {"surface", "steps",
+/// "rest", "altogether", "factor"}, "ended"}, named as the members of Plan and parts of Piece.
 /// bytes.altogether: peak memory; seconds.altogether: time of the whole run; bytes.rank: peak
-/// memory of a rank; bytes.state, bytes.frame: size in run.h5 before compression.
+/// memory of a rank; bytes.state, bytes.stress, bytes.frame: size in run.h5 before compression.
 nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not

@@ -90,7 +90,8 @@ Case piece_of(const Case& c, int sites, bool timed) {
 Surface stand_in(Case piece, double rms, int atoms) {
     SurfaceOptions& s = piece.surface;
     const BlockOptions& block = piece.simulation.block;
-    if (s.kind == SurfaceKind::file) {
+    if (s.kind != SurfaceKind::atoms) {
+        s.counter = false;
         s.kind = SurfaceKind::self_affine;
         s.rms = rms;
         return surface_of(piece);
@@ -206,8 +207,9 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
     std::optional<io::PayloadWriter> entry;
     if (piece.effects.maps)
-        part(Piece::maps,
-             [&] { entry = Recorder::entry_of_fields("", layer, Communicator(), grid, *below); });
+        part(Piece::maps, [&] {
+            entry = Recorder::entry_of_fields("", layer, Communicator(), grid, *below, options);
+        });
     done.bytes[Piece::maps] *= 2.0; // and the maps that the entry is made of
     return done;
 }

@@ -87,7 +87,8 @@ void PathMaps::write(const Path& path, const std::string& state,
 
 void PathMaps::record(const std::string& state, const Path& path,
                       const VectorPlane<const double>& layer, const Interface& interface) {
-    session_.recorder().fields(state, layer, path.grid(), interface);
+    session_.recorder().fields(state, layer, path.grid(), interface,
+                               session_.scene_case().simulation.block);
     const Case& c = session_.scene_case();
     if (c.output.stress.points != StressPoints::none)
         session_.recorder().stresses(state, layer, path.grid(), interface, c.simulation.block,

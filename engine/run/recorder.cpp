@@ -3,6 +3,7 @@
 #include "engine/run/recorder.hpp"
 
 #include "engine/run/stress_record.hpp"
+#include "engine/units.hpp"
 #include "io/machine.hpp"
 #include "io/result_directory.hpp"
 #include "io/run_h5.hpp"
@@ -116,6 +117,13 @@ void write_group(io::Hdf5File& file, io::PayloadReader entry) {
     }
 }
 
+/// Returns the statistics of the surfaces of a pair with the names of their spectra.
+std::vector<std::pair<std::string, const SurfaceStatistics*>> parts_of(const Surface& surface) {
+    if (!surface.pair) return {};
+    return {{"/substrate/own_spectrum", &surface.pair->own},
+            {"/substrate/counter_spectrum", &surface.pair->counter}};
+}
+
 void write_substrate(io::Hdf5File& file, const Surface& surface) {
     const auto n = static_cast<std::uint64_t>(surface.sites);
     io::write_described(file, "/substrate/height", {n, n}, surface.height);
@@ -140,7 +148,16 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
         realised.push_back(bin.realised);
         target.push_back(bin.target);
     }
+    if (surface.pair)
+        io::write_described(file, "/substrate/counter_height", {n, n},
+                            surface.pair->counter_height);
     if (q.empty()) return;
+    for (const auto& [name, one] : parts_of(surface)) {
+        std::vector<double> own;
+        for (const SpectrumBin& bin : one->spectrum)
+            own.push_back(bin.realised);
+        io::write_described(file, name, {own.size()}, own);
+    }
     io::write_described(file, "/substrate/spectrum_q", {q.size()}, q);
     io::write_described(file, "/substrate/spectrum", {q.size()}, realised);
     io::write_described(file, "/substrate/spectrum_target", {q.size()}, target);
@@ -202,8 +219,10 @@ void Recorder::append_rows() {
 }
 
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
-                      const ProcessGrid& grid, const Interface& interface) {
-    const io::PayloadWriter entry = entry_of_fields(state, layer, communicator_, grid, interface);
+                      const ProcessGrid& grid, const Interface& interface,
+                      const BlockOptions& block) {
+    const io::PayloadWriter entry =
+        entry_of_fields(state, layer, communicator_, grid, interface, block);
     communicator_.on_root([&] { journal_->append(group_entry, entry.bytes()); });
 }
 
@@ -238,7 +257,7 @@ void Recorder::stresses(const std::string& state, const VectorPlane<const double
 io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
                                             const VectorPlane<const double>& layer,
                                             const Communicator& ranks, const ProcessGrid& grid,
-                                            const Interface& interface) {
+                                            const Interface& interface, const BlockOptions& block) {
     const InterfaceMaps maps = interface.maps(layer);
     const int across = grid.tile(0).sites, inner = interface.sites_across();
     const auto n = static_cast<std::uint64_t>(inner);
@@ -257,7 +276,15 @@ io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
     };
     gap = of_box(whole(ranks, grid, maps.gap));
     put("gap", gap);
-    put("pressure", of_box(whole(ranks, grid, maps.pressure)));
+    const std::vector<double> pressure = of_box(whole(ranks, grid, maps.pressure));
+    put("pressure", pressure);
+    if (block.counter)
+        ranks.on_root([&] {
+            std::vector<double> u = surface_displacement(block.counter_block(), pressure);
+            for (double& z : u)
+                z *= -units::gigapascal; // the pressure is in GPa, and pushes down
+            put_member<double>(entry, data_set, "u_z_counter", {n, n}, u);
+        });
     put("distance", of_box(whole(ranks, grid, maps.distance)));
     if (interface.yielding_wall()) {
         put("set", of_box(whole(ranks, grid, maps.set)));

@@ -38,6 +38,15 @@ void add_surface(const Surface& surface, io::Result& result) {
     if (!surface.origin.empty()) result.set("surface.origin", surface.origin);
     if (surface.file_digest)
         result.set("surface.file_digest", io::digest_text(*surface.file_digest));
+    if (!surface.pair) return;
+    const SurfacePair& pair = *surface.pair;
+    result.set("surface.own.rms", pair.own.rms);
+    result.set("surface.own.rms_slope", pair.own.rms_slope);
+    result.set("surface.counter.rms", pair.counter.rms);
+    result.set("surface.counter.rms_slope", pair.counter.rms_slope);
+    result.set("surface.counter.file_digest", io::digest_text(pair.digest));
+    result.set("surface.correlation", pair.correlation);
+    result.set("surface.band_overlap", pair.band_overlap);
 }
 
 void add_zero_load(const ZeroLoad& z, io::Result& result) {
@@ -357,6 +366,7 @@ std::string physics_of(const Case& c, const Surface& surface) {
     if (c.radius()) part["output"]["series"] = c.output.series; // averaged over time
     part["output"]["velocities"] = c.output.trajectory && c.output.velocities;
     if (surface.file_digest) part["surface"]["content_of_file"] = *surface.file_digest;
+    if (surface.pair) part["surface"]["content_of_counter"] = surface.pair->digest;
     for (const auto& [key, digest] : c.digests()) {
         const std::size_t dot = key.find('.');
         part[key.substr(0, dot)]["content_of_" + key.substr(dot + 1)] = digest;

@@ -75,6 +75,13 @@ void add_largest(const StressSearch& search, std::vector<StressArray>& arrays) {
 
 } // namespace
 
+double stress_bytes(int sites, const StressOptions& options) {
+    if (options.points == StressPoints::none) return 0.0;
+    const double map = 1.0 * sites * sites, sections = 2.0 * options.depths * sites;
+    const double volume = options.points == StressPoints::volume ? options.depths * map : 0.0;
+    return sizeof(float) * std::size(components) * (map + sections + volume);
+}
+
 StressRecord record_stresses(const BlockOptions& block, const SurfaceTractions& tractions,
                              const StressOptions& options) {
     StressRecord record{search_stresses(block, tractions), {}, {}};

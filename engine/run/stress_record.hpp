@@ -33,4 +33,8 @@ struct StressRecord {
 StressRecord record_stresses(const BlockOptions& block, const SurfaceTractions& tractions,
                              const StressOptions& options);
 
+/// Returns the size of the stresses below a state in run.h5 before compression, bytes, except those
+/// of single depths and layers; 0 if none are recorded. sites: along an edge.
+double stress_bytes(int sites, const StressOptions& options);
+
 } // namespace asperity

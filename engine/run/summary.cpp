@@ -52,9 +52,14 @@ std::string surface_text(const Case& c, const Surface& surface) {
     const std::string atoms = surface.atoms.size() > 0
                                   ? fmt::format("{} atoms, topmost ones: ", surface.atoms.size())
                                   : std::string();
-    return atoms + fmt::format("rms {} Å, rms slope {}, heights {} to {} Å", io::number(s.rms, 3),
-                               io::number(s.rms_slope, 3), io::number(s.lowest, 2),
-                               io::number(s.highest, 2));
+    const std::string text = atoms + fmt::format("rms {} Å, rms slope {}, heights {} to {} Å",
+                                                 io::number(s.rms, 3), io::number(s.rms_slope, 3),
+                                                 io::number(s.lowest, 2), io::number(s.highest, 2));
+    return surface.pair ? fmt::format("{}: the sum of two, of rms {} and {} Å and correlation {}",
+                                      text, io::number(surface.pair->own.rms, 3),
+                                      io::number(surface.pair->counter.rms, 3),
+                                      io::number(surface.pair->correlation, 2))
+                        : text;
 }
 
 using Number = std::optional<double>;

@@ -42,15 +42,10 @@ void bind_potential(io::Schema& schema, P& potential, const std::vector<io::Sche
         });
 }
 
-/// Gives a key that may be a map of the sites what it needs, and adds the keys of its file.
-void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
-                   const io::Schema::Need& need) {
-    key.needs = {need};
-    const std::string name = key.name, of = "interface." + name, unit = key.unit;
-    const io::Schema::Need given = Needs::acting(
-        {[is_met = need.is_met, &map] { return is_met() && map.given(); },
-         of + " names no map of a wall"},
-        "give " + of + " a map or a formula", {of, "interface.kind", "interface.law"});
+/// Adds the keys of the file of a map that the key `of` names. unit: unit of its numbers.
+template <class Map>
+void bind_map_file(io::Schema& schema, const std::string& name, const std::string& of,
+                   const std::string& unit, Map& map, const io::Schema::Need& given) {
     schema
         .number_or(name + "_size", map.size, "auto", "Å", positive(),
                    "edge of the map of " + of +
@@ -71,6 +66,81 @@ void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
                          {{"none", MapCrop::none}, {"middle", MapCrop::middle}},
                          "a map of " + of + " that is not square, as surface.file_crop")
         .needs = {given};
+}
+
+/// Gives a key that may be a map of the sites what it needs, and adds the keys of its file.
+void bind_site_map(io::Schema& schema, io::Schema::Key& key, SiteMapKeys& map,
+                   const io::Schema::Need& need) {
+    key.needs = {need};
+    const std::string name = key.name, of = "interface." + name, unit = key.unit;
+    const io::Schema::Need given = Needs::acting(
+        {[is_met = need.is_met, &map] { return is_met() && map.given(); },
+         of + " names no map of a wall"},
+        "give " + of + " a map or a formula", {of, "interface.kind", "interface.law"});
+    bind_map_file(schema, name, of, unit, map, given);
+}
+
+/// Adds a key of the layers of a solid.
+io::Schema::Key& bind_layers(io::Schema& schema, std::string name,
+                             std::vector<std::array<double, 3>>& layers, std::string doc) {
+    return schema.rows<3>(
+        std::move(name), layers,
+        {{{"thickness", "Å", positive(), "\"2 nm\""},
+          {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
+          {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
+        std::move(doc));
+}
+
+/// Adds the keys of a second solid.
+void bind_counter(io::Schema& schema, Scene::Surface::Counter& counter, const Needs& needs) {
+    schema
+        .key("counter", counter.file,
+             "map of a second solid, in a file as for surface.file, over a wall on a quasi-static "
+             "path; \"none\": the substrate is rigid. The map of the keys above is then that of "
+             "the block, and both maps have heights outwards from their own solid. The second "
+             "solid is turned over about the y axis onto the first: h(x, y) + h_counter(-x, y), "
+             "from the middle of the maps, before it is turned and shifted. detrend, line_noise "
+             "and resample are for both maps, rms for the first, and radius is that of both, 1/R "
+             "= 1/R_1 + 1/R_2")
+        .needs = {needs.refusing(needs.wall, "over atoms",
+                                 "two solids are computed as one, and the registry of two "
+                                 "deformable lattices, their lateral displacements and contacts "
+                                 "beside a site are not those of one: a composite is for walls",
+                                 "take interface.kind = \"wall\", or leave counter out"),
+                  needs.refusing(needs.equilibria, "on a dynamic path",
+                                 "two solids are one in which the compliances of each wave add "
+                                 "up, at rest and without inertia",
+                                 "take drive.mode = \"quasistatic\", or leave counter out")};
+    bind_map_file(schema, "counter", "surface.counter", "Å", counter, needs.counter);
+    schema
+        .number("counter_shift_x", counter.shift_x, "Å", {},
+                "shift of the second solid along x, after its turn")
+        .needs = {needs.counter};
+    schema
+        .number("counter_shift_y", counter.shift_y, "Å", {},
+                "shift of the second solid along y, after its turn")
+        .needs = {needs.counter};
+    schema
+        .number("counter_turn", counter.turn, "", between(-360.0, 360.0),
+                "turn of the second solid about the middle of its map, degrees, counter-clockwise "
+                "from above; other than quarter turns need a map wider than the box")
+        .needs = {needs.counter};
+    schema
+        .number_or("counter_young", counter.young, "rigid", "GPa", io::Range{0.0, 1e6, true, false},
+                   "Young's modulus of the second solid")
+        .needs = {needs.counter};
+    schema
+        .number("counter_poisson", counter.poisson, "", io::Range{-1.0, 0.5, true, true},
+                "Poisson's ratio of the second solid")
+        .needs = {needs.counter, needs.elastic_counter};
+    bind_layers(schema, "counter_layers", counter.layers,
+                "coatings of the second solid, from its surface inwards, as block.layers; it is "
+                "as thick as the block")
+        .needs = {needs.counter, needs.elastic_counter};
+    schema
+        .number("counter_surface_stress", counter.surface_stress, "N/m", at_least(0.0),
+                "tension of the second solid's surface")
+        .needs = {needs.counter, needs.elastic_counter};
 }
 
 /// Returns the first word of a member of drive.path.
@@ -113,7 +183,7 @@ io::Schema bind(Scene& scene) {
     const Needs& needs = *shared_needs;
 
     auto& surface = scene.surface;
-    schema.section("surface", "The rigid, rough substrate.");
+    schema.section("surface", "The rough substrate, rigid unless counter gives it an elasticity.");
     schema.choice<SurfaceKind>("kind", surface.kind,
                                {{"flat", SurfaceKind::flat},
                                 {"self-affine", SurfaceKind::self_affine},
@@ -208,7 +278,7 @@ io::Schema bind(Scene& scene) {
             "removes from a map of a file nothing, the mean plane, or the mean plane and the jumps "
             "between opposite edges")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
-                  needs.map};
+                  needs.any_map};
     schema
         .choice<MapMissing>("file_missing", surface.file_missing,
                             {{"refuse", MapMissing::refuse},
@@ -231,14 +301,15 @@ io::Schema bind(Scene& scene) {
             "noise of a scan from line to line: kept; reduced by subtracting the median steps "
             "between lines; or waves across the lines scaled down to the spectrum along the lines")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
-                  needs.map};
+                  needs.any_map};
     schema
         .choice<Resample>(
             "resample", surface.resample,
             {{"none", Resample::none}, {"band-limited", Resample::band_limited}},
             "resampling of a map without N x N values to the lattice: refused, or band-limited")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
-                  needs.map};
+                  needs.any_map};
+    bind_counter(schema, surface.counter, needs);
 
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
@@ -310,17 +381,18 @@ io::Schema bind(Scene& scene) {
     prony.needs = {needs.refusing(needs.equilibria, "on a dynamic path",
                                   "only the block of a quasi-static path can be viscoelastic",
                                   "take drive.mode = \"quasistatic\", or leave prony out"),
+                   needs.refusing({[&scene] { return !scene.surface.counter.is_elastic(); }, ""},
+                                  "against an elastic surface.counter",
+                                  "branches relax all of the stiffness of a wave, and that of two "
+                                  "solids is not one of the block's branches",
+                                  "take counter_young = \"rigid\", or leave prony out"),
                    {[&scene] { return !scene.only_relaxes(); },
                     "drive.path is one relaxation, and its state is the relaxed one"}};
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "
                                     "its surface, has them";
-    schema
-        .rows<3>("layers", block.layers,
-                 {{{"thickness", "Å", positive(), "\"2 nm\""},
-                   {"Young's modulus", "GPa", io::Range{0.0, 1e6, true, false}, "\"10 GPa\""},
-                   {"Poisson's ratio", "", io::Range{-1.0, 0.5, true, true}, "0.3"}}},
-                 "coatings between the block's own material and its surface (quasi-static paths), "
-                 "from the surface upwards; in a lattice a thickness is rounded to whole layers")
+    bind_layers(schema, "layers", block.layers,
+                "coatings between the block's own material and its surface (quasi-static paths), "
+                "from the surface upwards; in a lattice a thickness is rounded to whole layers")
         .needs = {needs.refusing(needs.equilibria, "on a dynamic path", at_rest,
                                  "take drive.mode = \"quasistatic\", or leave layers out")};
     schema

@@ -106,6 +106,24 @@ struct Scene {
         LineNoise line_noise = LineNoise::keep;
         Resample resample = Resample::none;
 
+        /// Second solid, with a surface of its own, whose map lies on that of the keys above.
+        struct Counter {
+            std::string file = "none";    ///< file of its map as the scene gives it
+            std::optional<double> size{}; ///< edge of the map, Å; empty: as `file_size`
+            std::string unit = "auto";    ///< unit of the heights
+            MapMissing missing = MapMissing::refuse;
+            MapCrop crop = MapCrop::none;
+            double shift_x = 0.0, shift_y = 0.0; ///< Å
+            double turn = 0.0;                   ///< degrees, counter-clockwise from above
+            std::optional<double> young{};       ///< GPa; empty: rigid
+            double poisson = 0.42;
+            std::vector<std::array<double, 3>> layers{}; ///< rows as in Block::layers
+            double surface_stress = 0.0;                 ///< N/m
+
+            bool given() const { return file != "none" && !file.empty(); }
+            bool is_elastic() const { return given() && young.has_value(); }
+        } counter;
+
         bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
     } surface;
 
@@ -241,6 +259,8 @@ struct Scene {
     /// Returns an empty list of problems that knows the positions of this scene's keys.
     io::Problems problems() const { return io::Problems(positions); }
     bool has_free_edges() const { return surface.boundary == Boundary::free; }
+    /// Returns true if the scene reads a map of heights, of surface.file or surface.counter.
+    bool reads_map() const { return surface.kind == SurfaceKind::file || surface.counter.given(); }
     /// Returns true if the scene sets surface.rms; otherwise maps are not scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };

@@ -26,6 +26,15 @@ struct Needs {
     Need map = acting({[this] { return scene.surface.kind == SurfaceKind::file; },
                        "surface.kind is not \"file\""},
                       "take surface.kind = \"file\"", {"surface.kind"});
+    Need any_map = acting({[this] { return scene.reads_map(); },
+                           "surface.kind is not \"file\", and surface.counter names no map"},
+                          "take surface.kind = \"file\"", {"surface.kind", "surface.counter"});
+    Need counter =
+        acting({[this] { return scene.surface.counter.given(); }, "surface.counter is \"none\""},
+               "name the map of the second solid in surface.counter", {"surface.counter"});
+    Need elastic_counter = acting({[this] { return scene.surface.counter.young.has_value(); },
+                                   "surface.counter_young is \"rigid\""},
+                                  "give surface.counter_young", {"surface.counter_young"});
     Need file = acting({[this] { return scene.surface.reads_file(); },
                         "surface.kind is neither \"file\" nor \"atoms\""},
                        "take surface.kind = \"file\" (a map), or \"atoms\"", {"surface.kind"});

@@ -113,8 +113,9 @@ void measure(const SurfaceOptions& o, Surface& s) {
     }
 }
 
-/// Computes the statistics of the roughness, then adds the cap, then finds the extremes.
-Surface finish(const SurfaceOptions& o, Surface s) {
+} // namespace
+
+Surface finished(const SurfaceOptions& o, Surface s) {
     measure(o, s);
     if (o.radius > 0.0) {
         s.radius = o.radius;
@@ -137,8 +138,6 @@ Surface finish(const SurfaceOptions& o, Surface s) {
     }
     return s;
 }
-
-} // namespace
 
 double target_spectrum(const SurfaceOptions& o, double q) {
     if (o.kind != SurfaceKind::self_affine || !(o.rms > 0.0)) return 0.0;
@@ -167,7 +166,7 @@ Surface make_surface(const SurfaceOptions& o) {
     s.sites = o.sites;
     s.length = o.length;
     s.height.assign(cells(o.sites), 0.0);
-    if (o.kind == SurfaceKind::flat || o.rms == 0.0) return finish(o, std::move(s));
+    if (o.kind == SurfaceKind::flat || o.rms == 0.0) return finished(o, std::move(s));
 
     const int n = o.sites;
     if (o.cutoff > 0.5 * n)
@@ -196,7 +195,7 @@ Surface make_surface(const SurfaceOptions& o) {
         s.height[i] = wave[i].real();
     heights::remove_mean(s.height);
     heights::scale_to_rms(s.height, o.rms);
-    return finish(o, std::move(s));
+    return finished(o, std::move(s));
 }
 
 int sites_of_map(const SurfaceOptions& o) {
@@ -300,7 +299,7 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
     if (s.holes > 0)
         s.holes =
             std::count_if(s.height.begin(), s.height.end(), [](double v) { return std::isnan(v); });
-    return finish(o, std::move(s));
+    return finished(o, std::move(s));
 }
 
 } // namespace asperity

@@ -47,9 +47,12 @@ struct SurfaceOptions {
         LineNoise::keep;   ///< measured maps: treatment of the noise of their lines
     bool holes = false;    ///< measured maps: heights may be NaN, which means no solid
     bool repeats = true;   ///< false: the surface ends at the edges of the box
+    bool counter = false;  ///< the map of a second solid lies on the surface (engine/surface)
     double map_edge = 0.0; ///< measured maps: edge of the map, Å; 0: edge of the box
 
-    bool reads_file() const { return kind == SurfaceKind::file || kind == SurfaceKind::atoms; }
+    bool reads_file() const {
+        return kind == SurfaceKind::file || kind == SurfaceKind::atoms || counter;
+    }
 };
 
 /// Makes the flat or self-affine surface of the options. Throws std::invalid_argument for
@@ -66,6 +69,10 @@ int sites_of_map(const SurfaceOptions& options);
 /// than the box.
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
                              int ny);
+
+/// Computes the statistics of the roughness of the heights, adds the cap of the options, and finds
+/// the extremes.
+Surface finished(const SurfaceOptions& options, Surface surface);
 
 /// Makes a surface from atoms in the box of the options. The height of a site is that of the
 /// topmost atom nearest to the site; sites without an atom are filled by Laplace's equation; the

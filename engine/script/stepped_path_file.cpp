@@ -113,6 +113,7 @@ std::string SteppedPath::description() const {
                       {"file", fs::absolute(source_.file).string()},
                       {"overrides", source_.overrides}};
     if (surface_.file_digest) scene["content_of_surface.file"] = *surface_.file_digest;
+    if (surface_.pair) scene["content_of_surface.counter"] = surface_.pair->digest;
     for (const auto& [key, digest] : case_.digests())
         scene["content_of_" + key] = digest;
     return io::json_text(io::Json{{"simulation", scene}});

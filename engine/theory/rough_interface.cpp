@@ -26,10 +26,11 @@ using WaveStiffness = std::array<double, 5>;
 
 WaveStiffness wave_stiffness(const BlockOptions& block, double q, double angle) {
     const double c = std::cos(angle), s = std::sin(angle), spacing = block.spacing;
-    const SurfaceMatrix m = block.stiffness(phase_of(q * spacing * c), phase_of(q * spacing * s));
+    const WavePhase x = phase_of(q * spacing * c), y = phase_of(q * spacing * s);
+    const SurfaceMatrix m = block.stiffness(x, y);
     const double area = spacing * spacing;
     return {q, m.zz / area, (c * c * m.xx + s * s * m.yy + 2.0 * c * s * m.xy) / area,
-            std::abs(c * m.xz + s * m.yz) / area, 1.0 / inverse(m).zz / area};
+            std::abs(c * m.xz + s * m.yz) / area, 1.0 / block.normal_compliance(x, y) / area};
 }
 
 /// Returns the stiffness of waves up to Nyquist, averaged over directions.

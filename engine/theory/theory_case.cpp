@@ -88,7 +88,8 @@ Spectrum realised_of(const Case& c, const Surface& surface, TheoryCase& out) {
         out.notes.push_back(fmt::format("{:.2g} % of the height variance lies beyond Nyquist, in "
                                         "the corners of the grid, and is not in the theory",
                                         100.0 * lost));
-    const bool scaled = c.surface.kind == SurfaceKind::self_affine || c.surface.rms > 0.0;
+    const bool scaled =
+        !c.surface.counter && (c.surface.kind == SurfaceKind::self_affine || c.surface.rms > 0.0);
     Spectrum spectrum = Spectrum::rings(edges, C);
     if (!scaled) return spectrum;
     return spectrum.with_rms_height(c.surface.rms * std::sqrt(variance) / rms);
@@ -97,7 +98,7 @@ Spectrum realised_of(const Case& c, const Surface& surface, TheoryCase& out) {
 Spectrum spectrum_of(const Case& c, const Surface* surface, TheoryCase& out) {
     const SurfaceOptions& s = c.surface;
     const double q_L = 2.0 * std::numbers::pi / s.length;
-    const bool measured = s.kind == SurfaceKind::file;
+    const bool measured = s.kind == SurfaceKind::file || s.counter;
     if (!measured && (s.kind == SurfaceKind::flat || s.rms == 0.0))
         return Spectrum::self_affine(
             {.q_L = q_L, .q0 = q_L, .q1 = 2.0 * q_L, .hurst = 0.8, .h_rms = 0.0});
@@ -120,8 +121,9 @@ AreaFactor area_factor_of(const Case& c) {
 
 bool theory_needs_surface(const Case& c) {
     const SurfaceOptions& s = c.surface;
-    return s.kind == SurfaceKind::file || (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
-                                           c.theory.spectrum == TheorySpectrum::realised);
+    return s.kind == SurfaceKind::file || s.counter ||
+           (s.kind == SurfaceKind::self_affine && s.rms > 0.0 &&
+            c.theory.spectrum == TheorySpectrum::realised);
 }
 
 TheoryCase theory_case(const Case& c, const Surface* surface) {

@@ -31,12 +31,10 @@ WavePhase along(double phase) { return {std::cos(phase), std::sin(phase)}; }
 } // namespace
 
 FreeEdges::FreeEdges(const BlockOptions& block, int grid)
-    : block_(block), has_added_(!block.layers.empty() || block.surface_stress > 0.0), grid_(grid),
+    : block_(block), has_added_(block.is_coated()), grid_(grid),
       far_(Slab(grid, Communicator()), 1) {
     block_.thickness = 1 << 30;
-    plain_ = block_;
-    plain_.layers.clear();
-    plain_.surface_stress = 0.0;
+    plain_ = block_.uncoated();
     using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
     std::optional<Spline> added;
     if (has_added_) {
@@ -68,7 +66,7 @@ double FreeEdges::compliance(int nx, int ny) const {
 }
 
 double FreeEdges::near(WavePhase x, WavePhase y, double phase) const {
-    const double rest = inverse(block_.stiffness(x, y)).zz - far_wave(phase);
+    const double rest = block_.normal_compliance(x, y) - far_wave(phase);
     return has_added_ ? rest - added(phase) : rest;
 }
 
@@ -80,7 +78,7 @@ double FreeEdges::added(double phase) const {
     const double low_pass = std::exp(-std::pow(phase / cut, 6));
     if (low_pass < 1e-17) return 0.0;
     const auto compliance = [&](const BlockOptions& block) {
-        return inverse(block.stiffness(along(phase), {1.0, 0.0})).zz;
+        return block.normal_compliance(along(phase), {1.0, 0.0});
     };
     return low_pass * (compliance(block_) - compliance(plain_));
 }
@@ -123,7 +121,7 @@ double FreeEdges::near_uniform() const {
     double value[3];
     for (int i = 0; i < 3; ++i) {
         const double phase = longest / (1 << i);
-        value[i] = inverse(plain_.stiffness(along(phase), {1.0, 0.0})).zz - far_wave(phase);
+        value[i] = plain_.normal_compliance(along(phase), {1.0, 0.0}) - far_wave(phase);
     }
     const double coarse = 2.0 * value[1] - value[0], fine = 2.0 * value[2] - value[1];
     return (4.0 * fine - coarse) / 3.0;

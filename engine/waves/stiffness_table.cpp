@@ -26,22 +26,24 @@ StiffnessTable::StiffnessTable(const BlockOptions& options, const Slab& slab, bo
 #pragma omp parallel for schedule(dynamic, 4)
     for (int i = 0; i < slab.columns(); ++i)
         for (int j = 0; j <= i; ++j) {
-            if (free_edges) {
-                const double normal = 1.0 / free_edges->compliance(i, j);
+            const WavePhase along_x = phase[static_cast<std::size_t>(i)],
+                            along_y = phase[static_cast<std::size_t>(j)];
+            if (frictionless) {
+                const double normal =
+                    1.0 / (free_edges ? free_edges->compliance(i, j)
+                                      : options.normal_compliance(along_x, along_y));
                 layout_.put({.zz = normal}, i, j, table_);
                 layout_.put({.zz = normal}, j, i, table_);
                 continue;
             }
-            const SurfaceMatrix s = options.stiffness(phase[static_cast<std::size_t>(i)],
-                                                      phase[static_cast<std::size_t>(j)]);
-            const double normal = frictionless ? 1.0 / inverse(s).zz : s.zz;
+            const SurfaceMatrix s = options.stiffness(along_x, along_y);
             // Terms odd in a component of q vanish where it is that of the shortest wave, which
             // stands for both signs.
             const double x = 2 * i == layout_.sites ? 0.0 : 1.0;
             const double y = 2 * j == layout_.sites ? 0.0 : 1.0;
             const double s_xy = x * y * s.xy, s_xz = x * s.xz, s_yz = y * s.yz;
-            layout_.put({s.xx, s.yy, normal, s_xy, s_xz, s_yz}, i, j, table_);
-            layout_.put({s.yy, s.xx, normal, s_xy, s_yz, s_xz}, j, i, table_);
+            layout_.put({s.xx, s.yy, s.zz, s_xy, s_xz, s_yz}, i, j, table_);
+            layout_.put({s.yy, s.xx, s.zz, s_xy, s_yz, s_xz}, j, i, table_);
         }
     SurfaceMatrix free = at(0, 0);
     uniform_ = free.zz;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: MIT
 #include "engine/waves/subsurface.hpp"
 
+#include "engine/waves/stiffness_table.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -403,6 +405,31 @@ StressSearch search_stresses(const BlockOptions& block, const SurfaceTractions& 
         search.largest.push_back(values.value);
     }
     return search;
+}
+
+std::vector<double> surface_displacement(const BlockOptions& block,
+                                         const std::vector<double>& pressure) {
+    const int n = block.sites;
+    const Slab slab(block.grid(), Communicator());
+    const StiffnessTable table(block, slab, true);
+    const SurfaceTransform<double> transform(slab, 1);
+    SiteField<double> field = site_field<double>(slab, 1);
+    for (int y = 0; y < n; ++y)
+        std::copy_n(pressure.begin() + y * n, n, field[0].plane(0).line(y));
+    Waves<double> waves(slab, 1);
+    to_waves(field, transform, waves);
+    const double force = block.spacing * block.spacing / (1.0 * slab.sites * slab.sites);
+    each_wave(slab, [&](int b, int column, int row, int nx, int ny) {
+        const bool uniform = nx == 0 && ny == 0;
+        const double s = uniform ? table.uniform() : table.at(nx, std::abs(ny)).zz;
+        put(get(waves.block(b), slab, 0, column, row) * (force / s), waves.block(b), slab, 0,
+            column, row);
+    });
+    to_sites(waves, transform, field);
+    std::vector<double> u;
+    for (int y = 0; y < n; ++y)
+        u.insert(u.end(), field[0].plane(0).line(y), field[0].plane(0).line(y) + n);
+    return u;
 }
 
 } // namespace asperity

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <set>
 
 using namespace asperity;
@@ -23,6 +24,14 @@ Case case_with(const Keys& keys) {
     if (std::find(keys.begin(), keys.end(), "surface.kind=atoms") != keys.end())
         text = "[surface]\nsites = 16\n";
     return read_case_text(text, "test.toml", keys);
+}
+
+/// Writes a flat map of 16 x 16 points. Returns its path.
+std::string flat_map(const std::string& file) {
+    std::ofstream out(file);
+    for (int y = 0; y < 16; ++y)
+        out << "0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0\n";
+    return file;
 }
 
 /// What an effect leaves in a result: a phase of its steps, a data set, or a number.
@@ -53,6 +62,7 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
         layer.z.push_back(0.0);
     }
     const std::string atoms = write_atoms(scratch / "atoms.h5", layer);
+    const std::string counter = "surface.counter=" + flat_map(scratch / "counter.txt");
     const Keys plain = {"drive.damping=1e-6", "block.model=lattice", "output.fields=[]",
                         "output.checkpoint=none", "block.thickness=16"};
     const Keys rest = {"drive.path=relax"}, relaxing = {"drive.mode=quasistatic"},
@@ -83,6 +93,7 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
                            {relaxing, "drive.stiffness=0.2"},
                            {wall, "interface.adhesion=stripes 1 9 20"},
                            {wall, "interface.hardness=1"},
+                           {wall, counter.c_str()},
                            {wall, "surface.boundary=free"}}) {
         const std::string text = row.key;
         if (text.starts_with("numerics.device") && !fuses(processor_level())) {
@@ -111,6 +122,8 @@ TEST(Effects, WhatAKeySwitchesNamesIt) {
 }
 
 TEST(Effects, OffMakesNoCall) {
+    const io::Scratch scratch;
+    const std::string counter = "surface.counter=" + flat_map(scratch / "counter.txt");
     // Short runs, each with and without the effect's key. An effect that is off leaves no trace.
     const Keys moving = {"block.thickness=8",  "block.model=lattice", "drive.max_steps=20",
                          "output.series=1",    "output.fields=[]",    "output.checkpoint=none",
@@ -118,6 +131,7 @@ TEST(Effects, OffMakesNoCall) {
                still = {"block.thickness=16", "drive.mode=quasistatic",
                         "drive.path=[\"height 3.2\"]", "interface.kind=wall", "output.fields=[]"},
                state = {"block.thickness=16", "drive.path=relax"},
+               state_of_wall = {"block.thickness=16", "drive.path=relax", "interface.kind=wall"},
                sphere = {"surface.kind=flat",    "surface.radius=100",  "interface.kind=wall",
                          "interface.adhesion=5", "interface.range=0.3", "drive.path=relax"};
     const std::vector<Trace> traces = {
@@ -141,6 +155,7 @@ TEST(Effects, OffMakesNoCall) {
          "interface.adhesion=stripes 1 9 20",
          "",
          "/fields/relaxed/adhesion"},
+        {&Effects::counter, state_of_wall, counter.c_str(), "", "surface.counter.file_digest"},
         {&Effects::spring, still, "drive.stiffness=0.2", "", "/series/spring_energy"},
         {&Effects::free_edges, sphere, "surface.boundary=free", "", "instrument.edge_distance"},
         {&Effects::relaxation,

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-ADVISING = ("case_surface.cpp", "surface_atoms.cpp", "potential_table.cpp", "process_grid.cpp")
+ADVISING = ("case_surface.cpp", "pair.cpp", "surface_atoms.cpp", "potential_table.cpp", "process_grid.cpp")
 """Files whose invalid_argument is a message with its advice."""
 TOKEN = re.compile(r'//[^\n]*|/\*.*?\*/|R"(?P<d>\w*)\(.*?\)(?P=d)"|"(?P<text>(?:[^"\\\n]|\\.)*)"|\'(?:[^\'\\]|\\.)\'|\w+|\s+|.', re.S)
 MAKERS = {"Problem": 4, "FileError": 4, "PhysicsError": 3, "add": 4, "removed": 4, "SceneError": 4, "refuse": 0, "refuse_number": 4,

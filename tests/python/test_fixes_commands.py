@@ -564,6 +564,13 @@ def test_fixes_of_stresses():
     said = error(lambda: asperity.stress(object()))
     asperity.stress("pressed", out="again")
     followed(said)
+    followed(error(lambda: asperity.stress("pressed", solid="other")))
+    followed(bad("stress", "pressed", "--solid", "counter"))
+    good("stress", "pressed", "--solid", "block", "--out", "block")
+    Path("flat.txt").write_text(("0 " * 16 + "\n") * 16)
+    good("run", "w.toml", "--out", "slid", "--set", "surface.counter=flat.txt", 'drive.path=["approach", "slide x 1 Å"]', "output.fields=segments")
+    followed(bad("stress", "slid"))
+    good("stress", "slid", "--friction", "0.3")
 
 
 def test_the_fix_of_a_surface_that_yields_as_a_whole():

@@ -236,11 +236,20 @@ def scene_of(name, content, work="50 mJ/m^2", young="100 GPa", **options):
     return map_scene.scene_of(name, young, 0.25, work, made, **options)
 
 
+def pair_of(name, content, poisson=None, young="70 GPa", other=None, second=True, **options):
+    """The scene of a map and of that of a second solid."""
+    other = other or ("second.npy", npy(ROUGH))
+    write(*other)
+    given = map_scene.SecondSolid.given(other[0] if second else None, young, poisson)
+    return scene_of(name, content, second=given, **{**SCAN, **options})
+
+
 GWYDDION = "# Width: 8.32 nm\n# Height: 8.32 nm\n# Value units: Å\n"
 SCAN = {"size": "32 nm", "unit": "Å"}
 WAVES = np.hypot(*np.meshgrid(np.fft.fftfreq(64), np.fft.fftfreq(64)))
 ROUGH = np.fft.ifft2(np.fft.fft2(np.random.default_rng(3).normal(0, 3, (64, 64))) / (1 + (WAVES / 0.05) ** 2)).real
 ATOM = "atom styles are"
+NARROW = ("second.h5", hdf5({"heights": ROUGH}, size_x=30.0, size_y=30.0, unit="nm"))
 # What is said, what reads, the bad input and the good one; a group of what is said stands for {0}
 OF_FILES = [
     ("correct the attribute, or remove it", as_map, ("m.h5", hdf5(scale=-1.0, **ANG)), ("m.h5", hdf5(**ANG))),
@@ -313,6 +322,11 @@ OF_FILES = [
     ('--range "(.*)"; or', scene_of, ("m.npy", npy(ROUGH), {"young": "1 MPa", "reach": "3 Å", "work": "0.5 mJ/m^2", **SCAN}), ("m.npy", npy(ROUGH), {"young": "1 MPa", "reach": "{0}", "work": "0.5 mJ/m^2", **SCAN})),
     ("or leave it out for the numbers", scene_of, ("m.npy", npy(ROUGH), {"young": "100 MPa", "reach": "1 Å", "work": "5 mJ/m^2", **SCAN}), ("m.npy", npy(ROUGH), {"young": "100 MPa", "work": "5 mJ/m^2", **SCAN})),
     ("or a stiffer solid", scene_of, ("m.npy", npy(ROUGH), {"young": "0.1 MPa", **SCAN}), ("m.npy", npy(ROUGH), SCAN)),
+    ("name its map: --counter", pair_of, ("m.npy", npy(ROUGH), {"second": False}), ("m.npy", npy(ROUGH), {"second": True})),
+    ('give it a modulus: --counter-young "(.*)"', pair_of, ("m.npy", npy(ROUGH), {"young": None, "poisson": 0.3}), ("m.npy", npy(ROUGH), {"young": "{0}", "poisson": 0.3})),
+    ('for example --counter-young "(.*)"', pair_of, ("m.npy", npy(ROUGH), {"young": "-1 GPa"}), ("m.npy", npy(ROUGH), {"young": "{0}"})),
+    ("for example --counter-poisson 0.3", pair_of, ("m.npy", npy(ROUGH), {"poisson": 0.7}), ("m.npy", npy(ROUGH), {"poisson": 0.3})),
+    ("or give the size of both: --size", pair_of, ("m.h5", hdf5({"heights": ROUGH}, size_x=32.0, size_y=32.0, unit="nm"), {"size": None, "unit": None, "other": NARROW}), ("m.npy", npy(ROUGH), {"other": NARROW})),
     ('if the attraction does reach so far, --range "(.*)"', scene_of, ("m.npy", npy(ROUGH), {"young": "3 MPa", "work": "3 mJ/m^2", **SCAN}), ("m.npy", npy(ROUGH), {"young": "3 MPa", "work": "3 mJ/m^2", "reach": "{0}", **SCAN})),
 ]
 

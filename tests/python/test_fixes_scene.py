@@ -13,7 +13,7 @@ import pytest
 
 from following import ask, followed, not_followed
 
-SOURCES = ("engine/scene/", "engine/options/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
+SOURCES = ("engine/scene/", "engine/surface/", "engine/options/", "engine/case/", "engine/theory/", "engine/interface/", "decomposition/",
            "io/scene_reader", "io/scene_toml", "io/table_file", "io/units")
 EXCUSED = {
     "Å from here": "followed in test_fixes_commands.py",
@@ -37,6 +37,8 @@ COATED = '[["1 nm", "10 GPa", 0.3]]'
 WALL = {**STILL, "interface.kind": "wall"}
 FREE = {"surface.sites": "16", "drive.mode": "quasistatic", "interface.kind": "wall", "surface.boundary": "free"}
 TIP = {**FREE, "surface.kind": "flat", "surface.radius": "10 nm", "interface.adhesion": "1", "interface.range": "0.25", "drive.path": "approach"}
+PAIR = {**WALL, "surface.kind": "flat", "surface.counter": "map.txt"}
+LED = {**PAIR, "drive.mode": "quasistatic", "drive.path": "approach"}
 PULLED = {**WALL, "drive.mode": "quasistatic", "drive.path": "approach, pull-off"}
 ATOMS = {**STILL, "surface.kind": "atoms", "surface.file": "atoms.h5", "interface.pairs": '["Au 0.1 3.28", "B 0.05 3"]'}
 TWINS = {"surface.file": "twins.h5"}
@@ -354,6 +356,23 @@ CASES = [
     ("set surface.sites = (\\d+)", {"surface.sites": "20"}, {"surface.sites": "{0}"}, MAP),
     ('surface.resample = "(band-limited)"', {"surface.sites": "20"}, {"surface.resample": "{0}"}, MAP),
     (r"correct the unit of the file \(surface.file_unit\)", {"surface.file_unit": "µm"}, {"surface.file_unit": "Å"}, MAP),
+    # Two solids
+    ('take interface.kind = "wall", or', {"interface.kind": "atoms"}, {"interface.kind": "wall"}, PAIR),
+    ("or leave counter out", {"interface.kind": "atoms"}, {"surface.counter": None}, PAIR),
+    ('take drive.mode = "quasistatic", or leave counter out', {"drive.mode": None}, {"drive.mode": "quasistatic"}, LED),
+    ('take counter_young = "rigid"', {"block.prony": '[[1.0, "1 ns"]]', "surface.counter_young": "3"}, {"surface.counter_young": "rigid"}, LED),
+    ("or leave prony out", {"block.prony": '[[1.0, "1 ns"]]', "surface.counter_young": "3"}, {"block.prony": None}, LED),
+    ("name the map of the second solid in surface.counter", {"surface.counter": None, "surface.counter_turn": "90"}, {"surface.counter": "map.txt"}, PAIR),
+    ("give surface.counter_young", {"surface.counter_poisson": "0.3"}, {"surface.counter_young": "3"}, PAIR),
+    (r"take block.thickness = (\d+) or more", {"surface.counter_young": "3", "surface.counter_layers": '[["20 nm", "1 GPa", 0.3]]'}, {"block.thickness": "{0}"}, PAIR),
+    ("leave surface.radius or surface.counter out", {"surface.radius": "100 nm", "drive.path": '["approach", "slide x 1 Å"]'}, {"surface.radius": None}, LED),
+    ('leave "until steady" out, and give the slide a length', {"drive.path": '["approach", "slide x 1 Å until steady"]'}, {"drive.path": '["approach", "slide x 1 Å"]'}, LED),
+    ("give output.stress_friction", {"drive.path": '["approach", "slide x 1 Å"]', "output.stress": "section"}, {"output.stress_friction": "0.2"}, LED),
+    ("give the path of a height map", {"surface.counter": "gone.txt"}, {"surface.counter": "map.txt"}, PAIR),
+    ("take a quarter turn \\(surface.counter_turn = (90)\\)", {"surface.counter_turn": "30"}, {"surface.counter_turn": "{0}"}, PAIR),
+    (r"give a map ([\d.]+) Å wide", {"surface.counter_turn": "30", "surface.resample": "band-limited"}, {"surface.counter_size": "{0}", "surface.counter_crop": "middle"}, PAIR),
+    ('take surface.counter_crop = "(middle)"', {"surface.counter_size": "60", "surface.resample": "band-limited"}, {"surface.counter_crop": "{0}"}, PAIR),
+    (r"with surface.counter_size = ([\d.]+)", {"surface.counter_size": "60", "surface.resample": "band-limited"}, {"surface.counter_size": "{0}"}, PAIR),
     # Values
     ("give a value in that range", {"surface.rms": "-1"}, {"surface.rms": "1"}, STILL),
     (r'another unit is written as in "(.*)"', {"block.young": "1e8"}, {"block.young": "{0}"}, STILL),
@@ -458,6 +477,8 @@ def test_a_fix_of_the_file(tmp_path):
 @pytest.mark.parametrize("says, bad, good, base", [
     ("take a surface with heights: (self-affine), flat or file", {}, {"surface.kind": "{0}", "interface.pairs": None, "surface.file": None}, ATOMS),
     ("leave block.layers out", {"block.layers": COATED}, {"block.layers": None}, QUASI),
+    ("leave surface.counter_layers out", {"surface.counter_young": "3", "surface.counter_layers": COATED}, {"surface.counter_layers": None}, PAIR),
+    ("leave surface.counter out", {"drive.path": '["approach", "slide x 1 Å"]', "block.prony": '[[1.0, "1 ns"]]'}, {"surface.counter": None}, LED),
     ('take boundary = "periodic"', {}, {"surface.boundary": "periodic"}, FREE),
     ("give interface.adhesion a number", {FIELD: "stripes 1 2 20"}, {FIELD: "1.5"}, WALL),
     ("leave block.surface_stress out", {"block.surface_stress": "0.03"}, {"block.surface_stress": None}, QUASI),

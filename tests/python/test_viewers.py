@@ -11,6 +11,7 @@ import xml.etree.ElementTree as tree
 import numpy as np
 import pytest
 
+import asperity
 from conftest import command
 
 os.environ.setdefault("OVITO_GUI_MODE", "0")
@@ -129,3 +130,22 @@ def test_vtk_reads_the_trajectory(path_run, exported, frames):
     assert layer.GetNumberOfVerts() == SITES
     velocity = path_run.file.array("/particles/trajectory/velocity/value", 3)[-1]
     assert vtk_arrays(layer)["velocity (Å/ps)"] == pytest.approx(velocity, rel=1e-5, abs=1e-6)
+
+
+def test_vtk_reads_the_stresses(tmp_path):
+    vtk = pytest.importorskip("vtk")
+    run = asperity.run({"surface": {"sites": 24, "spacing": 2.0, "rms": 0.6, "rolloff": 2, "q_max": 6}, "block": {"young": 20, "poisson": 0.3},
+                        "interface": {"kind": "wall", "adhesion": 2.0, "range": 3.0},
+                        "drive": {"path": ["relax"], "load": 600.0, "mode": "quasistatic"}}, out=tmp_path / "run")
+    for whole in (True, False):
+        found = asperity.stress(run, volume=whole, out=tmp_path / f"volume-{whole}")
+        reader = vtk.vtkXMLImageDataReader()
+        reader.SetFileName(str(tmp_path / f"volume-{whole}/stress.vti"))
+        reader.Update()
+        image = reader.GetOutput()
+        values = found.volume if whole else {name: one[:, None, :] for name, one in found.section.items()}
+        assert image.GetDimensions() == values["zz"].shape[::-1] and image.GetPointData().GetNumberOfArrays() == 8
+        assert image.GetSpacing() == pytest.approx((2.0, 2.0, found.depth[1])) and image.GetOrigin()[2] == 0
+        arrays = vtk_arrays(image)
+        for name, one in values.items():
+            assert arrays[f"stress {name} (GPa)"] == pytest.approx(one.ravel(), rel=1e-5, abs=1e-6 * abs(one).max()), name

@@ -43,6 +43,10 @@ class Options(Base):
     channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
     line_noise: str | None = option("HOW", "treatment of a scan's noise from line to line: keep, align-rows or isotropic", None,
                                     choices=("keep", "align-rows", "isotropic"))
+    counter: str | None = option("MAP2", "map of a second rough solid, turned over onto the first; eight shifts show the error of the "
+                                 "position", None)
+    counter_young: str | None = option("70GPa", "Young's modulus of the second solid (default: rigid)", None)
+    counter_poisson: float | None = option("0.25", "its Poisson's ratio (default: that of the first)", None)
     sites: int | None = option("N", "along an edge (default: the map's points, 256 at most)", None, limits=SITES)
     out: str | None = out("results/<map>-adhesion")
     jobs: int = jobs()
@@ -92,8 +96,10 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
              out: str | os.PathLike | None = None, range: str | None = None, size: str | None = None, unit: str | None = None,
              channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None,
              hardness: str | None = None, *, E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
-             file_size: str | None = None, file_unit: str | None = None) -> Adhesion:
-    """Computes the adhesion of a half-space, elastic or one that yields, on a measured, rigid map, with its error.
+             file_size: str | None = None, file_unit: str | None = None, counter: str | os.PathLike | None = None,
+             counter_young: str | None = None, counter_poisson: float | None = None) -> Adhesion:
+    """Computes the adhesion of a half-space, elastic or one that yields, on a measured, rigid map, or of two rough solids, with its
+    error.
 
         found = asperity.adhesion("scan.gwy", young="100 GPa", poisson=0.25, adhesion="200 mJ/m2")
         found.quote(), found.quote("lost.cycle"), found.notes
@@ -126,6 +132,13 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
         Hardness of the half-space with its unit, the largest pressure that it bears; None: it is elastic.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
+    counter : str or os.PathLike, optional
+        Map of a second solid of the same size, whose heights are outwards from it; it is turned over onto the first, whose map is `map`.
+        Eight shifts of it give the part "position" of the error.
+    counter_young : str, optional
+        Young's modulus of the second solid with its unit; None: it is rigid.
+    counter_poisson : float, optional
+        Poisson's ratio of the second solid; None: that of the first.
 
     Returns
     -------
@@ -163,15 +176,16 @@ def _estimating(given: Options, options: PoolOptions, say: Callable[[str], None]
     from ..reports.run import run_page_files
     from ..running.pool import require_free_runs
     from ..studies.estimates import MAP_FILES, OF_A_MAP, RESULT, Estimating
-    from ..studies.map_scene import scene_of, stem_of
+    from ..studies.map_scene import SecondSolid, map_files, scene_of, stem_of
 
     place = store.chosen(given.out, f"results/{Path(given.map.partition(':/')[0]).stem}-adhesion")
     require_free_runs(place, OF_A_MAP)
     page = [] if store.is_named(place / "scene", "report.html") else run_page_files(["relaxed"], ("png",))
-    store.require_free({place: ["map.npy", f"{stem_of(given.map)}.toml", RESULT, *report_estimate.FILES], place / "maps": MAP_FILES,
-                        place / "scene": page}, inputs=[given.map])
+    store.require_free({place: [*map_files(given.counter), f"{stem_of(given.map)}.toml", RESULT, *report_estimate.FILES],
+                        place / "maps": MAP_FILES, place / "scene": page}, inputs=[given.map, *filter(None, [given.counter])])
     made = scene_of(given.map, given.young, given.poisson, given.adhesion, place, reach=given.range, size=given.size, unit=given.unit,
-                    channel=given.channel, sites=given.sites, line_noise=given.line_noise, hardness=given.hardness)
+                    channel=given.channel, sites=given.sites, line_noise=given.line_noise, hardness=given.hardness,
+                    second=SecondSolid.given(given.counter, given.counter_young, given.counter_poisson))
     for line in (f"{given.map}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
         say(line)
     return made, Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,
@@ -216,5 +230,5 @@ def _carry_out(given: Options, voice: Voice) -> int:
 
 
 COMMAND = Command(Options, _carry_out, more=(
-    "An elastic half-space on the rigid map, bound by an exponential attraction: run, path at a held mean height, estimate, report. The "
-    "same command goes on where it stopped."))
+    "An elastic half-space on the rigid map, or two rough solids (--counter), bound by an exponential attraction: run, path at a held "
+    "mean height, estimate, report. The same command goes on where it stopped."))

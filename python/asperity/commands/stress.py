@@ -15,6 +15,8 @@ from ..files import store
 from ..terminal import Voice
 from .options import Command, Options as Base, option, out, word
 
+SOLIDS = ("block", "counter")
+
 if TYPE_CHECKING:
     from ..results.result import Result
     from ..studies.stress import Stress
@@ -26,15 +28,16 @@ class Options(Base):
 
     directory: str = word("DIR", "the result directory")
     state: str | None = option("NAME", "the state (default: relaxed, or the last one)", None)
+    solid: str = option("WHICH", "below the surface of which solid: block, or the second one, counter", "block", choices=SOLIDS)
     friction: float | None = option("0.3", "coefficient of a friction in phase with the pressure (default: that of a slide)", None)
     depth: str | None = option("5nm", "largest depth of the section (default: three times that of the largest stress)", None)
     volume: bool = option("", "all points at all depths of the section too", False)
-    out: str | None = out("DIR/stress", "directory of the files")
+    out: str | None = out("DIR/stress", "directory of the files (of the second solid: DIR/stress-counter)")
 
 
 @checks_call
 def stress(result: Any, state: str | None = None, friction: float | None = None, depth: str | None = None,
-           volume: bool = False, out: str | os.PathLike | None = None) -> Stress:
+           volume: bool = False, out: str | os.PathLike | None = None, solid: str = "block") -> Stress:
     """Computes the stresses below the surface of a run, with the largest ones, their places and their errors.
 
         found = asperity.stress("results/coated", friction=0.3)
@@ -54,7 +57,9 @@ def stress(result: Any, state: str | None = None, friction: float | None = None,
     volume : bool
         True: all points at all depths too.
     out : str or os.PathLike, optional
-        Directory of the files; None: stress in the directory of the run.
+        Directory of the files; None: stress in the directory of the run, for the second solid stress-counter.
+    solid : str
+        "block", or "counter": below the surface of the second solid (surface.counter), with depths from its surface into it.
 
     Returns
     -------
@@ -73,16 +78,19 @@ def stress(result: Any, state: str | None = None, friction: float | None = None,
     if not isinstance(result, str | os.PathLike | Result):
         raise SceneError(f"result = {result!r:.60}", "is no result", "", "give the directory of a run, or its result")
     run = result if isinstance(result, Result) else Result(Path(result))
-    return _computed(run, state, friction, depth, volume, None if out is None else os.fspath(out))[0]
+    return _computed(run, state, friction, depth, volume, None if out is None else os.fspath(out), solid)[0]
 
 
-def _computed(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: str | None) -> tuple[Stress, Path]:
+def _computed(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: str | None,
+              solid: str) -> tuple[Stress, Path]:
     """Computes and writes the stresses. Returns them with the page."""
     from ..reports import stress as report_stress
     from ..results.result import expect
     from ..studies.stress import RESULT, compute
 
-    place = run.directory / "stress" if out is None else store.chosen(out, "")
+    if solid not in SOLIDS:
+        raise SceneError(f'solid = "{solid}"', "is none of them", "", 'take "block" or "counter"')
+    place = run.directory / ("stress" if solid == "block" else "stress-counter") if out is None else store.chosen(out, "")
     expect(run.directory, "run.h5")
     if friction is not None and not -2 <= friction <= 2:
         raise SceneError(f"--friction {friction:g}", "is no friction coefficient", "from -2 to 2 are",
@@ -90,7 +98,7 @@ def _computed(run: Result, state: str | None, friction: float | None, depth: str
     store.require_free({place: report_stress.FILES}, inputs=[str(run.file.path)])
     try:
         with store.outputs(place, [RESULT, report_stress.NUMBERS, report_stress.IMAGE], inputs=[str(run.file.path)]) as files:
-            found = compute(run, state, friction, depth, volume, files)
+            found = compute(run, state, friction, depth, volume, files, solid)
             return found, report_stress.write(found, place, files)
     except Error as error:
         error.rewrite(lambda text: text.replace("--set output.stress_depth=", "--depth ").replace("output.stress_depth", "--depth"))
@@ -103,7 +111,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     from ..results.result import Result
 
     run = Result(Path(given.directory))
-    found, page = _computed(run, given.state, given.friction, given.depth, given.volume, given.out)
+    found, page = _computed(run, given.state, given.friction, given.depth, given.volume, given.out, given.solid)
     voice.tell({**report_stress.answer_of(found), "directory": page.parent})
     voice.show(report_stress.text_of(found))
     voice.say(f"\nwritten: {page.parent}: report.html, stress.json, stress.h5, stress.vti (ParaView)")

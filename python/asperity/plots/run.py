@@ -297,7 +297,8 @@ def balance(run: Result, ax: Axes) -> bool:
 
 
 def spectrum(run: Result, ax: Axes) -> bool:
-    """Draws the radially averaged power spectrum C(q) of the surface, realised and target.
+    """Draws the radially averaged power spectrum C(q) of the surface, realised and target; of two rough solids that of each and of their
+    sum.
 
     Parameters
     ----------
@@ -315,7 +316,11 @@ def spectrum(run: Result, ax: Axes) -> bool:
     if found is None or not (found[1] > 0).any():  # flat
         return False
     q, realised, target = found
-    curve(ax, q[realised > 0], realised[realised > 0], "realised")
+    pair = run.substrate.pair_spectra
+    curve(ax, q[realised > 0], realised[realised > 0], "sum" if pair else "realised")
+    for one, label, line in zip(pair or (), ("first solid", "second solid"), DASHES[1:]):
+        if (one > 0).any():
+            curve(ax, q[one > 0], one[one > 0], label, colour=RED, line=line)
     if (target > 0).any():
         curve(ax, q[target > 0], target[target > 0], "target", colour=RED, line=DASHES[1])
     return finish(ax, "wavevector $q$ (1/Å)", "$C(q)$ (Å⁴)", log="xy")

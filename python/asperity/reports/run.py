@@ -36,7 +36,7 @@ FIGURES = {
     "surface": ("Surface and theory", (
         ("height", "Height of the substrate", "The substrate from above. The colour bar spans 99\u00a0% of it."),
         ("spectrum", "Roughness spectrum",
-         "Radially averaged power spectrum of this surface (realised), and the one that the scene asks for (target)."),
+         "Radially averaged power spectrum of this surface (realised), and the one that the scene asks for (target). {pair}"),
         ("roughness", "Binding energy and roughness", "Curves: the theories for this scene at other roughnesses. Markers: "
          "this run’s numbers, all as energies that separate the solids: works of the interface’s force, works of the "
          "drive, and the binding energy of the state."),
@@ -99,7 +99,7 @@ def _words(run: Result) -> dict[str, str]:
                        "The area between approach and pull-off is the work of the top plane in a cycle; what the medium of "
                        "the damping does is not in it. Swings after the jump into contact and after the pull-off are vibrations of the "
                        "block.", "at": run.load_words[0],
-            "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
+            "pair": sentences.pair(run), "bar": "ends at the cutoff" if run.curved else "spans 99\u00a0% of the values"}
 
 
 def _figures(section: str, page: Page, run: Result) -> None:

@@ -141,6 +141,8 @@ def lead(run: Result) -> str:
     rms, slope = run.number("surface.rms"), run.number("surface.rms_slope")
     if rms:
         surface += f" (rms height {rms:.3g} Å" + (f", rms slope {slope:.2g}" if slope is not None else "") + ")"
+    if run.number("surface.counter.rms") is not None:
+        surface = f"another, both rough: the sum of the surfaces has an rms height of {rms or 0.0:.3g} Å and an rms slope of {slope or 0.0:.2g}"
     if run.radius:
         surface += f" on a sphere of R = {0.1 * run.radius:.4g} nm"
     if run.has_free_edges:
@@ -148,6 +150,27 @@ def lead(run: Result) -> str:
                 f"with free edges.{_path(run)}")
     return (f"An elastic block on {surface}: {sites:.0f} × {sites:.0f} atoms, {number(0.1 * run.edge, 1)} nm wide, "
             f"{general(run.key('block.thickness'))} layers thick.{_path(run)}")
+
+
+def pair(run: Result) -> str:
+    """Tells the roughness of two solids, and how they lie on each other; "" of one rough surface.
+
+    Parameters
+    ----------
+    run : Result
+        Result of the run.
+
+    Returns
+    -------
+    str
+        A sentence or two.
+    """
+    if run.number("surface.counter.rms") is None:
+        return ""
+    own, counter = ((run.number(f"surface.{which}.rms", 0.0), run.number(f"surface.{which}.rms_slope", 0.0)) for which in ("own", "counter"))
+    return (f"First solid: rms height {own[0]:.3g} Å, rms slope {own[1]:.2g}; second solid: {counter[0]:.3g} Å, {counter[1]:.2g}. Heights are "
+            f"outwards from each; where they lie on each other their correlation is {run.number('surface.correlation', 0.0):.2g} (1 of equal "
+            f"ones), and their bands overlap by {run.number('surface.band_overlap', 0.0):.2g} (1 of proportional spectra).")
 
 
 def _stress(gigapascal: float) -> tuple[str, str]:

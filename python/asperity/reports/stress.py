@@ -44,6 +44,8 @@ def conditions(found: Stress) -> str:
     """
     sides = ("The sides are free, and the mean pressure is that of a box without images: the change by images of "
              "the contact is a part of the error." if found.free_edges else "The sides are held: the mean pressure strains the block along z alone.")
+    if found.solid == "counter":
+        sides += " These are the stresses in the second solid; depths lead from its surface into it."
     if found.slid:
         return sides + " The friction of the slide acts as the pressure times the slope of the wall."
     if found.friction:
@@ -118,8 +120,8 @@ def answer_of(found: Stress) -> dict[str, Any]:
         of_layer = {one.measure: {"value": one.value, "error": one.error, "x": one.x, "y": one.y, "depth": one.depth, "reason": one.reason,
                                   "parts": one.parts} for one in found.largest if one.layer == number}
         layers.append({"from": top, "to": end, **of_layer})
-    return {"state": found.state, "friction": found.friction, "slide": found.slid, "conditions": conditions(found), "layers": layers,
-            "units": {"value": "GPa", "x": "Å", "y": "Å", "depth": "Å"}}
+    return {"state": found.state, "solid": found.solid, "friction": found.friction, "slide": found.slid, "conditions": conditions(found),
+            "layers": layers, "units": {"value": "GPa", "x": "Å", "y": "Å", "depth": "Å"}}
 
 
 def image_of(found: Stress) -> str:

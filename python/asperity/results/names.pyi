@@ -445,6 +445,20 @@ class Energy(Values):
     damped: float
     """eV: energy damped, less the heat of noise, or of a quasi-static path dissipated at instabilities"""
 
+class SurfaceOwn(Values):
+    rms: float
+    """Å: rms height of the block's surface, with surface.counter"""
+    rms_slope: float
+    """rms slope of the block's surface, with surface.counter"""
+
+class SurfaceCounter(Values):
+    rms: float
+    """Å: rms height of the second solid's surface"""
+    rms_slope: float
+    """rms slope of the second solid's surface"""
+    file_digest: str
+    """digest of the values read from surface.counter, as surface.file_digest"""
+
 class Surface(Values):
     rms: float
     """Å: rms height of the substrate, without the cap"""
@@ -460,6 +474,12 @@ class Surface(Values):
     """author of the map, if its file names one"""
     file_digest: str
     """digest of the values read from surface.file"""
+    own: SurfaceOwn
+    counter: SurfaceCounter
+    correlation: float
+    """correlation of the heights of both surfaces, each outwards from its own solid"""
+    band_overlap: float
+    """overlap of the spectra of both surfaces"""
 
 class Interface(Values):
     cutoff: float
@@ -623,6 +643,30 @@ class SceneSurface(Values):
     """noise of a scan from line to line"""
     resample: Any
     """resampling of a map without N x N values to the lattice"""
+    counter: Any
+    """map of a second solid, in a file as for surface.file, over a wall on a quasi-static path"""
+    counter_size: Any
+    """Å: edge of the map of surface.counter"""
+    counter_unit: Any
+    """unit of the map of surface.counter"""
+    counter_missing: Any
+    """points without a value in the map of surface.counter, as surface.file_missing"""
+    counter_crop: Any
+    """a map of surface.counter that is not square, as surface.file_crop"""
+    counter_shift_x: Any
+    """Å: shift of the second solid along x, after its turn"""
+    counter_shift_y: Any
+    """Å: shift of the second solid along y, after its turn"""
+    counter_turn: Any
+    """turn of the second solid about the middle of its map, degrees, counter-clockwise from above"""
+    counter_young: Any
+    """GPa: Young's modulus of the second solid"""
+    counter_poisson: Any
+    """Poisson's ratio of the second solid"""
+    counter_layers: Any
+    """coatings of the second solid, from its surface inwards, as block.layers"""
+    counter_surface_stress: Any
+    """N/m: tension of the second solid's surface"""
 
 class SceneBlock(Values):
     model: Any
@@ -870,7 +914,15 @@ class StateMaps:
     """Å: displacement of a site along y"""
     u_z: np.ndarray
     """Å: displacement of a site along z"""
+    u_z_counter: np.ndarray
+    """Å: displacement of the surface of an elastic second solid along z, whose lower end is held"""
 
 class SubstrateMaps:
     height: np.ndarray
     """Å: heights of the atoms of the substrate at"""
+    own_spectrum: np.ndarray
+    """Å^4: C"""
+    counter_spectrum: np.ndarray
+    """Å^4: C"""
+    counter_height: np.ndarray
+    """Å: heights of the second solid in its place, outwards from it, [y][x]"""

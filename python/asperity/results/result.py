@@ -358,7 +358,7 @@ class Substrate(Group, SubstrateMaps):
     """The rigid surface: height [y, x] (Å), and spectrum: q (1/Å), realised and target C(q) (Å^4). A substrate of atoms also has
     atoms [atom, 3] (Å) and types [atom] (from 1, as in interface.pairs); otherwise both are None."""
 
-    lists = ("spectrum_q", "spectrum", "spectrum_target", "atoms", "type")
+    lists = ("spectrum_q", "spectrum", "spectrum_target", "own_spectrum", "counter_spectrum", "atoms", "type")
 
     def __init__(self, file: RunFile, edge: float = 0.0):
         super().__init__(file, "/substrate", edge)
@@ -368,6 +368,11 @@ class Substrate(Group, SubstrateMaps):
         """Radially averaged power spectrum: wave numbers and values (unit of the file); None if the file has none."""
         found = self._lists(*self.lists[:3])
         return found if found and len({len(c) for c in found}) == 1 else None
+
+    @property
+    def pair_spectra(self) -> list[np.ndarray] | None:
+        """Power spectra of the block's surface and of the second solid's, at the wave numbers of spectrum; None without surface.counter."""
+        return self._lists("own_spectrum", "counter_spectrum")
 
     @functools.cached_property
     def atoms(self) -> np.ndarray | None:

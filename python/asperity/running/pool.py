@@ -38,7 +38,8 @@ from .scene import inputs_of
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
 RESULT, LOG = "result.json", "log.txt"
-FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "interface.table_digest": "scene.interface.table",
+FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "surface.counter.file_digest": "scene.surface.counter",
+                "interface.table_digest": "scene.interface.table",
                 "interface.adhesion_digest": "scene.interface.adhesion"}
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1

@@ -98,7 +98,7 @@ def file_beside(name: str, scene: str) -> str:
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Returns the files that a command reads for a scene: its file, map or atoms, table, and map of the work of adhesion.
+    """Returns the files that a command reads for a scene: its file, maps or atoms, table, and map of the work of adhesion.
 
     Parameters
     ----------
@@ -112,7 +112,8 @@ def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
     list[str]
         The paths.
     """
-    named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("interface", "table"))]
+    named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("surface", "counter"), ("interface", "table"))
+             if scene.get(section, {}).get(key) != "none"]
     field = scene.get("interface", {}).get("adhesion")
     if isinstance(field, str) and Path(file_beside(field, str(file)).partition(":/")[0]).exists():
         named.append(field)

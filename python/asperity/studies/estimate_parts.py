@@ -247,6 +247,28 @@ def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found
     return Found(0.0, standard_error(rows))
 
 
+def positions(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
+    """Takes the scatter over places of one solid on the other as the error of any of them; the number is not corrected.
+
+    Parameters
+    ----------
+    q : Quantity
+        Quantity.
+    base : float
+        Number of the base.
+    rows : np.ndarray
+        Numbers of the other places.
+    _ : list[Values]
+        Results of the rows, not used.
+
+    Returns
+    -------
+    Found
+        No shift, and the standard deviation in the unit of the number.
+    """
+    return Found(0.0, float(np.std([base, *rows], ddof=1)))
+
+
 def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
     """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected.
 
@@ -312,6 +334,23 @@ class Plan(NamedTuple):
     parts: list[Part]
 
 
+SHIFTS = 8
+"""Places of one solid on the other, with that of the scene."""
+
+
+def _positions(scene: Variations, part: Callable[..., None]) -> None:
+    """Adds the part of the position of a second solid: shifts by eighths of the box along x, and by three times as much along y."""
+    if not scene.second_solid:
+        return
+    if scene.scene.text("surface.boundary") == "free" or scene.scene.text("surface.counter_crop") != "none":
+        return part("position", "realisation", "not varied: the map of the second solid does not repeat")
+    step = scene.edge / SHIFTS
+    here = [scene.own(f"surface.counter_shift_{axis}") for axis in "xy"]
+    part("position", "realisation", f"{SHIFTS} shifts of the second solid", [
+        (f"shift {k}/{SHIFTS}", [f"surface.counter_shift_{axis}={x + step * (factor * k % SHIFTS):.10g}" for axis, x, factor in
+                                 zip("xy", here, (1, 3))]) for k in range(1, SHIFTS)], positions)
+
+
 def _box(scene: Variations, factor: float) -> Setting:
     """Returns the setting of a wider or narrower box at the same spacing; a block as thick as wide stays so."""
     return [f"surface.sites={scene.sites * factor:.0f}"] + [
@@ -327,6 +366,7 @@ def is_coarse(scene: Variations) -> bool:
     is no solid's own and all waves fit."""
     kind = scene.scene.text("surface.kind")
     waves = kind == "flat" or kind == "self-affine" and 4 * scene.own("surface.q_max") <= scene.sites
+    waves = waves and not scene.second_solid
     return scene.moves and scene.continuous and waves and scene.sites % 4 == scene.thickness % 2 == 0 and scene.sites >= 64
 
 
@@ -398,6 +438,7 @@ def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _:
     elif not maps:
         part("width", "geometry", "not varied: the surface has no statistics to continue it by")
         part("seeds", "realisation", "none: there is one such surface")
+    _positions(scene, part)
     for one in maps:
         one.base = base
         for row in one.rows:

@@ -159,7 +159,7 @@ def load_estimate(directory: str | os.PathLike) -> Estimate:
 
 # Planning.
 
-MAP_FILES = [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
+MAP_FILES = ["flat.npy"] + [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
 """What the parts of a measured map are written to, in the folder maps."""
 OF_A_MAP = re.compile(r"(scene|finer|mirrored|quarter-\d)(,.*)?|\w+=.*")
 """Folders of the runs of a map's estimate."""
@@ -184,7 +184,19 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
         n = max(2, round(len(heights) * edge / size))
         start = (len(heights) - n) // 2
         heights = heights[start:start + n, start:start + n]
-    if of.number("surface.rms") is not None:
+    flat: dict[str, Any] = {}
+    if of.text("surface.counter") not in ("", "none"):
+        # The parts below are of the sum of both maps, on a second solid that is flat.
+        points = len(heights) if of.text("surface.resample") == "band-limited" else sites
+        with scene_file(_beside(keys, scene) | {"name": "sum"}) as file:
+            heights = surface_made(file, [f"surface.sites={points}", f"surface.spacing={edge / points:.12g}", "surface.radius=none",
+                                          f"block.thickness={points}"]).heights
+        flat = {"counter": "flat.npy", "counter_size": None, "counter_unit": "Å", "counter_crop": "none", "counter_shift_x": 0.0,
+                "counter_shift_y": 0.0, "counter_turn": 0.0} if of.number("surface.counter_young") else _without_counter(keys)
+        with store.outputs(place, ("flat.npy",), inputs=inputs) as written, written.replacing("flat.npy") as beside, \
+                open(beside, "wb") as opened:
+            np.save(opened, np.zeros((4, 4)))
+    elif of.number("surface.rms") is not None:
         made = {name: {**section} if isinstance(section, dict) else section for name, section in keys.items()}
         size = float(np.nanstd(heights)) or 1.0  # as it is, the map may be of any size
         with tempfile.TemporaryDirectory(prefix="asperity-") as folder:
@@ -201,7 +213,7 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
             box = int(sites * factor / spacing)
             made = {section: dict(values) for section, values in keys.items() if isinstance(values, dict)}
             made["surface"] |= {"file": f"{stem}.npy", "file_unit": "Å", "file_size": factor * edge, "sites": box,
-                                "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend}
+                                "spacing": factor * edge / box, "rms": None, "resample": "band-limited", "detrend": detrend, **flat}
             if name == "finer":  # the surface as it was made: what was taken off it is off
                 made["surface"]["line_noise"] = "keep"
             thickness = of.needed("block.thickness")
@@ -219,19 +231,18 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
 
     parts = [Part("waves", "truncation", "")]
     if continuous:
-        whole = {"radius": "none", "file": str(Path(file_beside(of.text("surface.file"), scene)).resolve())}
-        with scene_file(keys | {"surface": keys["surface"] | whole}) as file:
-            made_of_it = surface_made(file).heights
+        with scene_file(_beside(keys, scene)) as file:
+            made_of_it = surface_made(file, ["surface.radius=none"]).heights
         order = 1 if spacing_also(0.5) else None  # None: that of the quantity
         parts.append(Part("spacing", "discretisation", f"spacing {0.5 * edge / sites:.4g} Å, the same waves",
                           scenes("finer", [made_of_it], 1.0, "none", 0.5, spacing_also(0.5)), finer(2, order)))
     detrend = of.text("surface.detrend")
-    flat = heights if detrend == "none" else height_map.without_plane(heights)
+    level = heights if detrend == "none" else height_map.without_plane(heights)
     if detrend == "none" and height_map.jump(heights) < height_map.PERIODIC:
         parts.append(Part("edge", "geometry", "none: the map is periodic"))
     else:
         parts.append(Part("edge", "geometry", "the map in its mirror images",
-                          scenes("mirrored", [height_map.mirrored(flat)], 2.0, "none"), edges))
+                          scenes("mirrored", [height_map.mirrored(level)], 2.0, "none"), edges))
     if sites % 2 or sites < 32:
         parts.append(Part("places", "realisation", "not varied: the map has too few sites for quarters"))
     else:
@@ -240,6 +251,18 @@ def _map_parts(keys: dict[str, Any], scene: str, place: Path, continuous: bool, 
                           places))
     quiet = _without_line_noise(heights, edge, of.text("surface.line_noise"))
     return tuple(parts), partial(missing_waves.law_of, quiet, edge), len(heights)
+
+
+def _beside(keys: dict[str, Any], scene: str) -> dict[str, Any]:
+    """Returns the keys of a scene whose maps are named by their paths."""
+    named = {key: str(Path(file_beside(name, scene)).resolve()) for key in ("file", "counter")
+             if isinstance(name := keys["surface"].get(key), str) and name not in ("", "none")}
+    return keys | {"surface": keys["surface"] | named}
+
+
+def _without_counter(keys: dict[str, Any]) -> dict[str, Any]:
+    """Returns the keys of a second solid as those of none."""
+    return {key: "none" if key == "counter" else None for key in keys["surface"] if key.startswith("counter")}
 
 
 def _without_line_noise(heights: np.ndarray, edge: float, treatment: str) -> np.ndarray:
@@ -398,6 +421,10 @@ class Estimating(Study):
         layers = self.varied.scene.find("block.layers")
         young, poisson = layers[0][1:] if layers else (self.varied.own("block.young"), self.varied.own("block.poisson"))
         modulus = young * GIGAPASCAL / (1.0 - poisson ** 2)  # of the surface, where short waves are
+        if self.varied.second_solid and self.varied.own("surface.counter_young"):
+            layers = self.varied.scene.find("surface.counter_layers")
+            young, poisson = layers[0][1:] if layers else (self.varied.own("surface.counter_young"), self.varied.own("surface.counter_poisson"))
+            modulus = 1.0 / (1.0 / modulus + (1.0 - poisson ** 2) / (young * GIGAPASCAL))
         adhesion = Values(self.jobs[0].answer).number("delta_gamma", 0.0) / 1e3
         sites = [n for n in (self.varied.sites * 2**k for k in range(1, 8)) if n < self.points] + [self.points]
         more = next((n for n in sites if n > self.varied.sites and

@@ -59,7 +59,8 @@ class Units(NamedTuple):
         return list(dict.fromkeys(found)) or [f"{text or 1} {unit}" for unit in self.usual]
 
 
-UNITS = {"young": Units(("GPa", "MPa"), "Pa", 1e3, 3e12), "hardness": Units(("GPa", "MPa"), "Pa", 1e3, 3e11),
+MODULUS = Units(("GPa", "MPa"), "Pa", 1e3, 3e12)
+UNITS = {"young": MODULUS, "counter_young": MODULUS, "hardness": Units(("GPa", "MPa"), "Pa", 1e3, 3e11),
          "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
          "range": Units(("Å", "nm"), "m", 1e-12, 1e-5), "size": Units(("nm", "µm"), "m", 1e-9, 1e-2),
          "radius": Units(("nm", "µm"), "m", 1e-10, 1e-3), "stiffness": Units(("N/m", "mN/m"), "N/m", 1e-5, 1e5)}
@@ -129,7 +130,7 @@ def with_unit(name: str, value: object) -> str:
     text = str(value).strip()
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
-                         "write the one that is meant: " + " or ".join(f'--{name} "{one}"' for one in UNITS[name].meant(text)))
+                         "write the one that is meant: " + " or ".join(f'--{name.replace("_", "-")} "{one}"' for one in UNITS[name].meant(text)))
     return text
 
 
@@ -225,6 +226,73 @@ def _smooth_below(most: int) -> int:
     return next(n for n in range(most - most % 2, 0, -2) if smooth(n))
 
 
+class SecondSolid(NamedTuple):
+    """A second rough solid: file of its map, Young's modulus with its unit (None: rigid), Poisson's ratio (None: that of the first)."""
+
+    file: str
+    young: object
+    poisson: float | None
+
+    @classmethod
+    def given(cls, file: str | None, young: object, poisson: float | None) -> SecondSolid | None:
+        """Returns the solid of these arguments; None without a map.
+
+        Parameters
+        ----------
+        file : str, optional
+            File of the map.
+        young : object
+            Young's modulus with its unit.
+        poisson : float, optional
+            Poisson's ratio.
+
+        Returns
+        -------
+        SecondSolid or None
+            The solid.
+
+        Raises
+        ------
+        SceneError
+            A modulus is given without a map, or a Poisson's ratio without a modulus.
+        """
+        if file is None and (young is not None or poisson is not None):
+            raise SceneError(f"counter_young = {young}" if young is not None else f"counter_poisson = {poisson}", "has no effect",
+                             "there is no second solid", "name its map: --counter map2.npy")
+        if young is None and poisson is not None:
+            raise SceneError(f"counter_poisson = {poisson}", "has no effect", "the second solid is rigid",
+                             'give it a modulus: --counter-young "70 GPa"')
+        return None if file is None else cls(os.fspath(file), young, poisson)
+
+    def keys(self, poisson: float) -> dict[str, Any]:
+        """Returns the keys of its elasticity, GPa. poisson: that of the first solid. Raises SceneError for what is no modulus."""
+        if self.young is None:
+            return {}
+        young, own = quantity(with_unit("counter_young", self.young), "GPa"), poisson if self.poisson is None else self.poisson
+        if young is None or not young > 0.0:
+            raise SceneError(f"counter_young = {self.young}", "is no modulus above zero", "", 'for example --counter-young "70 GPa"')
+        if not -1.0 < own < 0.5:
+            raise SceneError(f"counter_poisson = {own}", "is no Poisson's ratio", "it is above -1 and below 0.5",
+                             "for example --counter-poisson 0.3")
+        return {"counter_young": young, "counter_poisson": own}
+
+
+def map_files(counter: str | None) -> list[str]:
+    """Returns the names of the files of the maps beside a scene.
+
+    Parameters
+    ----------
+    counter : str, optional
+        File of the map of a second solid.
+
+    Returns
+    -------
+    list[str]
+        Names of files.
+    """
+    return ["map.npy", *["counter.npy"] * (counter is not None)]
+
+
 class MapScene(NamedTuple):
     """file: of the scene; notes: on what was made of the map; also: what another spacing sets too; withheld, condition: of
     numbers that depend on the range of the attraction, why they are not stated, or for which range they hold."""
@@ -238,7 +306,7 @@ class MapScene(NamedTuple):
 
 def scene_of(file: str, young: object, poisson: float, adhesion: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             line_noise: str | None = None, hardness: object = None) -> MapScene:
+             line_noise: str | None = None, hardness: object = None, second: SecondSolid | None = None) -> MapScene:
     """Writes the scene of a map and the map beside it, after all checks.
 
     Parameters
@@ -267,6 +335,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         Treatment of noise from line to line (surface.line_noise).
     hardness : object
         Hardness of the half-space with its unit; None: it is elastic.
+    second : SecondSolid, optional
+        A second rough solid; None: the map is that of a rigid one.
 
     Returns
     -------
@@ -297,6 +367,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = read_square(file, unit, asked, channel)
     points = len(heights)
+    elastic = second.keys(poisson) if second else {}
+    other = _second_map(second.file, unit, asked, edge, notes) if second else None
     if sites is not None and sites < height_map.FEWEST:
         raise SceneError(f"sites = {sites}", "are too few", "", f"take {height_map.FEWEST} or more, or leave it out")
     memory = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")  # what is free now would be another scene later
@@ -304,6 +376,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
     n = _smooth_below(max(most, height_map.FEWEST))
     spacing = edge / n
     stiff = keys.needed("block.young") * GIGAPASCAL / (1 - keys.needed("block.poisson") ** 2)  # eV/Å³
+    if elastic:  # both solids in series
+        stiff = 1 / (1 / stiff + (1 - elastic["counter_poisson"] ** 2) / (elastic["counter_young"] * GIGAPASCAL))
     work, asked = keys.needed("interface.adhesion") / 1e3, keys.needed("interface.range")
 
     def resolved(spacing: float) -> float:
@@ -328,9 +402,10 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
                          f"{edge:.4g} Å wide", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with a range "
                          f"of {used:.3g} Å (w / E* = {work / stiff:.3g} Å)", "take more sites, a wider map, or a stiffer solid")
     flat = height_map.without_tilt(heights)
-    rms = float(np.nanstd(height_map.without_plane(heights)))
+    rough = [heights] if other is None else [heights, other]
+    rms = math.hypot(*(float(np.nanstd(height_map.without_plane(one))) for one in rough))
     if used > 1.001 * asked and used > rms > 0.0:
-        flattened = stiff * missing_waves.energy_shown(heights, edge) * 1e3 * MILLIJOULE
+        flattened = stiff * sum(missing_waves.energy_shown(one, edge) for one in rough) * 1e3 * MILLIJOULE
         raise SceneError(file, f"is too smooth for so soft a solid: its attraction would reach {used:.3g} Å, and the rms height is "
                          f"{rms:.3g} Å", f"on a spacing of {spacing:.3g} Å the edge of a contact is resolved with that range (w / E* = "
                          f"{work / stiff:.3g} Å), which would act across the roughness in place of pressing it flat; pressed flat, the "
@@ -348,27 +423,33 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
                     f"{0.1 * asked:.3g} nm; {longer} states what holds for that range")
     else:
         condition = f"for a range of {0.1 * used:.3g} nm"
-    periodic = height_map.jump(flat) < height_map.PERIODIC
+    periodic = all(height_map.jump(height_map.without_tilt(one)) < height_map.PERIODIC for one in rough)
     if periodic:
-        heights = flat
+        heights, other = flat, None if other is None else height_map.without_tilt(other)
     notes.append("its tilt is subtracted, and without it the map is periodic" if periodic else "the mean plane is subtracted, and "
                  "a smooth part that contains the jumps between opposite edges: the part edge is its effect")
     scene = {"surface": {"kind": "file", "file": "map.npy", "file_unit": "Å", "file_size": edge, "file_missing": "fill",
                          "sites": n, "spacing": spacing, "detrend": "none" if periodic else "periodic", "resample": "band-limited",
-                         "line_noise": line_noise},
+                         "line_noise": line_noise,
+                         **({} if other is None else {"counter": "counter.npy", "counter_unit": "Å", "counter_size": edge,
+                                                      "counter_missing": "fill", **elastic})},
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True, **({} if hard is None else {"hardness": hard})},
              "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
     stem = stem_of(file)
-    with store.outputs(place, ("map.npy", f"{stem}.toml"), inputs=[file]) as out:
-        with out.replacing("map.npy") as beside, open(beside, "wb") as opened:
-            np.save(opened, heights)
+    names = map_files(second and second.file)
+    with store.outputs(place, (*names, f"{stem}.toml"), inputs=[file, *([second.file] if second else [])]) as out:
+        for name, one in zip(names, (heights, other)):
+            with out.replacing(name) as beside, open(beside, "wb") as opened:
+                np.save(opened, one)
         out.write(f"{stem}.toml", f"# Written by asperity adhesion from {Path(file).name}.\n" + toml_of(scene))
     slope = math.sqrt(np.nanmean(np.diff(flat, axis=0) ** 2) + np.nanmean(np.diff(flat, axis=1) ** 2)) * points / edge
     made = surface_made(str(place / f"{stem}.toml"))
     notes += [doubt.replace("surface.line_noise = ", "--line-noise ") for doubt in made.doubts]
     kept = made.slope
+    if other is not None and len(other) != points:
+        notes.append(f"the second map has {len(other)} points along an edge")
     if n < points:
         notes.append(f"waves below {2 * spacing / 10:.3g} nm are lost: {n} of {points} points along an edge carry an rms slope of "
                      f"{kept:.3g}; the map's neighbours have {slope:.3g}")
@@ -379,6 +460,16 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         return [f"interface.range={resolved(factor * spacing):.10g}"] * (used > asked)
 
     return MapScene(place / f"{stem}.toml", [*map(spoken, notes)], also, spoken(withheld), condition)
+
+
+def _second_map(file: str, unit: str | None, asked: float | None, edge: float, notes: list[str]) -> np.ndarray:
+    """Returns the heights of the map of a second solid, Å, and adds to the notes. Raises SceneError if its edge is not that of the first."""
+    heights, own, said = read_square(file, unit, asked, None)
+    if abs(own / edge - 1) > 0.005:
+        raise SceneError(file, f"is {own:.6g} Å wide", f"the first map is {edge:.6g} Å wide, and one lies on the other",
+                         "cut both to one size, or give the size of both: --size")
+    notes += [f"the second map: {note}" for note in said]
+    return heights
 
 
 def stem_of(file: str) -> str:

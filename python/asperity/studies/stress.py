@@ -49,7 +49,7 @@ class Stress(Named):
     """Stresses below a state, GPa; tension is positive, and depths (Å) lead from the surface into the block.
 
     layers [layer]: depths (from, to) that were searched; largest: LargestStress of each layer and measure; profile [depth]: the
-    measures by name, at profile_depth; section {component: [depth, x]} through the largest
+    measures by name, at profile_depth; solid: "block" or "counter"; section {component: [depth, x]} through the largest
     stress of von Mises, at y = section_y, at depth, and tension_section through the largest tension, at tension_y; map {component: [y, x]} at
     map_depth; volume {component: [depth, y, x]}, empty unless asked for. Components: xx, yy, zz, xy, xz, yz.
     """
@@ -72,6 +72,7 @@ class Stress(Named):
     map: dict[str, np.ndarray]
     map_depth: float
     volume: dict[str, np.ndarray]
+    solid: str = "block"
 
     def of(self, measure: str, layer: int = 0) -> LargestStress:
         """Returns the largest value of a measure in a layer.
@@ -189,20 +190,26 @@ def _state_of(run: Result, name: str | None) -> State:
     return run.fields.get("relaxed") or list(run.fields.values())[-1]
 
 
-def refuse(run: Result) -> None:
+def refuse(run: Result, solid: str = "block") -> None:
     """Checks that the stresses of a run have a meaning.
 
     Parameters
     ----------
     run : Result
         Result of the run.
+    solid : str
+        "block", or "counter": the second solid.
 
     Raises
     ------
     SceneError
-        The substrate consists of atoms, or the block is a lattice.
+        The substrate consists of atoms, the block is a lattice, or there is no elastic second solid.
     """
     place = str(run.directory)
+    if solid == "counter" and not run.number("scene.surface.counter_young"):
+        raise SceneError(place, "has no stresses in a second solid", "the second solid is rigid (surface.counter_young)" if
+                         run.number("surface.counter.rms") is not None else "it has none (surface.counter)",
+                         "leave --solid out for those in the block")
     if run.key("interface.kind") != "wall":
         raise SceneError(place, "has no stresses of a continuum", "interface.kind is not \"wall\": the forces between single atoms are no "
                          "pressure on a continuum", "run the scene with interface.kind = \"wall\"")
@@ -212,19 +219,21 @@ def refuse(run: Result) -> None:
                              "run the scene with block.model = \"continuum\"")
 
 
-def _scene_of(run: Result) -> dict[str, Any]:
-    """Returns a scene of the run's block over a flat wall, for the program."""
+def _scene_of(run: Result, solid: str) -> dict[str, Any]:
+    """Returns a scene of the run's block, or of its second solid, over a flat wall, for the program."""
     free = run.has_free_edges
     surface = {"kind": "flat", "sites": int(run.needed("scene.surface.sites")), "spacing": run.needed("scene.surface.spacing"),
                "boundary": "free" if free else "periodic"}
-    block = {name: run.key(f"block.{name}") for name in ("young", "poisson", "layers", "surface_stress") if run.key(f"block.{name}")}
+    keys = "surface.counter_" if solid == "counter" else "block."
+    block = {name: run.key(keys + name) for name in ("young", "poisson", "layers", "surface_stress") if run.key(keys + name)}
     if not free:
         block["thickness"] = int(run.needed("scene.block.thickness"))
     return {"name": "stress", "surface": surface, "block": {**block, "model": "continuum"}, "interface": {"kind": "wall"},
             "drive": {"path": ["relax"]}}
 
 
-def compute(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: store.Outputs) -> Stress:
+def compute(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: store.Outputs,
+            solid: str = "block") -> Stress:
     """Computes the stresses below a state by the program, and writes stress.h5.
 
     Parameters
@@ -241,6 +250,8 @@ def compute(run: Result, state: str | None, friction: float | None, depth: str |
         True: all points at all depths.
     out : store.Outputs
         Open directory, which has claimed stress.h5.
+    solid : str
+        "block", or "counter": the second solid.
 
     Returns
     -------
@@ -252,14 +263,18 @@ def compute(run: Result, state: str | None, friction: float | None, depth: str |
     SceneError
         The stresses have no meaning, or an argument is refused.
     """
-    refuse(run)
+    refuse(run, solid)
     of = _state_of(run, state)
     slid = friction is None and of.slide != (0.0, 0.0)
+    if slid and run.number("surface.counter.rms") is not None:
+        raise SceneError(of.name, "has a friction that is not known at each place", "of two rough solids the pressure acts on slopes of both",
+                         "give a friction in phase with the pressure: --friction 0.3")
+    sign = -1.0 if solid == "counter" else 1.0  # the traction on one solid is opposite to that on the other
     overrides = [f"output.stress={'volume' if volume else 'section'}"]
-    overrides += [f"output.stress_friction={friction}"] if friction is not None else []
+    overrides += [f"output.stress_friction={sign * friction}"] if friction is not None else []
     overrides += [f"output.stress_depth={depth}"] if depth is not None else []
-    with scene_file(_scene_of(run)) as scene, out.replacing(RESULT) as beside:
+    with scene_file(_scene_of(run, solid)) as scene, out.replacing(RESULT) as beside:
         told = program.stress_below(scene, overrides, str(run.file.path), of.name, slid, str(beside))
         found = _read(RunFile(beside), run, of.name, told)
-    found.slid = slid
+    found.slid, found.solid, found.friction = slid, solid, sign * found.friction
     return found

@@ -91,6 +91,7 @@ class Variations:
         self.length = (not self.continuous) * self.own(LENGTHS.get(scene.text("interface.potential"), ""))
         self.mixed = (not self.wall and scene.text("surface.kind") != "atoms"
                       and self.own("surface.lattice_ratio") == 1 and scene.text("interface.potential") != "table")
+        self.second_solid = scene.text("surface.counter") not in ("", "none")
         self.longest_timestep = longest_timestep
 
     def _refuse(self, cases: tuple) -> None:

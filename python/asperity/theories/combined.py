@@ -76,13 +76,22 @@ def _renormalised(rough: dict[str, Any], quick: bool) -> dict[str, Any]:
     return {**numbers, "note": "renormalised theory: " + "; ".join(notes)} if notes else numbers
 
 
+def _modulus(keys: Values) -> float:
+    """Returns E* of the solids of a scene, eV/Å³: 1/E* is the sum of those of the block and of an elastic second solid."""
+    def of(solid: str) -> float:
+        return keys.number(f"{solid}young", 0.0) * GIGAPASCAL / (1 - keys.number(f"{solid}poisson", 0.0) ** 2)
+
+    own, counter = of("block."), of("surface.counter_") if keys.text("surface.counter") not in ("", "none") else 0.0
+    return own * counter / (own + counter) if counter > 0 else own
+
+
 def _spheres(point: Values) -> tuple[Any, float, Any, float]:
     """Returns the smooth sphere of a point and the largest tension of its interface, and both with the renormalised law (None
     without adhesion), in eV and Å."""
     from .sphere import Sphere
 
     keys = point.part("scene")
-    modulus = keys.number("block.young", 0.0) * GIGAPASCAL / (1 - keys.number("block.poisson", 0.0) ** 2)
+    modulus = _modulus(keys)
     edge = keys.number("surface.sites", 0.0) * keys.number("surface.spacing", 0.0)
     smooth = Sphere(keys.number("surface.radius", 0.0), modulus, point.number("delta_gamma", 0.0) / 1e3, edge,
                     point.number("flat.separation", 0.0))
@@ -119,7 +128,7 @@ def _sliding(point: Values, rough: dict[str, Any], curve: bool) -> dict[str, Any
     if not rough["pressure"] > 0:
         return {"note": "the theory of rubber friction is of surfaces under a pressure: give drive.load a value above 0"}
     keys = point.part("scene")
-    modulus = keys.number("block.young", 0.0) * GIGAPASCAL / (1 - keys.number("block.poisson", 0.0) ** 2)
+    modulus = _modulus(keys)
     rubber = viscoelastic.Rubber(rough["spectrum"], [(r, tau) for r, tau in keys.listed("block.prony", list)], modulus,
                                  rough["pressure"], keys.number("theory.beta", 1.0))
     here = viscoelastic.friction(rubber, keys.number("drive.velocity", 0.0) * ANGSTROM_PER_PS)
