@@ -36,10 +36,10 @@ namespace asperity {
 
 /// Means of a slide after its running-in; _error: standard error of a mean.
 struct SteadySlide {
-    double running_in = 0.0;                         ///< distance left out, Å
-    double friction = 0.0, friction_error = 0.0;     ///< force against the slide, eV/Å
+    double running_in = 0.0;                     ///< distance left out, Å
+    double friction = 0.0, friction_error = 0.0; ///< force against the slide, eV/Å
     double mesh_error = 0.0; ///< part of friction_error: that of the spacing; 0: not told
-    double load = 0.0;                               ///< normal force, eV/Å
+    double load = 0.0;       ///< normal force, eV/Å
     double in_contact = 0.0, in_contact_error = 0.0; ///< number of sites in contact
     double area = 0.0, area_error = 0.0; ///< contact_sites(), with the error of the spacing
     double mean_height = 0.0;            ///< mean height of the lowest layer, Å

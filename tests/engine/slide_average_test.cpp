@@ -140,8 +140,8 @@ TEST(SlideAverage, ErrorsOfTheMeshAndOfTheWayToTheWork) {
     // Edges of 40 sites count 40 (pi - 1 + ln 2)/24 sites too much.
     const auto edges = with(40.0, 0.0).means(lengths);
     EXPECT_NEAR(edges->area, 100.0 - 40.0 * 0.118114, 1e-4);
-    EXPECT_NEAR(edges->area_error,
-                std::hypot(0.85 * std::sqrt(40.0), 0.15 * 40.0 * 0.118114), 1e-4);
+    EXPECT_NEAR(edges->area_error, std::hypot(0.85 * std::sqrt(40.0), 0.15 * 40.0 * 0.118114),
+                1e-4);
     // A map whose shortest wave is four sites.
     auto of_map = lengths;
     of_map.shortest_wave = 4.0 * lengths.spacing;

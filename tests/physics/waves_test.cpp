@@ -67,9 +67,9 @@ double frequency(const BlockOptions& options, const Shape& shape, double expecte
     return 2.0 / dt * std::sin(0.5 * std::acos(above / below));
 }
 
-struct Solid {
+struct LayeredSolid {
     double longitudinal, transverse; ///< speeds, Å/fs
-    explicit Solid(const BlockOptions& o) {
+    explicit LayeredSolid(const BlockOptions& o) {
         const double density = o.atom_mass / (o.spacing * o.spacing * o.spacing);
         longitudinal = std::sqrt((o.lame() + 2.0 * o.shear_modulus()) / density);
         transverse = std::sqrt(o.shear_modulus() / density);
@@ -79,7 +79,7 @@ struct Solid {
 /// Rayleigh's wave of the solid, decaying upwards from the free surface at z = 0.
 struct Rayleigh {
     double speed, q, p, s, d; ///< displacement ~ exp(-p z) and exp(-s z)
-    Rayleigh(const Solid& solid, double wavevector) : q(wavevector) {
+    Rayleigh(const LayeredSolid& solid, double wavevector) : q(wavevector) {
         const double ratio = std::pow(solid.transverse / solid.longitudinal, 2);
         double low = 0.5, high = 1.0 - 1e-12; // of (c / c_T)^2
         for (int n = 0; n < 60; ++n) {
@@ -108,7 +108,7 @@ struct Rayleigh {
 /// Speed of the block's Rayleigh wave over that of the solid, less 1.
 double rayleigh_error(int sites) {
     const BlockOptions o = test::paper_block(sites, 2 * sites, 0);
-    const Rayleigh wave(Solid(o), 2.0 * pi / (sites * o.spacing));
+    const Rayleigh wave(LayeredSolid(o), 2.0 * pi / (sites * o.spacing));
     const Shape shape = [&](int x, int z) -> std::array<double, 3> {
         const double phase = 2.0 * pi * x / sites, height = z * o.spacing;
         return {1e-3 * wave.along(height) * std::sin(phase), 0.0,
@@ -126,7 +126,7 @@ double rayleigh_error(int sites) {
 TEST(Waves, BodyWavesHaveTheSpeedsOfTheSolid) {
     const int layers = 60;
     const BlockOptions o = test::paper_block(4, layers, 0);
-    const Solid solid(o);
+    const LayeredSolid solid(o);
     for (const int nodes : {1, 3, 6})
         for (const std::size_t component : {std::size_t{0}, std::size_t{1}, std::size_t{2}}) {
             const double phase = (2 * nodes - 1) * pi / (2 * layers + 1); // qa
@@ -150,7 +150,7 @@ TEST(Waves, BodyWavesHaveTheSpeedsOfTheSolid) {
 TEST(Waves, RayleighWavesAreSlowedByTheLowestLayersMass) {
     const BlockOptions o = test::paper_block(16, 32, 0);
     const double q = 2.0 * pi / (16 * o.spacing);
-    const double first = -0.25 * o.spacing * Rayleigh(Solid(o), q).at_surface();
+    const double first = -0.25 * o.spacing * Rayleigh(LayeredSolid(o), q).at_surface();
     const double at_16 = rayleigh_error(16), at_32 = rayleigh_error(32);
     RecordProperty("error_at_16_spacings", fmt::format("{:.4f}", at_16));
     RecordProperty("error_at_32_spacings", fmt::format("{:.4f}", at_32));
