@@ -451,7 +451,7 @@ def test_scenes_of_another_folder():
     ({"radius": "3 nm", "young": "0.5 GPa"}, {"radius": "3 nm", "young": "50 GPa"}), ({"range": "20 nm"}, {"range": "1 nm"}),
     ({"range": "0.01 nm"}, {"range": None}), ({"file": "map.npy", "size": "10 nm"}, {"file": "map.npy", "size": "60 nm"}),
     ({"error": "5%", "sites": 32}, {"error": "5%"}), ({"error": "3"}, {"error": "10%"}), ({"radius": None}, {"radius": "20 nm"}),
-    ({"angle": 60.0}, {"shape": "cone", "angle": 60.0}), ({"shape": "cone"}, {"shape": "cone", "angle": 65.0}),
+    ({"angle": 60.0}, {"shape": "cone", "angle": 60.0}), ({"shape": "cone", "angle": 65.0, "hardness": "1 GPa"}, {"hardness": "1 GPa"}), ({"shape": "cone"}, {"shape": "cone", "angle": 65.0}),
     ({"shape": "pyramid", "angle": 95.0}, {"shape": "pyramid", "angle": 65.0}),
     ({"tip_map": "tip.txt"}, {"tip_map": "tip.txt", "radius": None}),
     ({"tip_map": "tip.txt", "radius": None, "shape": "cone"}, {"tip_map": "tip.txt", "radius": None}),
@@ -477,7 +477,7 @@ def test_a_fix_of_a_tip(bad, good):
 
 def test_an_error_that_the_memory_holds(monkeypatch):
     given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "shape": "sphere",
-             **dict.fromkeys(("load", "range", "size", "unit", "channel", "sites", "angle", "tip_map"))}
+             **dict.fromkeys(("load", "range", "size", "unit", "channel", "sites", "angle", "tip_map", "hardness"))}
     monkeypatch.setattr("os.sysconf", {"SC_PHYS_PAGES": 2**14, "SC_PAGE_SIZE": 2**12}.get)
     with pytest.raises(asperity.SceneError) as error:
         tip.plan_of(None, Path("tip"), {**given, "error": "0.6%"})

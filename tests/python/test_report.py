@@ -430,3 +430,9 @@ def test_no_part_of_a_page_is_left_out(tmp_path):
     page.add("text", "another one")
     with pytest.raises(asperity.InternalError, match="no form of the name text"):
         page.write()
+
+
+def test_what_is_left_out_follows_the_scene():
+    assert sentences.left_out(Values({"surface": {"counter_young": None}, "interface": {"hardness": "none"}})) == [
+        "deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout"]
+    assert sentences.left_out(Values({"surface": {"counter_young": 110.0}, "interface": {"hardness": 1.0}})) == []

@@ -21,11 +21,10 @@ from ..studies.stated_number import Found, Number, rounded
 from ..units import shown
 from .page import Page, page_files
 from .run import end
-from .sentences import ALWAYS_LEFT_OUT
+from .sentences import left_out
 
 SMALL = 0.1
 """Of the whole error: contributions below it are not quoted."""
-LEFT_OUT = [text for text in ALWAYS_LEFT_OUT if not text.startswith("edges")]  # the width, or a map's edges, are parts
 
 
 def quote(n: Number) -> str:
@@ -125,7 +124,7 @@ def text_of(estimate: Estimate) -> str:
     parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
     parts.append("Names: " + "; ".join(names_of(estimate)) + ".")
     failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
-    parts += ["Not in the error: " + "; ".join([*estimate.unseen, *LEFT_OUT]) + ".", *failed,
+    parts += ["Not in the error: " + "; ".join([*estimate.unseen, *left_out(Values(estimate.scene))]) + ".", *failed,
               *(f"note: {note}" for note in estimate.notes)]
     return "\n".join(parts)
 
@@ -197,7 +196,7 @@ def page_of(estimate: Estimate, out: Path | None = None) -> Page:
     page.figure("budget", "Budget of " + estimate.first.name, "Bars: shift by each part of the error; whiskers: standard error of the shift.",
                 lambda ax: chart(estimate, ax))
     page.section("left-out", "What is not in the error")
-    page.add("lists", [("", [*estimate.unseen, *LEFT_OUT])])
+    page.add("lists", [("", [*estimate.unseen, *left_out(Values(estimate.scene))])])
     page.section("notes", "Notes")
     page.add("lists", estimate.notes and [("", estimate.notes)])
     end(page, Values({"run": estimate.run}), "The scene", estimate.scene, "Every key with the value that was used; the runs of the error vary one at "

@@ -413,8 +413,12 @@ def results(run: Result) -> list[str]:
 
 CONVERGED = ("“Solver converged to” says by how much an exact solver could change a number. It is not the error of the number: "
              "`asperity estimate` measures the effect of cutoff, spacing, thickness, width, velocity and surface.")
-ALWAYS_LEFT_OUT = ("deformation of the substrate: it is rigid", "plastic flow: the block is elastic throughout",
-                   "edges: the box is periodic sideways")
+
+
+def left_out(scene: Values) -> list[str]:
+    """Returns what no effect simulates in a scene that is given by its keys."""
+    return ["deformation of the substrate: it is rigid"] * (scene.number("surface.counter_young") is None) + [
+        "plastic flow: the block is elastic throughout"] * (scene.find("interface.hardness") in (None, "none"))
 
 
 def effects(run: Result, on: bool) -> list[str]:
@@ -434,7 +438,9 @@ def effects(run: Result, on: bool) -> list[str]:
     """
     found = run.part("run.effects")
     text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
-    return text if on else [*text, *ALWAYS_LEFT_OUT]
+    scene = run.part("scene")
+    edges = ["edges: the box is periodic sideways"] * (scene.text("surface.boundary") != "free")
+    return text if on else [*text, *left_out(scene), *edges]
 
 
 def provenance(result: Values) -> list[list[str]]:
