@@ -16,6 +16,7 @@ import asperity
 from asperity.reports import sentences
 from asperity.reports.page import Page
 from asperity.reports.sweep import key_numbers, write_page
+from asperity.results.result import Values
 from asperity.theories import combined
 from conftest import ROOT, SMALL, STATE, command, unsealed
 
