@@ -108,8 +108,9 @@ def test_forces_are_read():
         assert load in asperity.check(scene).scene.drive.path[1]
 
 
-# What stands for no key of a scene: what a command does with the result.
-OF_COMMANDS = {"out", "jobs", "plan", "progress", "quiet", "json", "help", "channel"}
+# What stands for no key of a scene: what a command does with the result, the error that decides its settings, and the form of a tip,
+# of which it makes a map.
+OF_COMMANDS = {"out", "jobs", "plan", "progress", "quiet", "json", "help", "channel", "error", "shape", "angle", "tip-map"}
 
 
 def test_options_and_arguments_have_the_words_of_the_scene():
