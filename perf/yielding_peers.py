@@ -99,13 +99,13 @@ def by_asperity(program: str, place: pathlib.Path, keys: dict, hardness: float) 
     return states, seconds, case
 
 
-def row(number: int, hardness: float, program: str, states: list[dict], seconds: float) -> dict:
+def row(number: int, program: str, states: list[dict], seconds: float) -> dict:
     """A row of the table."""
     shown = {}
     for part in SHOWN:
         one = states[PARTS.index(part)]
         shown |= {f"area at {part:g} H": one["area"], f"at the hardness at {part:g} H": one["yielding"]}
-    return {"map": number, "H/E*": hardness / 10, "program": program, "loads found": f"{sum(one['found'] for one in states)} of {len(PARTS)}",
+    return {"map": number, "program": program, "loads found": f"{sum(one['found'] for one in states)} of {len(PARTS)}",
             **shown, "processor seconds": seconds}
 
 
@@ -134,11 +134,11 @@ def main() -> None:
             keys, hardness = keys_of(number, asked.sites)
             with tempfile.TemporaryDirectory() as scratch:
                 states, seconds, case = by_asperity(asked.program, pathlib.Path(scratch) / "asperity", keys, hardness)
-                rows = [row(number, hardness, "Asperity", states, seconds)]
+                rows = [row(number, "Asperity", states, seconds)]
                 (pathlib.Path(scratch) / "case.json").write_text(json.dumps(case))
                 for name in OTHERS:
                     text, seconds, _ = peers.measured([str(python), __file__, "--solve", name, f"{scratch}/case.json"])
-                    rows.append(row(number, hardness, name, json.loads(text.splitlines()[-1]), seconds))
+                    rows.append(row(number, name, json.loads(text.splitlines()[-1]), seconds))
             writer = csv.DictWriter(file, rows[0], lineterminator="\n")
             if file.tell() == 0:
                 writer.writeheader()

@@ -390,7 +390,7 @@ std::vector<std::string> other_values(const io::Schema::Key& key) {
     if (kind == "list") return {"[\"Au 0.1 3.28\"]"};
     if (kind == "rows")
         return {key.name == "prony" ? "[[1.0, \"1 ns\"]]" : "[[\"2 nm\", \"10 GPa\", 0.3]]"};
-    for (const double value : {7.0, 0.75})
+    for (const double value : {7.0, 0.75, 0.375})
         if ((kind == "number" || kind == "integer") && key.range.contains(value) && now != value)
             return {kind == "integer" ? fmt::format("{:.0f}", value) : fmt::format("{}", value)};
     EXPECT_FALSE(others.empty()) << key.path();
@@ -403,8 +403,12 @@ std::vector<std::string> other_values(const io::Schema::Key& key) {
 /// another kind of path: each need of each key is not met in one of these scenes.
 TEST(Scene, AKeyWithoutEffectIsRefused) {
     const std::string wall = "interface.kind = \"wall\"\n", rest = "drive.path = [\"relax\"]\n",
-                      still = "drive.mode = \"quasistatic\"\n";
+                      still = "drive.mode = \"quasistatic\"\n",
+                      pair = still + wall + "surface.counter = \"no.npy\"\n";
     const std::string scenes[] = {"",
+                                  wall,
+                                  pair,
+                                  pair + "surface.counter_young = 70\n",
                                   "surface.kind = \"flat\"\n",
                                   "surface.kind = \"file\"\nsurface.file = \"no.npy\"\n",
                                   "surface.kind = \"atoms\"\nsurface.file = \"no.h5\"\n",

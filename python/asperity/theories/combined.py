@@ -78,10 +78,12 @@ def _renormalised(rough: dict[str, Any], quick: bool) -> dict[str, Any]:
 
 def _modulus(keys: Values) -> float:
     """Returns E* of the solids of a scene, eV/Å³: 1/E* is the sum of those of the block and of an elastic second solid."""
-    def of(solid: str) -> float:
-        return keys.number(f"{solid}young", 0.0) * GIGAPASCAL / (1 - keys.number(f"{solid}poisson", 0.0) ** 2)
+    def of(young: str, poisson: str) -> float:
+        return keys.number(young, 0.0) * GIGAPASCAL / (1 - keys.number(poisson, 0.0) ** 2)
 
-    own, counter = of("block."), of("surface.counter_") if keys.text("surface.counter") not in ("", "none") else 0.0
+    own, counter = of("block.young", "block.poisson"), 0.0
+    if keys.text("surface.counter") not in ("", "none"):
+        counter = of("surface.counter_young", "surface.counter_poisson")
     return own * counter / (own + counter) if counter > 0 else own
 
 
