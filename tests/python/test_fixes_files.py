@@ -322,7 +322,7 @@ OF_FILES = [
     ('--range "(.*)"; or', scene_of, ("m.npy", npy(ROUGH), {"young": "1 MPa", "reach": "3 Å", "work": "0.5 mJ/m^2", **SCAN}), ("m.npy", npy(ROUGH), {"young": "1 MPa", "reach": "{0}", "work": "0.5 mJ/m^2", **SCAN})),
     ("or leave it out for the numbers", scene_of, ("m.npy", npy(ROUGH), {"young": "100 MPa", "reach": "1 Å", "work": "5 mJ/m^2", **SCAN}), ("m.npy", npy(ROUGH), {"young": "100 MPa", "work": "5 mJ/m^2", **SCAN})),
     ("or a stiffer solid", scene_of, ("m.npy", npy(ROUGH), {"young": "0.1 MPa", **SCAN}), ("m.npy", npy(ROUGH), SCAN)),
-    ('for example "(1 GPa)", or leave', scene_of, ("m.npy", npy(ROUGH), {"hardness": "0 GPa", **SCAN}), ("m.npy", npy(ROUGH), {"hardness": "{0}", **SCAN})),
+    ('for example "(1 GPa)", or leave', scene_of, ("m.npy", npy(ROUGH), {"hardness": "none", **SCAN}), ("m.npy", npy(ROUGH), {"hardness": "{0}", **SCAN})),
     ("name its map: --counter", pair_of, ("m.npy", npy(ROUGH), {"second": False}), ("m.npy", npy(ROUGH), {"second": True})),
     ('give it a modulus: --counter-young "(.*)"', pair_of, ("m.npy", npy(ROUGH), {"young": None, "poisson": 0.3}), ("m.npy", npy(ROUGH), {"young": "{0}", "poisson": 0.3})),
     ('for example --counter-young "(.*)"', pair_of, ("m.npy", npy(ROUGH), {"young": "-1 GPa"}), ("m.npy", npy(ROUGH), {"young": "{0}"})),

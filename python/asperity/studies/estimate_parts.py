@@ -345,10 +345,11 @@ def _positions(scene: Variations, part: Callable[..., None]) -> None:
     if scene.scene.text("surface.boundary") == "free" or scene.scene.text("surface.counter_crop") != "none":
         return part("position", "realisation", "not varied: the map of the second solid does not repeat")
     step = scene.edge / SHIFTS
-    here = [scene.own(f"surface.counter_shift_{axis}") for axis in "xy"]
+    keys = ("surface.counter_shift_x", "surface.counter_shift_y")
+    here = [scene.own(key) for key in keys]
     part("position", "realisation", f"{SHIFTS} shifts of the second solid", [
-        (f"shift {k}/{SHIFTS}", [f"surface.counter_shift_{axis}={x + step * (factor * k % SHIFTS):.10g}" for axis, x, factor in
-                                 zip("xy", here, (1, 3))]) for k in range(1, SHIFTS)], positions)
+        (f"shift {k}/{SHIFTS}", [f"{key}={x + step * (factor * k % SHIFTS):.10g}" for key, x, factor in
+                                 zip(keys, here, (1, 3))]) for k in range(1, SHIFTS)], positions)
 
 
 def _box(scene: Variations, factor: float) -> Setting:
