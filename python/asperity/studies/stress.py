@@ -224,8 +224,9 @@ def _scene_of(run: Result, solid: str) -> dict[str, Any]:
     free = run.has_free_edges
     surface = {"kind": "flat", "sites": int(run.needed("scene.surface.sites")), "spacing": run.needed("scene.surface.spacing"),
                "boundary": "free" if free else "periodic"}
-    keys = "surface.counter_" if solid == "counter" else "block."
-    block = {name: run.key(keys + name) for name in ("young", "poisson", "layers", "surface_stress") if run.key(keys + name)}
+    keys = {"block": ("block.young", "block.poisson", "block.layers", "block.surface_stress"),
+            "counter": ("surface.counter_young", "surface.counter_poisson", "surface.counter_layers", "surface.counter_surface_stress")}[solid]
+    block = {name: run.key(key) for name, key in zip(("young", "poisson", "layers", "surface_stress"), keys) if run.key(key)}
     if not free:
         block["thickness"] = int(run.needed("scene.block.thickness"))
     return {"name": "stress", "surface": surface, "block": {**block, "model": "continuum"}, "interface": {"kind": "wall"},
