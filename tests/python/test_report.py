@@ -418,6 +418,7 @@ def test_numbers_over_a_wall_have_the_error_of_the_mesh_or_lack_it(tmp_path, mod
     notes = {one.name: one.note for one in sentences.key_numbers(run)}
     for name in ("binding energy at zero load", "work that the drive gives, pull-off", "pull-off stress, the largest attraction of the pull-off"):
         assert re.search(says, notes[name]), notes
+    assert notes["of the area in contact at zero load"].endswith(f"± {sentences.percent(run.contact_area_uncertainty)}"), notes
     atoms = asperity.run(rough, {"surface.sites": 16, "surface.q_max": 4, "drive.path": "relax"}, out=tmp_path / "atoms")
     assert not any("mesh" in one.note for one in sentences.key_numbers(atoms))
 

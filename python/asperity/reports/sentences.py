@@ -153,18 +153,7 @@ def lead(run: Result) -> str:
 
 
 def pair(run: Result) -> str:
-    """Tells the roughness of two solids, and how they lie on each other; "" of one rough surface.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-
-    Returns
-    -------
-    str
-        A sentence or two.
-    """
+    """Tells the roughness of two solids, and how they lie on each other; "" of one rough surface."""
     if run.number("surface.counter.rms") is None:
         return ""
     own, counter = ((run.number(f"surface.{which}.rms", 0.0), run.number(f"surface.{which}.rms_slope", 0.0)) for which in ("own", "counter"))
@@ -226,6 +215,11 @@ def of_mesh(run: Result, key: str, scale: float, unit: str) -> str:
     return "; mesh not included" if error is None else f"; ± {error / scale:.2g} {unit} by the mesh"
 
 
+def _of_area(error: float | None, theory: str) -> str:
+    """Returns the note on an area in contact with a wall: that of a theory, and the error."""
+    return "; ".join(filter(None, [theory, "mesh not included" if error is None else f"± {percent(error)}"]))
+
+
 def key_numbers(run: Result) -> list[KeyNumber]:
     """Returns the numbers that stand at the top of a page."""
     found: list[KeyNumber] = []
@@ -264,8 +258,9 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         area, theory = run.number("contact_area"), run.number("theory.persson.contact_fraction")
         contact = run.number("contact_fraction") if area is None else area
         if contact is not None:
+            of_theory = f"theory{pressed}: {percent(theory)}" if theory is not None else ""
             add(percent(contact), "", f"of the {'sites' if area is None else 'area'} in contact {at}",
-                f"theory{pressed}: {percent(theory)}" if theory is not None else "")
+                of_theory if area is None else _of_area(run.number("contact_area_uncertainty"), of_theory))
         slide = next((s for s in reversed(run.listed("segments", dict)) if {"friction_coefficient", "steady_contact_area"} <= set(s)), None)
         if slide is not None:
             theories = [run.number(f"theory.sliding.{name}") for name in ("friction_coefficient", "contact_fraction")]
@@ -273,7 +268,8 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             add(f"{slide['friction_coefficient']:.3g}" + (f" ± {error:.1g}" if error else ""), "", "friction coefficient of the slide",
                 f"Persson’s theory of rubber friction: {theories[0]:.3g}" if theories[0] is not None else "")
             add(percent(slide["steady_contact_area"]), "", "of the area in contact while it slides",
-                f"Persson’s theory of rubber friction: {percent(theories[1])}" if theories[1] is not None else "")
+                _of_area(slide.get("steady_contact_area_uncertainty"),
+                         f"Persson’s theory of rubber friction: {percent(theories[1])}" if theories[1] is not None else ""))
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off",
