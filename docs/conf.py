@@ -10,9 +10,12 @@ Markdown that reads the same elsewhere. The lists of docs/index.md become the na
 """
 
 import re
+import sys
 from pathlib import Path
 
 root = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(root / "docs"))
+from reference import python  # noqa: E402
 
 project = "Asperity"
 author = "The Asperity authors"
@@ -37,7 +40,9 @@ if (katex / "contrib/auto-render.js").is_file():  # formulas without a network; 
 
 def complete(app, page, source):
     """A page before it is parsed: of a link to a Markdown file that is no page of the site the file's name is left.
-    The front page's lists of links are tables of contents, too."""
+    The front page's lists of links are tables of contents, too. The page of the Python interface has what its docstrings say."""
+    if page == "reference/python":
+        source[0] += python()
     up = re.escape("../" * (page.count("/") + 1))
     source[0] = re.sub(rf"\[[^\]]+\]\({up}([^)#]+\.md)(?:#[^)]*)?\)", r"`\1`", source[0])
     if page == "index":
@@ -55,4 +60,5 @@ def whole_words(app, page, template, context, doctree):
 
 def setup(app):
     app.connect("source-read", complete)
+    app.connect("env-get-outdated", lambda *_: ["reference/python"])  # the docstrings are other files
     app.connect("html-page-context", whole_words)

@@ -1,20 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: 2026 The Asperity authors
 # SPDX-License-Identifier: MIT
-"""Writes the generated parts of the reference, docs/reference/{command-line,python}.md, and the names of results for type
-checkers, python/asperity/results/names.pyi: docs/reference.py [--check]
+"""Writes the generated part of docs/reference/command-line.md: docs/reference.py [--check]
 
-The commands and names are what the program prints of itself, the Python interface what its docstrings say; each stands behind
-a mark in its page. --check changes nothing and fails where a page is not current. The program is that of
-$ASPERITY_PROGRAM or the build of this source tree.
+It is what the program prints of itself, and stands behind a mark in the page. --check changes nothing and fails where the page
+is not current. The program is that of $ASPERITY_PROGRAM or the build of this source tree. python() is what the site has of the
+docstrings (conf.py).
 """
 
 import inspect
-import json
 import os
 import re
 import sys
-import textwrap
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -113,97 +110,15 @@ def python() -> str:
     return "".join(out)
 
 
-WHOLE = ("exit_code", "segment", "events", "sites_moved", "atoms", "steps", "iterations", "ranks", "threads", "calls")
-PAIRS = ("slide", "site", "dissipated.jumps[].mean_height", "dissipated.jumps[].force", "dissipated.jumps[].contact_fraction")
-"""Numbers of result.json that are whole, and those that are lists of numbers."""
-
-
-def kind_of(path: str, unit: str) -> str:
-    """Returns the type of a value of result.json."""
-    name = path.rpartition(".")[2]
-    if name in ("on", "converged"):
-        return "bool"
-    if name in PAIRS or path in PAIRS:
-        return "list[float]"
-    return "int" if name in WHOLE else "float" if unit else "str"
-
-
-def classes_of(tree: dict, name: str, out: list[str]) -> None:
-    """Writes the class of an object, after those of its members; a leaf is a pair of type and meaning."""
-    lines = []
-    for key, value in tree.items():
-        if isinstance(value, tuple):
-            lines.append((key, *value))
-            continue
-        many, star = key.endswith("[]"), "*" in value
-        inner = "".join(word.title() for word in key.removesuffix("[]").split("_"))
-        inner = inner.removesuffix("s") if many or star else inner
-        full = inner if name == "Numbers" else name + inner
-        classes_of(value["*"] if star else value, full, out)
-        lines.append((key.removesuffix("[]"), f"list[{full}]" if many else f"dict[str, {full}]" if star else full, ""))
-    base = "" if name == "Numbers" or name.endswith(("Arrays", "Maps")) else "(Values)"
-    out += [f"\nclass {name}{base}:"]
-    for key, kind, meaning in lines:
-        if (name, key) != ("Numbers", "segments"):  # a property of Result
-            out += [f"    {key}: {kind}", *([f'    """{meaning}"""'] if meaning else [])]
-
-
-def named(rows: list[tuple[str, str]]) -> dict:
-    """Returns a tree of the paths of values, "." between its levels; a leaf is what stands beside its path."""
-    tree: dict = {}
-    for path, leaf in rows:
-        *above, last = path.split(".")
-        at = tree
-        for part in above:
-            at = at.setdefault(part, {})
-        at.setdefault(last, leaf)
-    return tree
-
-
-def names() -> str:
-    """Returns the stub with the names of results."""
-    program = os.environ["ASPERITY_PROGRAM"]
-
-    def said(unit: str, meaning: str) -> str:
-        first = re.split("[;:(]", meaning)[0].strip('" ')  # the page has all of it
-        return ": ".join(filter(None, ("" if unit == "1" else unit, textwrap.shorten(first.replace('"', "'"), 110, placeholder=" ..."))))
-
-    results = json.loads(say(program, "defaults", "--results", "--json"))
-    out: list[str] = []
-    rows = [(path, (kind_of(path, q["unit"]), said(q["unit"], q["meaning"]))) for path, q in results.items()
-            if not (path.endswith("[]"))]
-    classes_of(named(rows), "Numbers", out)
-    keys = json.loads(say(program, "defaults", "--json"))
-    classes_of(named([(key, ("Any", said(q["unit"], q["doc"]))) for key, q in keys.items() if not key.startswith("sweep")]), "Scene", out)
-    table = re.findall(r"^\| `(series|fields/\*|substrate)/(\w+)` \| (.*?) \| .*? \| (.*) \|$", say(program, "defaults", "--results"), re.M)
-    for group, name in (("series", "SeriesArrays"), ("fields/*", "StateMaps"), ("substrate", "SubstrateMaps")):
-        left_out = ("gap_edges", "gap_density", "atoms", "type", "spectrum_q", "spectrum", "spectrum_target")
-        classes_of({key: ("np.ndarray", said(unit, meaning)) for of, key, unit, meaning in table if of == group and key not in left_out},
-                   name, out)
-    return ("# SPDX-FileCopyrightText: 2026 The Asperity authors\n# SPDX-License-Identifier: MIT\n#\n"
-            "# Names of results and of scenes with their types and units, for type checkers and editors: what a run has not is not\n"
-            "# there. Written by docs/reference.py from what the program says of itself; do not edit.\nfrom typing import Any\n\n"
-            "import numpy as np\n\nfrom .values import Values\n\nclass Units(Values):\n    def __getattr__(self, name: str) -> Any: ...\n"
-            + "\n".join(out) + "\n")
-
-
 def main() -> None:
-    stale = []
-    stub = ROOT / "python/asperity/results/names.pyi"
-    if not stub.exists() or stub.read_text() != (new := names()):
-        stale.append(stub.name)
-        if sys.argv[1:] != ["--check"]:
-            stub.write_text(names())
-    for name, make in (("command-line", commands), ("python", python)):
-        page = ROOT / "docs/reference" / f"{name}.md"
-        text = page.read_text()
-        new = text.partition(MARK)[0] + MARK + make()
-        if new != text:
-            stale.append(page.name)
-            if sys.argv[1:] != ["--check"]:
-                page.write_text(new)
-    if stale and sys.argv[1:] == ["--check"]:
-        sys.exit(f"not current: {', '.join(stale)}; docs/reference.py writes them")
+    page = ROOT / "docs/reference/command-line.md"
+    text = page.read_text()
+    new = text.partition(MARK)[0] + MARK + commands()
+    if new == text:
+        return
+    if sys.argv[1:] == ["--check"]:
+        sys.exit(f"not current: {page.name}; docs/reference.py writes it")
+    page.write_text(new)
 
 
 if __name__ == "__main__":

@@ -75,7 +75,7 @@ made $gallery/theory-renormalised.svg $gallery/fig2-paths.svg $gallery/theory-se
 
 "$python" docs/reference.py
 "$python" docs/tables.py # those of all pages, from docs/data
-made docs/reference/command-line.md docs/reference/python.md
+made docs/reference/command-line.md
 
 if [ -x "${ASPERITY_OTHERS:-}/bin/python3" ]; then
     ./asperity run scenes/first-contact.toml --set drive.path=relax surface.sites=96 \

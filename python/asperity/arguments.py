@@ -60,20 +60,7 @@ def _calls(function: Callable[..., Any]) -> Iterator[None]:
 
 
 def spoken(text: str, function: Callable[..., Any] | None = None) -> str:
-    """Spells the options in a message as arguments of the function that was called; on the command line the message is not changed.
-
-    Parameters
-    ----------
-    text : str
-        Message: "name it: --unit nm".
-    function : callable, optional
-        Function; None: the one that the script has called.
-
-    Returns
-    -------
-    str
-        Message for the caller: 'name it: unit="nm"'. Options that are no arguments of the function stay.
-    """
+    """Spells the options in a message as arguments of the function that was called; on the command line the message is not changed."""
     function = command_line if _called.get() is command_line else function or _called.get()
     if function in (None, command_line):
         return text
@@ -112,27 +99,7 @@ def options(name: str) -> list[str]:
 
 
 def chosen(name: str, example: str = "", **given: Any) -> Any:
-    """Returns the value of an argument that has several names.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument.
-    example : str
-        Argument as it could be written, for the message; "": it can be left out.
-    **given : Any
-        Value by each name; None: not given.
-
-    Returns
-    -------
-    Any
-        The value; None if it is not given.
-
-    Raises
-    ------
-    SceneError
-        Two of the names are given, or none of an argument that is needed.
-    """
+    """Returns the value of an argument that has several names. Raises SceneError."""
     there = {word: value for word, value in given.items() if value is not None}
     if len(there) > 1:
         raise SceneError(" and ".join(there), "are names of one argument", f"its name is {name}", f"give {name} alone")
@@ -220,19 +187,8 @@ def _wrong_kind(function: Callable[..., Any], where: str, bound: inspect.BoundAr
 
 
 def checks_call(function: F) -> F:
-    """Makes a function of the package raise WrongCall, with the names of its arguments, if it is called with others, or with a value
-    of another kind than the one annotated.
-
-    Parameters
-    ----------
-    function : callable
-        Function, or method of a class.
-
-    Returns
-    -------
-    callable
-        The function; its name, arguments and documentation are the same.
-    """
+    """Makes a function of the package raise WrongCall, with the names of its arguments, if it is called with others, or with a value of another kind
+    than the one annotated."""
     signature = inspect.signature(function)
     first = int(next(iter(signature.parameters), "") in ("self", "cls"))
 
@@ -260,18 +216,7 @@ def checks_call(function: F) -> F:
 
 
 def checks_calls(kind: K) -> K:
-    """Makes a class check the calls of its constructor and of its methods, as checks_call() does.
-
-    Parameters
-    ----------
-    kind : type
-        The class.
-
-    Returns
-    -------
-    type
-        The same class.
-    """
+    """Makes a class check the calls of its constructor and of its methods, as checks_call() does."""
     for name, thing in list(vars(kind).items()):
         if name.startswith("_") and name != "__init__":
             continue

@@ -67,31 +67,14 @@ class Error(Exception):
 
     @classmethod
     def of(cls, problems: list[dict[str, str]]) -> Self:
-        """Returns one error with all problems that the program listed.
-
-        Parameters
-        ----------
-        problems : list of dict
-            Problems with the members where, what, why and fix.
-
-        Returns
-        -------
-        Error
-            The error, whose message lists them all.
-        """
+        """Returns one error with all problems that the program listed."""
         error = cls("")
         error.listed = problems
         error.args = ("\n".join(_text_of(**problem) for problem in problems),)
         return error
 
     def rewrite(self, change: Callable[[str], str]) -> None:
-        """Replaces the texts of all problems, and with them the message.
-
-        Parameters
-        ----------
-        change : callable
-            Returns the new text of a member of a problem.
-        """
+        """Replaces the texts of all problems, and with them the message."""
         self.listed = [{name: change(text) for name, text in problem.items()} for problem in self.listed]
         self.args = ("\n".join(_text_of(**problem) for problem in self.listed),)
 
@@ -110,26 +93,7 @@ class UnknownName(SceneError, AttributeError, KeyError):
 
     @classmethod
     def among(cls, where: str, name: object, names: Iterable[str], why: str = "", what: str = "") -> Self:
-        """Returns the error of a name that is none of some.
-
-        Parameters
-        ----------
-        where : str
-            Thing that was asked.
-        name : object
-            Name that it does not have.
-        names : Iterable[str]
-            Names that it has.
-        why : str
-            Reason if there are no names.
-        what : str
-            Kind of the name: "state".
-
-        Returns
-        -------
-        UnknownName
-            The error, to be raised.
-        """
+        """Returns the error of a name that is none of some."""
         there = list(names)
         near = difflib.get_close_matches(str(name), there, 1)
         fix = f"did you mean {near[0]}?" if near else "take one of these" * bool(there)

@@ -123,18 +123,7 @@ def _plot_of_estimate(self: Estimate, ax=None):
 
 
 def _plot_of_prony(self: Prony, ax=None):
-    """Draws storage and loss modulus over frequency, measured and fitted.
-
-    Parameters
-    ----------
-    ax : matplotlib Axes, optional
-        Axes to draw into; by default new ones.
-
-    Returns
-    -------
-    Axes
-        The axes with the plot.
-    """
+    """Draws storage and loss modulus over frequency, measured and fitted."""
     from .plots.prony import moduli
     from .plots.style import drawn_into
 

@@ -26,20 +26,7 @@ PROGRESS_MODES = ("auto", "bar", "lines", "off")
 
 
 def wrapped(text: str, most: int) -> list[str]:
-    """Returns a text in lines that are broken at blanks; a unit stays behind its number.
-
-    Parameters
-    ----------
-    text : str
-        Text of one line.
-    most : int
-        Columns of a line at most; a longer word stays whole.
-
-    Returns
-    -------
-    list[str]
-        The lines.
-    """
+    """Returns a text in lines that are broken at blanks; a unit stays behind its number."""
     lines = [""]
     for word in text.split(" "):
         if lines[-1] and len(lines[-1]) + 1 + len(word) > most:
@@ -54,20 +41,7 @@ def folded(text: str, indent: int = 0) -> str:
     """Returns a printable text whose lines fill at most WIDTH columns, as folded() of the program (io/terminal.cpp) makes it.
 
     The rest of a longer line stands below its first word, of a line "  name   value" below the value, and of "note: ..." below the
-    text.
-
-    Parameters
-    ----------
-    text : str
-        Text.
-    indent : int
-        Columns before the rest of a line that begins at the margin.
-
-    Returns
-    -------
-    str
-        The lines.
-    """
+    text."""
     return "\n".join(_folded_line(line, indent) for line in printable(text).split("\n"))
 
 
@@ -83,25 +57,8 @@ def _folded_line(line: str, of_margin: int) -> str:
 
 
 def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,), again: tuple[int, ...] = (0,)) -> str:
-    """Returns a table for the terminal, numbers to the right. If it is wider than WIDTH, the cells of a last column of text are broken,
-    or the table is divided into parts below each other.
-
-    Parameters
-    ----------
-    heads : list[str]
-        Heads of the columns.
-    rows : list[list[str]]
-        Cells of each row; an empty row is a rule.
-    left : tuple[int, ...]
-        Columns that are set to the left.
-    again : tuple[int, ...]
-        Columns that later parts begin with.
-
-    Returns
-    -------
-    str
-        The lines.
-    """
+    """Returns a table for the terminal, numbers to the right. If it is wider than WIDTH, the cells of a last column of text are broken, or the table
+    is divided into parts below each other."""
     width = [max(len(line[i]) for line in [heads, *rows] if len(line) > i) + 2 for i in range(len(heads))]
     last = len(heads) - 1
     if last in left and sum(width) > WIDTH:
@@ -130,24 +87,7 @@ def table(heads: list[str], rows: list[list[str]], left: tuple[int, ...] = (0,),
 
 
 def html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], below: str = "") -> str:
-    """Returns a small table for a notebook.
-
-    Parameters
-    ----------
-    title : str
-        Text above the table.
-    heads : Iterable[str]
-        Heads of the columns; none: without.
-    rows : Iterable[Iterable[str]]
-        Cells of each row.
-    below : str
-        Text below the table; "": none.
-
-    Returns
-    -------
-    str
-        HTML.
-    """
+    """Returns a small table for a notebook."""
     def cells(tag: str, row: Iterable[str]) -> str:
         return "<tr>" + "".join(f"<{tag}>{html.escape(cell)}</{tag}>" for cell in row) + "</tr>"
 
@@ -157,21 +97,8 @@ def html_table(title: str, heads: Iterable[str], rows: Iterable[Iterable[str]], 
 
 
 def number(value: float, decimals: int) -> str:
-    """Spells a number for people, with this number of decimals, with more decimals if needed for three significant digits, and with
-    powers of ten for very small or large values, as io/terminal.cpp does.
-
-    Parameters
-    ----------
-    value : float
-        Number.
-    decimals : int
-        Decimals.
-
-    Returns
-    -------
-    str
-        The text.
-    """
+    """Spells a number for people, with this number of decimals, with more decimals if needed for three significant digits, and with powers of ten for
+    very small or large values, as io/terminal.cpp does."""
     size = abs(value)
     if not math.isfinite(value):
         return "-"
@@ -223,13 +150,7 @@ def parse_duration(text: str) -> float:
 
 def launched() -> tuple[int, bool]:
     """Tells whether a launcher has started this process. The rule is that of launched_in_parallel() of the program
-    (decomposition/communicator.hpp).
-
-    Returns
-    -------
-    tuple[int, bool]
-        The rank of this process, and True if a launcher says that it has started more than one.
-    """
+    (decomposition/communicator.hpp)."""
     for size, rank in (("OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK"), ("PMI_SIZE", "PMI_RANK"),
                        ("SLURM_STEP_NUM_TASKS", "SLURM_PROCID")):
         if size in os.environ:
@@ -238,13 +159,7 @@ def launched() -> tuple[int, bool]:
 
 
 def sleep_soon(environment: MutableMapping[str, str]) -> None:
-    """Sets an environment in which waiting threads of OpenMP sleep soon, as the script `asperity` does, unless OMP_WAIT_POLICY is set.
-
-    Parameters
-    ----------
-    environment : MutableMapping[str, str]
-        Environment of the program; changed.
-    """
+    """Sets an environment in which waiting threads of OpenMP sleep soon, as the script `asperity` does, unless OMP_WAIT_POLICY is set."""
     if "OMP_WAIT_POLICY" not in environment:
         environment.setdefault("GOMP_SPINCOUNT", "3000")
         environment.setdefault("KMP_BLOCKTIME", "0")

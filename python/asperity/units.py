@@ -69,20 +69,7 @@ def _parsed(text: str) -> tuple[tuple[int, ...], float, int] | None:
 
 
 def conversion(unit: object, base: str) -> float | None:
-    """Returns the number of base units in one unit.
-
-    Parameters
-    ----------
-    unit : object
-        Unit as people and files write it: "nm", "mJ/m2", "µm".
-    base : str
-        Unit of the answer.
-
-    Returns
-    -------
-    float | None
-        The number; None if the text is no unit, or one of another dimension.
-    """
+    """Returns the number of base units in one unit."""
     source, target = _parsed(unit) if isinstance(unit, str) and unit.strip() else None, _parsed(base)
     if not source or not target or source[0] != target[0]:
         return None
@@ -91,20 +78,7 @@ def conversion(unit: object, base: str) -> float | None:
 
 
 def quantity(text: object, base: str) -> float | None:
-    """Returns a quantity in base units.
-
-    Parameters
-    ----------
-    text : object
-        Number with its unit: "60 MPa", "5nN".
-    base : str
-        Unit of the answer.
-
-    Returns
-    -------
-    float | None
-        The quantity; None if the text is none, or has no unit or one of another dimension.
-    """
+    """Returns a quantity in base units."""
     parts = re.fullmatch(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(\D.*?)\s*", str(text))
     factor = conversion(parts[2], base) if parts else None
     return float(parts[1]) * factor if parts and factor is not None else None

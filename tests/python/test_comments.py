@@ -295,7 +295,7 @@ def test_docstrings_of_the_package_have_numpy_sections():
             functions += isinstance(thing, ast.FunctionDef)
             sections += "\n---" in (ast.get_docstring(thing) or "")
             found += [f"{module}.py:{thing.lineno} {name} {problem}" for problem in problems_of_docstring(thing, thing in users)]
-    assert functions > 400 and sections > 190 and not found, f"{len(found)} docstrings\n" + "\n".join(found)
+    assert functions > 400 and sections > 60 and not found, f"{len(found)} docstrings\n" + "\n".join(found)
 
 
 @pytest.mark.parametrize("text", [

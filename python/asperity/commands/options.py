@@ -57,24 +57,7 @@ class About(NamedTuple):
 
 
 def option(value: str, help: str, default: Any = MISSING, **more: Any) -> Any:
-    """Returns the field of an option.
-
-    Parameters
-    ----------
-    value : str
-        Name of the value in the help, or an example of it with its unit.
-    help : str
-        Explanation.
-    default : Any
-        Default; MISSING: the option must be given.
-    **more : Any
-        Members of About: name, if it is not that of the field; short name; limits; choices; commas: a list of names.
-
-    Returns
-    -------
-    Any
-        The field.
-    """
+    """Returns the field of an option."""
     about = {"about": About(value, help, **more)}
     return field(default_factory=list, metadata=about) if default == [] else field(default=default, metadata=about)
 
@@ -166,23 +149,7 @@ class Options:
 
     @classmethod
     def of_call(cls, given: Mapping[str, Any]) -> Self:
-        """Returns the options of a call from Python, checked.
-
-        Parameters
-        ----------
-        given : Mapping[str, Any]
-            Arguments by the names of the options or their aliases; None: not given.
-
-        Returns
-        -------
-        Options
-            The options.
-
-        Raises
-        ------
-        SceneError
-            An argument is missing, given by two names, or of no allowed value.
-        """
+        """Returns the options of a call from Python, checked. Raises SceneError."""
         found = {}
         for name, (about, kind, needed) in cls.about().items():
             names = [one for one in (name, *ALIASES.get(name, ())) if one in given]

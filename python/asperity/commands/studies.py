@@ -28,22 +28,7 @@ def on_workers(executor: str, options: PoolOptions) -> Iterator[bool]:
 
 
 def told(forecast: Forecast, plan: bool, voice: Voice) -> bool:
-    """Tells what a study will run.
-
-    Parameters
-    ----------
-    forecast : Forecast
-        Runs, their time, and the numbers that will not be stated.
-    plan : bool
-        True: the forecast is the result (--plan).
-    voice : Voice
-        Output of the command.
-
-    Returns
-    -------
-    bool
-        The value of `plan`: nothing is left to do.
-    """
+    """Tells what a study will run."""
     for line in forecast.lines:
         (voice.show if plan else voice.say)(line)
     if plan:

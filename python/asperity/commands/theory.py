@@ -155,20 +155,7 @@ class Computed(NamedTuple):
 
 
 def computed(file: str, overrides: list[str]) -> Computed:
-    """Computes the theories of a scene.
-
-    Parameters
-    ----------
-    file : str
-        Scene file.
-    overrides : list[str]
-        Overrides.
-
-    Returns
-    -------
-    Computed
-        Numbers in the units of result.json, and their text.
-    """
+    """Computes the theories of a scene."""
     from ..results.result import Values
     from ..theories import combined
 

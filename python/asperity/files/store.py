@@ -72,25 +72,7 @@ def contents(path: str | os.PathLike) -> bytes:
 
 
 def json_of(content: bytes, kind: Callable[[dict[str, Any]], Any] | None = None) -> Any:
-    """Returns the value of a JSON text.
-
-    Parameters
-    ----------
-    content : bytes
-        Text.
-    kind : callable, optional
-        Makes an object of its members.
-
-    Returns
-    -------
-    Any
-        The value.
-
-    Raises
-    ------
-    ValueError
-        The text is no JSON of Unicode, or nested more than DEEPEST_JSON deep.
-    """
+    """Returns the value of a JSON text. Raises ValueError."""
     try:
         value = json.loads(content, object_hook=kind)
     except RecursionError:
@@ -212,25 +194,7 @@ def _record(place: Path) -> dict[str, str] | None:
 
 
 def is_named(place: Path, name: str) -> bool:
-    """Returns True if the record of a directory names a file.
-
-    Parameters
-    ----------
-    place : Path
-        Directory.
-    name : str
-        Name of the file.
-
-    Returns
-    -------
-    bool
-        True for a file that a command wrote there.
-
-    Raises
-    ------
-    SceneError
-        The record is damaged.
-    """
+    """Returns True if the record of a directory names a file. Raises SceneError."""
     return name in (_record(place) or {})
 
 
@@ -301,29 +265,7 @@ def _reason_to_keep(place: Path, name: str, record: dict[str, str] | None, renew
 
 
 def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> list[dict[str, str]]:
-    """Returns the files that must not be replaced.
-
-    Parameters
-    ----------
-    place : Path
-        Directory to write to.
-    names : Iterable[str]
-        Names of the files to be written.
-    renew : bool
-        True: files that the record names and that are as they were written may be replaced.
-    inputs : Inputs
-        Files that the command reads, which are never replaced.
-
-    Returns
-    -------
-    list[dict[str, str]]
-        The files, as problems of SceneError.of().
-
-    Raises
-    ------
-    InputOutputError
-        A file cannot be read.
-    """
+    """Returns the files that must not be replaced. Raises InputOutputError."""
     names, inputs, record = list(names), list(inputs), _record(place)
     problems = []
     for folder in dict.fromkeys(str(Path(name).parent) for name in names):
@@ -339,22 +281,7 @@ def in_the_way(place: Path, names: Iterable[str], renew: bool = True, inputs: In
 
 
 def require_free(places: Mapping[Path, Iterable[str]], renew: bool = True, inputs: Inputs = ()) -> None:
-    """Checks that a command would replace no file.
-
-    Parameters
-    ----------
-    places : Mapping[Path, Iterable[str]]
-        Names of the files to be written, by directory.
-    renew : bool
-        True: files that the record names and that are as they were written may be replaced.
-    inputs : Inputs
-        Files that the command reads, which are never replaced.
-
-    Raises
-    ------
-    SceneError
-        Files would be replaced; the error names all of them.
-    """
+    """Checks that a command would replace no file. Raises SceneError."""
     problems = [one for place, names in places.items() for one in in_the_way(place, names, renew, inputs)]
     if problems:
         raise SceneError.of(problems)
@@ -383,20 +310,7 @@ class Outputs:
             self.digests[name] = _digest_of(beside)
 
     def write(self, name: str, content: str | bytes) -> None:
-        """Writes a file whole, or leaves the old one.
-
-        Parameters
-        ----------
-        name : str
-            Name that was claimed.
-        content : str | bytes
-            Content of the file.
-
-        Raises
-        ------
-        InputOutputError
-            The file cannot be written.
-        """
+        """Writes a file whole, or leaves the old one. Raises InputOutputError."""
         with self.replacing(name) as beside:
             beside.write_bytes(content.encode() if isinstance(content, str) else content)
 
@@ -409,31 +323,8 @@ class Outputs:
 
 @contextlib.contextmanager
 def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Inputs = ()) -> Iterator[Outputs]:
-    """Opens a directory, made if it is missing, for the files that a command is about to write. Their names are claimed in
-    the record before, and their digests noted there after the work; of work that ends in an exception they stay
-    unfinished.
-
-    Parameters
-    ----------
-    place : Path
-        Directory to write to.
-    names : Iterable[str]
-        Names of the files to be written.
-    renew : bool
-        True: files that the record names and that are as they were written may be replaced.
-    inputs : Inputs
-        Files that the command reads, which are never replaced.
-
-    Yields
-    ------
-    Outputs
-        The open directory.
-
-    Raises
-    ------
-    SceneError
-        Files would be replaced; the error names all of them.
-    """
+    """Opens a directory, made if it is missing, for the files that a command is about to write. Their names are claimed in the record before, and
+    their digests noted there after the work; of work that ends in an exception they stay unfinished. Raises SceneError."""
     written, before = Outputs(place, names), {}
     require_free({place: written.names}, renew, inputs)
     made = [path for path in (place, *place.parents) if not path.exists()]
@@ -473,20 +364,7 @@ def outputs(place: Path, names: Iterable[str], renew: bool = True, inputs: Input
 
 
 def set_aside(place: Path, names: Iterable[str]) -> None:
-    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free.
-
-    Parameters
-    ----------
-    place : Path
-        Directory.
-    names : Iterable[str]
-        Names of the files.
-
-    Raises
-    ------
-    InputOutputError
-        A file cannot be renamed.
-    """
+    """Renames damaged files: "result.json" becomes "result-damaged.json", or the next name that is free. Raises InputOutputError."""
     for path in (place / name for name in names if os.path.lexists(place / name)):
         first = path.with_name(f"{path.stem}-damaged{path.suffix}")
         try:
@@ -496,20 +374,7 @@ def set_aside(place: Path, names: Iterable[str]) -> None:
 
 
 def csv_text(rows: Iterable[Iterable[str | float]], digits: int = 10) -> str:
-    """Returns lines of comma-separated values.
-
-    Parameters
-    ----------
-    rows : Iterable[Iterable[str | float]]
-        Lines; numbers that are not finite become empty fields.
-    digits : int
-        Digits of the numbers.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """Returns lines of comma-separated values."""
     stream = io.StringIO()
     csv.writer(stream, lineterminator="\n").writerows(
         [v if isinstance(v, str) else f"{v:.{digits}g}" if math.isfinite(v) else "" for v in row] for row in rows)
@@ -526,25 +391,7 @@ def rows_of(columns: Mapping[str, Iterable[Any]], units: Mapping[str, str]) -> l
 
 
 def chosen(out: str | None, otherwise: str) -> Path:
-    """Returns the directory of a command.
-
-    Parameters
-    ----------
-    out : str | None
-        Directory that the user names; None: none.
-    otherwise : str
-        Default directory.
-
-    Returns
-    -------
-    Path
-        The directory, which may not exist yet.
-
-    Raises
-    ------
-    SceneError
-        The name can be no directory.
-    """
+    """Returns the directory of a command. Raises SceneError."""
     place = Path(otherwise if out is None else out)
     if out == "":
         raise SceneError("--out", "is empty", "it names the directory of the results", f"leave it out for {otherwise}")
@@ -558,20 +405,7 @@ def chosen(out: str | None, otherwise: str) -> Path:
 
 
 def numbered(first: Path, taken: Callable[[Path], bool]) -> Path:
-    """Returns the first path that is not taken of first, first-2, first-3, ...
-
-    Parameters
-    ----------
-    first : Path
-        Path without a number.
-    taken : Callable[[Path], bool]
-        Returns True for a path that is taken.
-
-    Returns
-    -------
-    Path
-        The path.
-    """
+    """Returns the first path that is not taken of first, first-2, first-3, ..."""
     others = (first.with_name(f"{first.stem}-{number}{first.suffix}") for number in itertools.count(2))
     return next(place for place in itertools.chain([first], others) if not taken(place))
 

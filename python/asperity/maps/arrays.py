@@ -77,18 +77,7 @@ def _arrays(file: h5py.File) -> list[tuple[str, h5py.Dataset]]:
 
 
 def of_hdf5(file: h5py.File) -> tuple[list[Channel], int | None, bool]:
-    """Returns the maps of an open HDF5 file.
-
-    Parameters
-    ----------
-    file : h5py.File
-        Open file.
-
-    Returns
-    -------
-    tuple[list[Channel], int | None, bool]
-        The maps, the index of the file's own map (None: it has none), and True if the program reads the file itself.
-    """
+    """Returns the maps of an open HDF5 file."""
     if any(name.startswith("Measurement_") for name in file):
         return _jpk(file), None, False
     if "pixel_to_nm_scaling" in file:
@@ -121,18 +110,7 @@ def _headers(path: Path) -> list[tuple[int, ...]]:
 
 
 def of_numpy(path: Path) -> tuple[list[Channel], bool]:
-    """Returns the maps of a file of numpy.
-
-    Parameters
-    ----------
-    path : Path
-        .npy or .npz.
-
-    Returns
-    -------
-    tuple[list[Channel], bool]
-        The maps, and True if the program reads the file itself.
-    """
+    """Returns the maps of a file of numpy."""
     shapes = _headers(path)
     for shape in shapes:
         require_size(path, shape)

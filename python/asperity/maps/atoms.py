@@ -21,25 +21,7 @@ FARTHEST = 1e7
 
 
 def lammps(path: Path, content: str) -> dict:
-    """Reads the atoms of a LAMMPS data file.
-
-    Parameters
-    ----------
-    path : Path
-        File, for the messages.
-    content : str
-        Contents of the file.
-
-    Returns
-    -------
-    dict
-        Positions (Å), types, box and notes.
-
-    Raises
-    ------
-    InputOutputError
-        The file is no data file in Å, or is damaged.
-    """
+    """Reads the atoms of a LAMMPS data file. Raises InputOutputError."""
     lines = content.split("\n")
     units = re.search(r"units = (\w*)", lines[0])
     if lines[0].startswith("ITEM:") or (units and units[1] not in ("metal", "real")):
@@ -111,25 +93,7 @@ def extended_xyz(path: Path) -> dict:
 
 
 def folded(path: Path, atoms: dict) -> dict:
-    """Folds atoms into their box, along x and y.
-
-    Parameters
-    ----------
-    path : Path
-        File, for the messages.
-    atoms : dict
-        Positions (Å) and the box.
-
-    Returns
-    -------
-    dict
-        The atoms with positions from the box's lower corner.
-
-    Raises
-    ------
-    InputOutputError
-        The atoms or their box have no size.
-    """
+    """Folds atoms into their box, along x and y. Raises InputOutputError."""
     place, width = numpy.array(atoms["position"], dtype=float), atoms["width"]
     if not (abs(place) <= FARTHEST).all() or not 0.0 < min(width[:2]) <= max(width) <= FARTHEST:
         raise refuse(path, "the atoms or their box have no size", f"coordinates up to {abs(place).max():g} Å in a box "

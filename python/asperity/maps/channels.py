@@ -69,24 +69,7 @@ class Channel:
 
 
 def refuse(where: object, what: str, why: object = "", fix: str = "correct it, or write it again") -> InputOutputError:
-    """Makes the error of a file that cannot be read.
-
-    Parameters
-    ----------
-    where : object
-        File, and the place in it.
-    what : str
-        Sentence on what is wrong.
-    why : object
-        Reason.
-    fix : str
-        Remedy.
-
-    Returns
-    -------
-    InputOutputError
-        The error, to be raised.
-    """
+    """Makes the error of a file that cannot be read."""
     return InputOutputError(str(where), what, str(why), fix)
 
 
@@ -97,20 +80,7 @@ def first_line(error: BaseException) -> str:
 
 
 def require_size(where: object, shape: tuple[int, ...]) -> None:
-    """Checks that an array is not too large to be read, before it is.
-
-    Parameters
-    ----------
-    where : object
-        File, for the message.
-    shape : tuple[int, ...]
-        Shape of the array.
-
-    Raises
-    ------
-    InputOutputError
-        The array has more than MOST_POINTS numbers.
-    """
+    """Checks that an array is not too large to be read, before it is. Raises InputOutputError."""
     if (count := math.prod(shape)) > MOST_POINTS:
         raise refuse(where, "is too large", f"its shape {' x '.join(map(str, shape))} is {count} numbers, and {MOST_POINTS} are the limit",
                      "cut out the part that is needed")
@@ -124,29 +94,7 @@ def text_of(value: object) -> str | None:
 
 
 def length(where: object, unit: object, what: str, fix: str = "name the unit: --unit nm") -> float:
-    """Returns a unit of length in Å.
-
-    Parameters
-    ----------
-    where : object
-        File, for the message.
-    unit : object
-        Unit as the file has it.
-    what : str
-        Subject of the message: what has the unit.
-    fix : str
-        Remedy.
-
-    Returns
-    -------
-    float
-        The length of the unit, Å.
-
-    Raises
-    ------
-    InputOutputError
-        The unit is no unit of length.
-    """
+    """Returns a unit of length in Å. Raises InputOutputError."""
     said = text_of(unit)
     if (found := conversion(said, "Å")) is None:
         raise refuse(where, f"the unit of its {what}, {said}, is none of length", "known: m with a prefix (nm, µm, um, mm), Å, A", fix)
@@ -154,25 +102,7 @@ def length(where: object, unit: object, what: str, fix: str = "name the unit: --
 
 
 def factor(where: object, scale: object) -> float:
-    """Returns how many units a number of the map stands for.
-
-    Parameters
-    ----------
-    where : object
-        File, for the message.
-    scale : object
-        Scale as the file has it.
-
-    Returns
-    -------
-    float
-        The scale, above zero.
-
-    Raises
-    ------
-    InputOutputError
-        The factor is no number above zero.
-    """
+    """Returns how many units a number of the map stands for. Raises InputOutputError."""
     value = 1.0 if scale is None else float(numpy.asarray(scale).reshape(()))
     if not 0.0 < value < numpy.inf:
         raise refuse(where, f"its attribute scale = {value:g} is no factor", "a number of the map stands for so many units",
@@ -181,22 +111,7 @@ def factor(where: object, scale: object) -> float:
 
 
 def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
-    """Returns the maps of an array.
-
-    Parameters
-    ----------
-    name : str
-        Name of the array.
-    heights : Any
-        Array of two dimensions, or of three, of which the first one counts the frames.
-    told : dict[str, Any]
-        Common metadata of the channels: unit, size, notes.
-
-    Returns
-    -------
-    list[Channel]
-        The maps.
-    """
+    """Returns the maps of an array."""
     unit = text_of(told.get("unit"))
 
     def frame(k: int | None) -> dict[str, Any]:
@@ -210,32 +125,8 @@ def frames(name: str, heights: Any, told: dict[str, Any]) -> list[Channel]:
 
 
 def select(path: Path, channels: list[Channel], wanted: str | None, first: int | None = None, unit: str | None = None) -> dict:
-    """Reads one map of a file: the one wanted, else `first`, else the first that is called the height, else the only one in a unit
-    of length. A map that is called another quantity, deflection for example, is read only if it is wanted.
-
-    Parameters
-    ----------
-    path : Path
-        File, for the messages.
-    channels : list[Channel]
-        Maps of the file.
-    wanted : str | None
-        Name of the map, or its number from 1; None: nobody asks for one.
-    first : int, optional
-        Index of the map that the format calls the height.
-    unit : str, optional
-        Unit that the user names.
-
-    Returns
-    -------
-    dict
-        The map, in the form of read_heights().
-
-    Raises
-    ------
-    InputOutputError
-        The name matches no channel or several; the error lists all channels.
-    """
+    """Reads one map of a file: the one wanted, else `first`, else the first that is called the height, else the only one in a unit of length. A map
+    that is called another quantity, deflection for example, is read only if it is wanted. Raises InputOutputError."""
     names = [c.name + ("" if c.unit is None or is_length(c.unit) else f" (in {c.unit})") for c in channels]
     listed = ", ".join(f"{k} {name}" for k, name in enumerate(names[:LISTED], 1))
     listed = "its channels: " + listed + (f" and {len(names) - LISTED} more" if len(names) > LISTED else "")

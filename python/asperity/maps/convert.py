@@ -166,27 +166,7 @@ def _found(source: str, channel: str | None, unit: str | None, as_it_is: bool) -
 
 
 def read_heights(source: str, channel: str | None = None, unit: str | None = None) -> dict[str, Any]:
-    """Reads a map of heights from any file.
-
-    Parameters
-    ----------
-    source : str
-        File.
-    channel : str, optional
-        Name or number of the map in a file with several.
-    unit : str, optional
-        Unit that the user names.
-
-    Returns
-    -------
-    dict[str, Any]
-        heights [y, x] (NaN at missing points), unit, scale, size, size_unit and notes, as far as the file tells them.
-
-    Raises
-    ------
-    InputOutputError
-        The file cannot be read, or has no such map.
-    """
+    """Reads a map of heights from any file. Raises InputOutputError."""
     path, _, data_set = source.partition(":/")
     if data_set and channel is not None and channel.lstrip("/") != data_set:
         raise refuse(source, f"names the data set {data_set}, and --channel names {channel}", "one of them is meant", "leave one out")

@@ -52,25 +52,7 @@ class ForceCurve:
 
 
 def read_force_curves(file: str, stiffness: str | None = None, sensitivity: str | None = None) -> tuple[list[ForceCurve], list[str]]:
-    """Reads all force curves of a file.
-
-    Parameters
-    ----------
-    file : str
-        The file.
-    stiffness, sensitivity : str, optional
-        Stiffness of the cantilever, "0.2 N/m", and of its deflection, "60 nm/V", which hold over what the file says.
-
-    Returns
-    -------
-    tuple[list[ForceCurve], list[str]]
-        The curves, and a reason for each that cannot be taken.
-
-    Raises
-    ------
-    InputOutputError
-        The file cannot be read, holds no force curve, or does not say the stiffness or sensitivity that it needs.
-    """
+    """Reads all force curves of a file. Raises InputOutputError."""
     path, given = Path(file), {}
     for name, text in (("stiffness", stiffness), ("sensitivity", sensitivity)):
         if text is not None:

@@ -29,31 +29,8 @@ class HeightMap(NamedTuple):
 
 def read_map(file: str, unit: str | None = None, size: float | None = None, channel: str | None = None,
              assumed: str | None = None) -> HeightMap:
-    """Reads a map from any file. What the arguments say holds over what the file says, and a note names both if they differ.
-
-    Parameters
-    ----------
-    file : str
-        File of heights.
-    unit : str, optional
-        Unit of the heights.
-    size : float, optional
-        Shorter edge, Å.
-    channel : str, optional
-        Name or number of the map in a file with several.
-    assumed : str, optional
-        Unit if nobody says it.
-
-    Returns
-    -------
-    HeightMap
-        The heights (Å), the size (Å) and notes.
-
-    Raises
-    ------
-    InputOutputError
-        The file cannot be read, or the unit is not known.
-    """
+    """Reads a map from any file. What the arguments say holds over what the file says, and a note names both if they differ. Raises
+    InputOutputError."""
     found = read_heights(file, channel, unit)
     heights, notes = found["heights"], list(found.get("notes", []))
     own = found.get("unit")

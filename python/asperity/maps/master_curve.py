@@ -139,29 +139,7 @@ def _header(lines: list[str], first: int, separator: str | None) -> list[_Column
 
 
 def read_master_curve(source: str | Path, frequency_unit: str = "", modulus_unit: str = "", kind: str = "") -> MasterCurve:
-    """Reads a master curve.
-
-    Parameters
-    ----------
-    source : str | Path
-        Text file.
-    frequency_unit : str
-        Hz, rad/s, ...; "": the unit that the file says.
-    modulus_unit : str
-        Pa, MPa, ...; "": the unit that the file says.
-    kind : str
-        E or G, where the file does not say it.
-
-    Returns
-    -------
-    MasterCurve
-        The curve.
-
-    Raises
-    ------
-    InputOutputError
-        The file is no master curve: names or units are missing, numbers are not above zero, or points too few.
-    """
+    """Reads a master curve. Raises InputOutputError."""
     path = Path(source)
     lines = lines_of(path)
     first = next((k for k, line in enumerate(lines) if is_row(line)), None)

@@ -57,23 +57,7 @@ class Law(NamedTuple):
 
 
 def energy_beyond(hurst: float, q1: float, c1: float) -> float:
-    """Computes the energy of full contact in the waves of the law from q₁ on; for H ≤ ½ as far as the wavelength of two
-    atoms.
-
-    Parameters
-    ----------
-    hurst : float
-        Hurst exponent H.
-    q1 : float
-        Wave number q₁, 1/Å.
-    c1 : float
-        Power spectrum at q₁, Å⁴.
-
-    Returns
-    -------
-    float
-        The energy per area over E*, Å.
-    """
+    """Computes the energy of full contact in the waves of the law from q₁ on; for H ≤ ½ as far as the wavelength of two atoms."""
     if hurst > 0.5:
         return 0.5 * math.pi * c1 * q1**3 / (2.0 * hurst - 1.0)
     octaves = max(0.0, math.log(2.0 * math.pi / ATOMS / q1))
@@ -82,21 +66,8 @@ def energy_beyond(hurst: float, q1: float, c1: float) -> float:
 
 
 def spectrum_of(heights: np.ndarray, edge: float) -> tuple[np.ndarray, np.ndarray, np.ndarray, bool]:
-    """Computes the power spectrum of a map up to the Nyquist wave number. Of a map that is not periodic the mean plane is
-    subtracted, and the rest multiplied by Hann's window.
-
-    Parameters
-    ----------
-    heights : np.ndarray
-        Square map, Å, NaN at missing points.
-    edge : float
-        Edge of the map, Å.
-
-    Returns
-    -------
-    tuple[np.ndarray, np.ndarray, np.ndarray, bool]
-        Wave numbers (1/Å), the mean C(q) (Å⁴) of the modes at each, their count, and True if the map was taken as periodic.
-    """
+    """Computes the power spectrum of a map up to the Nyquist wave number. Of a map that is not periodic the mean plane is subtracted, and the rest
+    multiplied by Hann's window."""
     n = len(heights)
     periodic = height_map.jump(heights) < height_map.PERIODIC
     flat = height_map.filled(height_map.without_tilt(heights) if periodic else height_map.without_plane(heights))
@@ -112,20 +83,7 @@ def spectrum_of(heights: np.ndarray, edge: float) -> tuple[np.ndarray, np.ndarra
 
 
 def energy_shown(heights: np.ndarray, edge: float) -> float:
-    """Computes the energy that the map's own waves store in full contact: (1/4) Σ q |h_q|².
-
-    Parameters
-    ----------
-    heights : np.ndarray
-        Square map, Å, NaN at missing points.
-    edge : float
-        Edge of the map, Å.
-
-    Returns
-    -------
-    float
-        The energy per area over E*, Å.
-    """
+    """Computes the energy that the map's own waves store in full contact: (1/4) Σ q |h_q|²."""
     q, c, count, _ = spectrum_of(heights, edge)
     return 0.25 * float((q * c * count).sum()) * (2.0 * math.pi / edge) ** 2
 
@@ -149,22 +107,7 @@ def _fit(q: np.ndarray, c: np.ndarray, count: np.ndarray, q1: float) -> tuple[fl
 
 
 def law_of(heights: np.ndarray, edge: float, spacing: float) -> Law | None:
-    """Derives the law from the spectrum of a map.
-
-    Parameters
-    ----------
-    heights : np.ndarray
-        Square map, Å, NaN at missing points.
-    edge : float
-        Edge of the map, Å.
-    spacing : float
-        Distance of the sites in a simulation of the map, Å.
-
-    Returns
-    -------
-    Law | None
-        The law; None if the map has no roughness down to its pixel.
-    """
+    """Derives the law from the spectrum of a map."""
     n = len(heights)
     pixel = edge / n
     q, c, count, periodic = spectrum_of(heights, edge)
@@ -199,24 +142,7 @@ class Verdict(NamedTuple):
 
 
 def verdict(law: Law | None, modulus: float, adhesion: float, sites: str = "") -> Verdict:
-    """Estimates the energy of the missing waves of a map and whether it matters.
-
-    Parameters
-    ----------
-    law : Law | None
-        Law of the map; None: it shows all of its roughness.
-    modulus : float
-        E*, eV/Å³.
-    adhesion : float
-        Δγ, eV/Å².
-    sites : str
-        Setting of as many sites as show enough of the map; "": none do.
-
-    Returns
-    -------
-    Verdict
-        Sentence on the waves, relative error of the numbers, and the reason why they are not stated.
-    """
+    """Estimates the energy of the missing waves of a map and whether it matters."""
     if law is None:
         return Verdict(0.0, "", "none: the map has no roughness down to its pixel", "")
     share = modulus * law.missing / adhesion if adhesion > 0.0 else math.inf

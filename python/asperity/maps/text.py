@@ -47,18 +47,7 @@ class Text:
         self.separators = str.maketrans(",;\t", ".  ")
 
     def rows(self) -> list[tuple[int, list[float]]]:
-        """Returns the lines of numbers, each with its number in the file; "bad" and "void" are NaN.
-
-        Returns
-        -------
-        list[tuple[int, list[float]]]
-            The lines.
-
-        Raises
-        ------
-        InputOutputError
-            A word is no number.
-        """
+        """Returns the lines of numbers, each with its number in the file; "bad" and "void" are NaN. Raises InputOutputError."""
         found = []
         for number, line in self.lines:
             words = line.translate(self.separators).split()
@@ -70,25 +59,7 @@ class Text:
         return [(number, row) for number, row in found if row]
 
     def matrix(self, said: dict, counts: tuple[str, str]) -> numpy.ndarray:
-        """Returns the numbers as a map.
-
-        Parameters
-        ----------
-        said : dict
-            Values of the headers.
-        counts : tuple[str, str]
-            Headers that count columns and rows.
-
-        Returns
-        -------
-        numpy.ndarray
-            The map [y, x], in the unit of the file.
-
-        Raises
-        ------
-        InputOutputError
-            The rows are not of one length, or the counts differ from the headers.
-        """
+        """Returns the numbers as a map. Raises InputOutputError."""
         rows = self.rows()
         for number, row in rows:
             if len(row) != len(rows[0][1]):
@@ -125,20 +96,7 @@ class Text:
                 if key not in HEADERS and text not in taken and states(text)]
 
     def size(self, keys: tuple[str, ...], unit: str | None) -> float | None:
-        """Returns a size by the first header that gives a number.
-
-        Parameters
-        ----------
-        keys : tuple[str, ...]
-            Headers, in the order of preference.
-        unit : str | None
-            Unit of a number without its own; None: none.
-
-        Returns
-        -------
-        float | None
-            The size, Å; None if no header gives one.
-        """
+        """Returns a size by the first header that gives a number."""
         for key in keys:
             if found := re.fullmatch(SIZE, self.header.get(key, "")):
                 value, unit = float(found[1].replace(",", ".")), found[2] or unit
@@ -150,21 +108,8 @@ class Text:
 
 
 def parts(path: Path, content: str) -> list[Text]:
-    """Splits a text where lines without numbers stand between those with numbers. Lines without numbers are the header of the
-    following part, or belong to the last part behind it.
-
-    Parameters
-    ----------
-    path : Path
-        File, for the messages.
-    content : str
-        Contents of the file.
-
-    Returns
-    -------
-    list[Text]
-        The parts.
-    """
+    """Splits a text where lines without numbers stand between those with numbers. Lines without numbers are the header of the following part, or
+    belong to the last part behind it."""
     found: list[Text] = []
     header: dict[str, str] = {}
     between = True
@@ -352,20 +297,7 @@ def _table(text: Text) -> list[Channel]:
 
 
 def of_text(path: Path, content: str) -> list[Channel]:
-    """Returns the maps of a text.
-
-    Parameters
-    ----------
-    path : Path
-        File, for the messages.
-    content : str
-        Contents of the file.
-
-    Returns
-    -------
-    list[Channel]
-        The maps; none if it is no text of numbers.
-    """
+    """Returns the maps of a text."""
     found = parts(path, content)
     if not found or "\0" in content:
         return []

@@ -12,20 +12,7 @@ from .style import BLUE, RED, curve, finish
 
 
 def moduli(found: Prony, ax: Axes) -> bool:
-    """Draws storage and loss modulus over frequency: measured as points, fitted as lines.
-
-    Parameters
-    ----------
-    found : Prony
-        The fit.
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws storage and loss modulus over frequency: measured as points, fitted as lines."""
     over = np.geomspace(found.frequency[0], found.frequency[-1], 300)
     fitted = 1e3 * found.modulus(over)
     for words, measured, line, colour, marker in (("storage modulus $E'$", found.storage, fitted.real, BLUE, "o"),

@@ -12,18 +12,7 @@ from .style import BLUE, GAP, GREY, INK, PAPER, PRESSURE, RED, SKY, curve, drawn
 
 
 def unit(found: Stress) -> tuple[float, str]:
-    """Returns divisor and name of the unit of stresses.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    tuple[float, str]
-        Divisor of stresses in GPa, and GPa, MPa or kPa.
-    """
+    """Returns divisor and name of the unit of stresses."""
     largest = max(abs(one.value) for one in found.largest)
     return next(((s, name) for s, name in ((1.0, "GPa"), (1e-3, "MPa")) if largest >= 0.1 * s), (1e-6, "kPa"))
 
@@ -32,22 +21,7 @@ DRAWN = {"von_mises": (von_mises, "von Mises", GAP), "tension": (largest_tension
 
 
 def section(found: Stress, ax: Axes, measure: str = "von_mises") -> bool:
-    """Draws a measure in the vertical plane through its largest value; the surface is below, the block above.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-    ax : Axes
-        Axes to draw into.
-    measure : str
-        "von_mises" or "tension".
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws a measure in the vertical plane through its largest value; the surface is below, the block above."""
     compute, words, cmap = DRAWN[measure]
     scale, name = unit(found)
     values = compute(found.section if measure == "von_mises" else found.tension_section) / scale
@@ -74,39 +48,13 @@ def section(found: Stress, ax: Axes, measure: str = "von_mises") -> bool:
 
 
 def level(found: Stress, ax: Axes) -> bool:
-    """Draws the stress of von Mises at the depth at which it is largest, from above.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws the stress of von Mises at the depth at which it is largest, from above."""
     scale, name = unit(found)
     return image(ax, von_mises(found.map) / scale, found.edge, label=f"von Mises ({name})", cmap=GAP)
 
 
 def profile(found: Stress, ax: Axes) -> bool:
-    """Draws the largest stresses at each depth, with the largest of all and their errors.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws the largest stresses at each depth, with the largest of all and their errors."""
     scale, name = unit(found)
     for (measure, words), colour in zip(MEASURES.items(), (BLUE, SKY, RED)):
         curve(ax, 0.1 * found.profile_depth, found.profile[measure] / scale, words, colour=colour)

@@ -97,33 +97,7 @@ def style() -> Any:
 
 def drawn_into(ax: Axes | None, draw: Callable[[Axes], bool], where: str, name: str, why: str,
                fix: str = "") -> Axes:
-    """Draws into an axes for a user, and makes one if none is given.
-
-    Parameters
-    ----------
-    ax : Axes | None
-        Axes; None: new ones.
-    draw : Callable[[Axes], bool]
-        Draws; returns False if there is nothing to draw.
-    where : str
-        Result that is drawn, for the message.
-    name : str
-        Name of the plot.
-    why : str
-        Reason why there may be nothing to draw.
-    fix : str
-        Remedy.
-
-    Returns
-    -------
-    Axes
-        The axes with the plot.
-
-    Raises
-    ------
-    InputOutputError
-        There is nothing to draw.
-    """
+    """Draws into an axes for a user, and makes one if none is given. Raises InputOutputError."""
     if ax is None:
         import matplotlib.pyplot as plt
 
@@ -140,29 +114,7 @@ def plain(text: str) -> str:
 
 def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-", marker: str = "",
           filled: bool = True, spread=None, behind: bool = False) -> None:
-    """Draws a curve, or points with error bars.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes to draw into.
-    x, y : Any
-        Numbers in the units of the axes.
-    label : str
-        Words of the legend; "": none.
-    colour : str
-        Colour of line and markers.
-    line : Any
-        Style of the line; "": none.
-    marker : str
-        Form of the markers; "": none.
-    filled : bool
-        False: markers are empty.
-    spread : Any
-        Half lengths of the error bars, in the unit of y.
-    behind : bool
-        True: below all other curves.
-    """
+    """Draws a curve, or points with error bars."""
     x, y = np.asarray(x, float), np.asarray(y, float)
     options: dict[str, Any] = {"color": colour, "linestyle": line, "label": label or "_", "marker": marker or None,
                                "zorder": 1.8 if behind else 2.5, "markerfacecolor": colour if filled else PAPER}
@@ -176,28 +128,7 @@ def curve(ax: Axes, x, y, label: str = "", *, colour: str = BLUE, line: Any = "-
 
 def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True, zero: bool = False,
            most: float | None = None) -> bool:
-    """Adds labels, minor ticks and the legend.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes of the plot.
-    x, y : str
-        Labels with their units.
-    log : str
-        "x", "y" or "xy": the logarithmic axes.
-    legend : bool | str
-        "above": over the curves, if they fill the axes.
-    zero : bool
-        True: with a line at y = 0.
-    most : float, optional
-        Largest possible value, above which the vertical axis has no ticks.
-
-    Returns
-    -------
-    bool
-        True, the answer of a plot that is drawn.
-    """
+    """Adds labels, minor ticks and the legend."""
     if zero:
         ax.axhline(0, color=GREY, linewidth=0.5, zorder=1)
     ax.set_xlabel(x)
@@ -234,17 +165,7 @@ def finish(ax: Axes, x: str, y: str, *, log: str = "", legend: bool | str = True
 
 
 def millijoules(ax: Axes, factor: float, label: str) -> None:
-    """Adds a second axis in mJ/m² on the right.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes of the plot.
-    factor : float
-        mJ/m² per unit of the axis on the left.
-    label : str
-        Label of the new axis.
-    """
+    """Adds a second axis in mJ/m² on the right."""
     right = ax.secondary_yaxis("right", functions=(partial(np.multiply, factor), partial(np.multiply, 1.0 / factor)))
     right.set_ylabel(label)
     right.yaxis.set_minor_locator(ticker.AutoMinorLocator())
@@ -256,30 +177,7 @@ def millijoules(ax: Axes, factor: float, label: str) -> None:
 
 def image(ax: Axes, values: np.ndarray, edge: float, *, label: str, cmap, high: float | None = None,
           words: tuple[str, str] | None = None) -> bool:
-    """Draws a map of a periodic box with its scale.
-
-    Parameters
-    ----------
-    ax : Axes
-        Axes to draw into.
-    values : np.ndarray
-        Map [y, x].
-    edge : float
-        Width of the box, Å.
-    label : str
-        Label of the scale, with its unit.
-    cmap : Any
-        Colours.
-    high : float, optional
-        Largest value of the scale; None: that of the map.
-    words : tuple[str, str], optional
-        Meaning of zero and one, for a map of zeros and ones.
-
-    Returns
-    -------
-    bool
-        True, the answer of a plot that is drawn.
-    """
+    """Draws a map of a periodic box with its scale."""
     from matplotlib.patches import Patch
 
     values = np.asarray(values, float)
@@ -320,20 +218,7 @@ def make(draw: Callable[[Axes], bool]) -> Figure | None:
 
 
 def picture(fig: Figure, kind: str) -> bytes:
-    """Returns a figure as the content of a file.
-
-    Parameters
-    ----------
-    fig : Figure
-        Figure.
-    kind : str
-        "png", "pdf" or "svg".
-
-    Returns
-    -------
-    bytes
-        The content.
-    """
+    """Returns a figure as the content of a file."""
     kept = _made.setdefault(fig, {})  # the SVG is wanted twice
     if kind not in kept:
         stream = io.BytesIO()
@@ -345,37 +230,12 @@ def picture(fig: Figure, kind: str) -> bytes:
 
 
 def files_of(stem: str, kinds: Iterable[str] = KINDS) -> list[str]:
-    """Returns the names of the files of a figure.
-
-    Parameters
-    ----------
-    stem : str
-        Name without its ending.
-    kinds : Iterable[str]
-        Endings.
-
-    Returns
-    -------
-    list[str]
-        Names, "stem.png" first.
-    """
+    """Returns the names of the files of a figure."""
     return [f"{stem}.{kind}" for kind in kinds]
 
 
 def save(fig: Figure, out: store.Outputs, stem: str, kinds: Iterable[str] = KINDS) -> None:
-    """Writes the files of a figure.
-
-    Parameters
-    ----------
-    fig : Figure
-        Figure.
-    out : store.Outputs
-        Open directory, which has claimed the names.
-    stem : str
-        Name without its ending.
-    kinds : Iterable[str]
-        Endings.
-    """
+    """Writes the files of a figure."""
     for kind in kinds:
         out.write(f"{stem}.{kind}", picture(fig, kind))
 

@@ -70,19 +70,7 @@ class Trace:
         return table.column(self.column) / self.unit
 
     def average(self, table: Table) -> tuple[np.ndarray, np.ndarray]:
-        """Returns means over the seeds with their error bars.
-
-        Parameters
-        ----------
-        table : Table
-            Table of the sweep.
-
-        Returns
-        -------
-        tuple[np.ndarray, np.ndarray]
-            Means, and error bars (spread over the seeds and mean uncertainty of a point, added as independent errors), both in the
-            unit of the plot.
-        """
+        """Returns means over the seeds with their error bars."""
         values = self.values(table)
         energy = table.column(self.column.removesuffix("_ratio"))
         over = np.divide(values, energy, where=energy != 0, out=energy * np.nan)
@@ -150,18 +138,7 @@ OF_THEORY: dict[str, Spec] = {
 
 
 def losses_of(tables: Sequence[Table]) -> list[Trace]:
-    """Returns the traces of the losses beside `lost`.
-
-    Parameters
-    ----------
-    tables : Sequence[Table]
-        Tables of sweeps.
-
-    Returns
-    -------
-    list[Trace]
-        Traces of approach, pull-off and cycle for each loss that a table has.
-    """
+    """Returns the traces of the losses beside `lost`."""
     traces = []
     for place, name in losses(column for table in tables for column in table).items():
         traces += [Trace(f"in the {place}, approach", f"{name}.approach", SKY, "", "<", uncertainty=f"{name}.uncertainty.approach"),
@@ -246,18 +223,7 @@ def _theories(sweeps: Sequence[Sweep], trace: Trace) -> list[list[Sweep]]:
 
 
 def parts_of(sweeps: Sequence[Sweep]) -> tuple[list[Sweep], str, str]:
-    """Chooses the sweeps that share a plot.
-
-    Parameters
-    ----------
-    sweeps : Sequence[Sweep]
-        Sweeps.
-
-    Returns
-    -------
-    tuple[list[Sweep], str, str]
-        The sweeps that share a plot, their key along x, and the reason why others are left out.
-    """
+    """Chooses the sweeps that share a plot."""
     shared: list[Sweep] = []
     along, notes = "", []
     for sweep in sweeps:
@@ -289,22 +255,7 @@ def _flat(sweeps: Sequence[Sweep]) -> float:
 
 
 def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
-    """Draws a plot of sweeps.
-
-    Parameters
-    ----------
-    sweeps : Sequence[Sweep]
-        Sweeps that share the plot.
-    name : str
-        One of names(sweeps).
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        False if there is nothing to draw.
-    """
+    """Draws a plot of sweeps."""
     shared, x, _ = parts_of(sweeps)
     if not shared:
         return False
@@ -370,29 +321,7 @@ def plot(sweeps: Sequence[Sweep], name: str, ax: Axes) -> bool:
 
 
 def draw(sweeps: Sequence[Sweep], name: str, ax: Axes | None = None) -> Axes:
-    """Draws a plot of sweeps for a user.
-
-    Parameters
-    ----------
-    sweeps : Sequence[Sweep]
-        Sweeps that share the plot.
-    name : str
-        One of names(sweeps).
-    ax : Axes, optional
-        Axes to draw into; None: new ones.
-
-    Returns
-    -------
-    Axes
-        The axes with the plot.
-
-    Raises
-    ------
-    UnknownName
-        The sweeps have no such plot.
-    InputOutputError
-        There is nothing to draw.
-    """
+    """Draws a plot of sweeps for a user. Raises UnknownName, InputOutputError."""
     if name not in names(sweeps):
         raise UnknownName.among(sweeps[0].name, name, names(sweeps), "there is nothing to draw", "plot")
     return drawn_into(ax, lambda a: plot(sweeps, name, a), sweeps[0].name, name, f"plots: {', '.join(names(sweeps))}")
@@ -404,20 +333,7 @@ def plot_files(simulated: bool) -> list[str]:
 
 
 def write_plots(directory: Path, sweeps: Sequence[Sweep]) -> tuple[list[Path], str]:
-    """Writes gamma.svg, .pdf, .png and the other plots.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory to write to.
-    sweeps : Sequence[Sweep]
-        Sweeps that share the plots.
-
-    Returns
-    -------
-    tuple[list[Path], str]
-        The SVG files, and the reason why a sweep is left out; "" if none is.
-    """
+    """Writes gamma.svg, .pdf, .png and the other plots."""
     note = parts_of(sweeps)[2]
     figures = {name: fig for name in names(sweeps) if (fig := make(partial(plot, sweeps, name))) is not None}
     if figures:

@@ -13,22 +13,7 @@ from .style import BLUE, GREY, RED, curve, finish
 
 
 def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
-    """Draws the force over the displacement, for approach and retraction.
-
-    Parameters
-    ----------
-    found : Tip
-        Contact of a tip.
-    ax : Axes
-        Axes to draw into.
-    over : str
-        "drive": displacement of the drive (the piezo), as measured. "tip": displacement of the tip, with JKR's fit.
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws the force over the displacement, for approach and retraction."""
     place = found.drive if over == "drive" else found.tip
     for words, part, colour in (("approach", ~found.retracting, BLUE), ("retraction", found.retracting, RED)):
         shown = part & (np.abs(place) < _extent(found, place))
@@ -45,20 +30,7 @@ def force_curve(found: Tip, ax: Axes, over: str = "drive") -> bool:
 
 
 def indentation(found: Tip, ax: Axes) -> bool:
-    """Draws the force over the depth of a sample that yields, with what Oliver and Pharr fit to the unloading.
-
-    Parameters
-    ----------
-    found : Tip
-        Contact of a tip.
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        True: there is always something to draw.
-    """
+    """Draws the force over the depth of a sample that yields, with what Oliver and Pharr fit to the unloading."""
     shown = found.tip < _extent(found, found.tip) / 4
     for words, part, colour in (("loading", ~found.retracting, BLUE), ("unloading", found.retracting, RED)):
         curve(ax, -found.tip[part & shown], found.force[part & shown], words, colour=colour, marker="")

@@ -28,22 +28,7 @@ GROUPS = (("cutoff, tail, precision", ("cutoff", "tail", "precision"), BLUE, "o"
 
 
 def error_against_time(cost: Cost, question: str, ax: Axes) -> bool:
-    """Draws the largest error of a question over the processor time of each setting that was run.
-
-    Parameters
-    ----------
-    cost : Cost
-        Rows with their errors.
-    question : str
-        "state" or "path".
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        False if there is nothing to draw.
-    """
+    """Draws the largest error of a question over the processor time of each setting that was run."""
     rows = [r for r in cost.rows if r.compared and r.error[question] > 0 and r.seconds > 0]
     for label, parameters, colour, marker in GROUPS:
         if some := [r for r in rows if r.parameter in parameters]:
@@ -80,20 +65,7 @@ FILES = ["cost.csv", *(file for question in ASKED for file in figures.files_of(f
 
 
 def write(cost: Cost, directory: Path) -> list[str]:
-    """Writes cost.csv and the figures.
-
-    Parameters
-    ----------
-    cost : Cost
-        Rows with their errors.
-    directory : Path
-        Directory to write to.
-
-    Returns
-    -------
-    list[str]
-        The names of the files.
-    """
+    """Writes cost.csv and the figures."""
     written = ["cost.csv"]
     with store.outputs(directory, FILES) as out:
         out.write("cost.csv", csv_of(cost))
@@ -106,20 +78,7 @@ def write(cost: Cost, directory: Path) -> list[str]:
 
 
 def percent(error: float, least: float = 0.0) -> str:
-    """Spells a relative error in percent with three digits.
-
-    Parameters
-    ----------
-    error : float
-        Relative error.
-    least : float
-        Least error that can be told: one site.
-
-    Returns
-    -------
-    str
-        "0.81"; "-" for NaN; "< 0.4" below the least error.
-    """
+    """Spells a relative error in percent with three digits."""
     if math.isnan(error):
         return "-"
     return f"{100 * error:.3g}" if abs(error) >= least else f"< {100 * least:.2g}"

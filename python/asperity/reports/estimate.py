@@ -76,20 +76,7 @@ def _cell(n: Number, part: str, what: str) -> str:
 
 
 def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
-    """Returns the rows of the budget of some numbers: the scene, each part and the sum.
-
-    Parameters
-    ----------
-    estimate : Estimate
-        Estimate.
-    columns : list[Number]
-        Numbers, in the order of the columns.
-
-    Returns
-    -------
-    list[list[str]]
-        Cells: group, part, what was varied, and shift and error of each number.
-    """
+    """Returns the rows of the budget of some numbers: the scene, each part and the sum."""
     rows: list[list[str]] = [["the scene as it is", "", "", *(c for n in columns for c in (f"{n.value:.5g}", ""))], []]
     last = ""
     for group in GROUPS:
@@ -130,20 +117,7 @@ def text_of(estimate: Estimate) -> str:
 
 
 def chart(estimate: Estimate, ax: Axes) -> bool:
-    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error.
-
-    Parameters
-    ----------
-    estimate : Estimate
-        Estimate.
-    ax : Axes
-        Axes to draw into.
-
-    Returns
-    -------
-    bool
-        False if there is nothing to draw.
-    """
+    """Draws the parts of the first number: a bar from zero to each part's shift, with its standard error."""
     n = estimate.first
     factor, unit = n.units[0]
     whole = [] if n.reason else [("all", Found(n.estimate - n.value, n.error))]
@@ -171,20 +145,7 @@ def _set(text: str) -> str:
 
 
 def page_of(estimate: Estimate, out: Path | None = None) -> Page:
-    """Makes the page of an estimate, which its write() writes.
-
-    Parameters
-    ----------
-    estimate : Estimate
-        Estimate.
-    out : Path, optional
-        Directory of the page; None: that of the estimate.
-
-    Returns
-    -------
-    Page
-        The page.
-    """
+    """Makes the page of an estimate, which its write() writes."""
     page = Page(out or estimate.directory, "Asperity estimate", estimate.name, _set(quote(estimate.first)) + ".")
     page.section("numbers", "Numbers")
     for line in lines_of([n for n in estimate.numbers.values() if n is not estimate.first]):

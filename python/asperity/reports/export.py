@@ -90,15 +90,7 @@ def _xyz_columns(atoms: Atoms) -> dict[str, np.ndarray]:
 
 
 def write_xyz(file: IO[str], atoms: Atoms) -> None:
-    """Writes a frame of extended XYZ: the lattice, the meaning of the columns, and further properties.
-
-    Parameters
-    ----------
-    file : IO[str]
-        Open file.
-    atoms : Atoms
-        Frame.
-    """
+    """Writes a frame of extended XYZ: the lattice, the meaning of the columns, and further properties."""
     low, high = atoms.box_z
     columns = _xyz_columns(atoms)
     head = (f'{len(atoms.types)}\nLattice="{atoms.edge:.8g} 0 0 0 {atoms.edge:.8g} 0 0 0 {high - low:.8g}" '
@@ -123,22 +115,7 @@ def _packed(values: np.ndarray, form: str) -> str:
 
 
 def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> str:
-    """Returns VTK's XML image of one layer.
-
-    Parameters
-    ----------
-    spacing : float
-        Distance of the points, Å.
-    origin : float
-        Place of the first point along x and y, Å.
-    maps : dict[str, np.ndarray]
-        Maps [y, x], or [y, x, 3] for vectors, by name.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """Returns VTK's XML image of one layer."""
     arrays = []
     for name, values in maps.items():
         kind, form = ("Float64", "<f8") if values.dtype.kind == "f" else ("UInt8", "u1")
@@ -148,22 +125,7 @@ def image_text(spacing: float, origin: float, maps: dict[str, np.ndarray]) -> st
 
 
 def volume_text(spacing: tuple[float, float, float], origin: tuple[float, float, float], fields: dict[str, np.ndarray]) -> str:
-    """Returns VTK's XML image of a volume in single precision.
-
-    Parameters
-    ----------
-    spacing : tuple[float, float, float]
-        Distance of the points along x, y and z, Å.
-    origin : tuple[float, float, float]
-        Place of the first point, Å.
-    fields : dict[str, np.ndarray]
-        Numbers [z, y, x] by name.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """Returns VTK's XML image of a volume in single precision."""
     nz, ny, nx = next(iter(fields.values())).shape
     return _image((nx, ny, nz), spacing, origin, [("Float32", name, 1, _packed(values, "<f4")) for name, values in fields.items()])
 
@@ -176,20 +138,7 @@ def _image(size: Iterable[int], spacing: Iterable[float], origin: Iterable[float
 
 
 def points_text(points: np.ndarray, vectors: dict[str, np.ndarray]) -> str:
-    """Returns VTK's XML of points, each a vertex.
-
-    Parameters
-    ----------
-    points : np.ndarray
-        Places [point, 3], Å.
-    vectors : dict[str, np.ndarray]
-        Vectors [point, 3] by name.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """Returns VTK's XML of points, each a vertex."""
     n = len(points)
     return _text("points.vtp", n=n, points=_packed(points, "<f4"), vertices=_packed(np.arange(n), "<i8"),
                  ends=_packed(np.arange(1, n + 1), "<i8"),
@@ -350,29 +299,7 @@ GONE = {"lammps": "its atoms are in --to xyz, which OVITO and ASE convert for LA
 
 
 def export(directory: Path, kind: str, out: str | None = None) -> list[Path]:
-    """Exports the maps and the trajectory of a run.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory of the result.
-    kind : str
-        "xyz" (OVITO, ASE), "vtk" (ParaView) or "png".
-    out : str, optional
-        Directory of the files; None: export in the directory of the result.
-
-    Returns
-    -------
-    list[Path]
-        The written files.
-
-    Raises
-    ------
-    InputOutputError
-        The directory has no maps and no trajectory.
-    SceneError
-        The format is unknown.
-    """
+    """Exports the maps and the trajectory of a run. Raises InputOutputError, SceneError."""
     if kind in GONE:
         raise SceneError(f"--to {kind}", "is not written any more", GONE[kind],
                          f"asperity export {directory} --to {'xyz' if kind == 'lammps' else 'vtk'}")

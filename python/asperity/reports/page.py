@@ -41,20 +41,7 @@ def _no_such_form(kind: str) -> str:
 
 
 def page_files(ids: Iterable[str], kinds: Iterable[str] = figures.KINDS) -> list[str]:
-    """Returns the names of the files of a page.
-
-    Parameters
-    ----------
-    ids : Iterable[str]
-        Names of its figures.
-    kinds : Iterable[str]
-        Endings of the files of a figure.
-
-    Returns
-    -------
-    list[str]
-        report.html and the files of the figures.
-    """
+    """Returns the names of the files of a page."""
     return ["report.html", *(f"report/{id}.{kind}" for id in ids for kind in (*kinds, "csv"))]
 
 
@@ -92,64 +79,21 @@ class Page:
         return self.directory / "report.html"
 
     def section(self, id: str, heading: str) -> None:
-        """Begins a section.
-
-        Parameters
-        ----------
-        id : str
-            Name of the section in links.
-        heading : str
-            Heading of the section.
-        """
+        """Begins a section."""
         self.sections.append(Section(id, heading))
 
     def add(self, kind: str, content: Any) -> None:
-        """Adds content to the last section, unless it is empty.
-
-        Parameters
-        ----------
-        kind : str
-            Form in the template: "text", "table", ...
-        content : Any
-            Content of this kind.
-        """
+        """Adds content to the last section, unless it is empty."""
         if content:
             self.sections[-1].parts.append((kind, content))
 
     def table(self, heads: list[str], rows: list[list[str]], links: list[str] | None = None) -> None:
-        """Adds a table to the last section.
-
-        Parameters
-        ----------
-        heads : list[str]
-            Heads of the columns.
-        rows : list[list[str]]
-            Cells of each row.
-        links : list[str], optional
-            Target of the first cell of each row.
-        """
+        """Adds a table to the last section."""
         wide = {k for row in rows for k, cell in enumerate(row) if k and heads and len(cell) > WIDE}
         self.add("table", rows and {"heads": heads, "rows": list(zip(rows, links or [""] * len(rows))), "wide": wide})
 
     def figure(self, id: str, heading: str, caption: str, draw: Callable[[Axes], bool]) -> bool:
-        """Adds a figure to the last section, with PNG, PDF, SVG and CSV.
-
-        Parameters
-        ----------
-        id : str
-            Name of the figure in links and files.
-        heading : str
-            Heading.
-        caption : str
-            Text below it.
-        draw : Callable[[Axes], bool]
-            Function that draws into axes; returns False if there is nothing to draw.
-
-        Returns
-        -------
-        bool
-            False if there was nothing to draw.
-        """
+        """Adds a figure to the last section, with PNG, PDF, SVG and CSV."""
         try:
             fig = figures.make(draw)
         except Error as error:  # data that a damaged file lacks

@@ -231,21 +231,7 @@ def _times(page: Page, run: Result) -> None:
 
 
 def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> None:
-    """Adds the scene, the origin of the numbers, and how to cite them.
-
-    Parameters
-    ----------
-    page : Page
-        Page.
-    result : Values
-        Contents of result.json.
-    heading : str
-        Heading of the section with the scene.
-    keys : Mapping
-        Keys of the scene.
-    note : str
-        Sentence on the scene; "": none.
-    """
+    """Adds the scene, the origin of the numbers, and how to cite them."""
     if keys:
         page.section("scene", heading)
         page.add("paragraph", note)
@@ -259,42 +245,14 @@ def end(page: Page, result: Values, heading: str, keys: Mapping, note: str) -> N
 
 
 def run_page_files(states: Iterable[str], kinds: tuple[str, ...] = KINDS) -> list[str]:
-    """Returns the names of all files that write_run_page() may write.
-
-    Parameters
-    ----------
-    states : Iterable[str]
-        Names of the states of the run.
-    kinds : tuple[str, ...]
-        Endings of the files of a figure.
-
-    Returns
-    -------
-    list[str]
-        The names.
-    """
+    """Returns the names of all files that write_run_page() may write."""
     of_state = [*(one[0] for one in (*MAPS, *DISTRIBUTIONS)), *report_stress.FIGURES]
     return page_files([*(figure[0] for _, figures in FIGURES.values() for figure in figures),
                        *(f"{id}-{file_name(state)}" for state in states for id in of_state)], kinds)
 
 
 def write_run_page(run: Result, kinds: tuple[str, ...] = KINDS, out: Path | None = None) -> Page:
-    """Writes DIR/report.html of a run.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    kinds : tuple[str, ...]
-        Endings of the files of a figure.
-    out : Path, optional
-        Directory of the page; None: that of the run.
-
-    Returns
-    -------
-    Page
-        The page.
-    """
+    """Writes DIR/report.html of a run."""
     combined.complete(run)
     page = Page(out or run.directory, "Asperity report", run.title, sentences.lead(run), kinds=kinds)
     for part in (_top, partial(_figures, "path"), _segments, _states, _stresses, partial(_figures, "surface"),

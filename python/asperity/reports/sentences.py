@@ -36,74 +36,22 @@ def percent(fraction: float) -> str:
 
 
 def energy(gamma: float, more: str = "") -> str:
-    """Spells an energy over an area: "69.91 meV/Å² (1120 mJ/m²)".
-
-    Parameters
-    ----------
-    gamma : float
-        Energy, meV/Å².
-    more : str
-        Text for the brackets.
-
-    Returns
-    -------
-    str
-        The text.
-    """
+    """Spells an energy over an area: "69.91 meV/Å² (1120 mJ/m²)"."""
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
 
 
 def whole(run: Result, gamma: float) -> str:
-    """Spells the energy of a whole contact: "1.29 aJ".
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    gamma : float
-        Energy over the nominal area, meV/Å².
-
-    Returns
-    -------
-    str
-        The text.
-    """
+    """Spells the energy of a whole contact: "1.29 aJ"."""
     return minus(f"{gamma * run.edge**2 / 1e3 / ATTOJOULE:.4g} aJ")
 
 
 def general(value: Any, digits: int = 4) -> str:
-    """Spells a number of a scene.
-
-    Parameters
-    ----------
-    value : Any
-        Value.
-    digits : int
-        Digits.
-
-    Returns
-    -------
-    str
-        The text; "?" for a value that is no number.
-    """
+    """Spells a number of a scene."""
     return "?" if (number := finite(value)) is None else f"{number:.{digits}g}"
 
 
 def state_in_words(run: Result, name: str) -> str:
-    """Returns when a state was saved, in words.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    name : str
-        Name of the state.
-
-    Returns
-    -------
-    str
-        "at zero load", "1 ps after zero load", ...
-    """
+    """Returns when a state was saved, in words."""
     if name == "relaxed":
         return run.load_words[0]
     if name == "pull-off":
@@ -171,38 +119,12 @@ def _stress(gigapascal: float) -> tuple[str, str]:
 
 
 def smooth_pull_off(run: Result, gamma: float) -> float:
-    """Returns the force that stands for a work of adhesion of a sphere in result.json (JKR: 3πγR/2).
-
-    Parameters
-    ----------
-    run : Result
-        Result of a sphere.
-    gamma : float
-        Work of adhesion, meV/Å².
-
-    Returns
-    -------
-    float
-        The force, eV/Å.
-    """
+    """Returns the force that stands for a work of adhesion of a sphere in result.json (JKR: 3πγR/2)."""
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
 
 
 def reference(run: Result, key: str) -> float:
-    """Returns the Δγ that an energy is compared with. Persson's theory may have been given another than the run's.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    key : str
-        Path of the energy in result.json.
-
-    Returns
-    -------
-    float
-        Δγ, meV/Å²; 0 if there is none.
-    """
+    """Returns the Δγ that an energy is compared with. Persson's theory may have been given another than the run's."""
     own = key.startswith("theory.") and not key.startswith(("theory.renormalised.", "theory.sphere."))
     return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
@@ -418,20 +340,7 @@ def left_out(scene: Values) -> list[str]:
 
 
 def effects(run: Result, on: bool) -> list[str]:
-    """Returns the effects that were simulated or were not, each with the key of the scene that decides it.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    on : bool
-        True: those that were simulated.
-
-    Returns
-    -------
-    list[str]
-        A sentence for each.
-    """
+    """Returns the effects that were simulated or were not, each with the key of the scene that decides it."""
     found = run.part("run.effects")
     text = [f"{name}: {found.text(name + '.why')}" for name in found if found.find(name + ".on") is on]
     scene = run.part("scene")

@@ -223,22 +223,7 @@ def _table(page: Page, sweep: Sweep, points: _Points, several: bool) -> None:
 
 
 def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path | None = None) -> Page:
-    """Writes DIR/report.html of a sweep, and the pages of its points.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory of the sweep.
-    kinds : tuple[str, ...]
-        Endings of the files of a figure.
-    out : Path, optional
-        Directory of the page; None: that of the sweep.
-
-    Returns
-    -------
-    Page
-        The page.
-    """
+    """Writes DIR/report.html of a sweep, and the pages of its points."""
     sweeps, out = load_sweeps(directory), out or directory
     _require_free(out, sweeps, kinds)
     page = Page(out, "Asperity report · sweep", ", ".join(s.name for s in sweeps), _lead(sweeps),
@@ -274,29 +259,7 @@ def write_sweep_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: Path 
 
 
 def write_page(directory: Path, kinds: tuple[str, ...] = KINDS, out: str | None = None) -> Page:
-    """Writes DIR/report.html of a directory with an estimate, a sweep, sweeps of several scenes, or a run.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory of the result.
-    kinds : tuple[str, ...]
-        Endings of the files of a figure.
-    out : str, optional
-        Directory of the page; None: that of the result.
-
-    Returns
-    -------
-    Page
-        The page.
-
-    Raises
-    ------
-    InputOutputError
-        The directory has no result.
-    SceneError
-        The directory has several results, or one of which there is no page.
-    """
+    """Writes DIR/report.html of a directory with an estimate, a sweep, sweeps of several scenes, or a run. Raises InputOutputError, SceneError."""
     place = None if out is None else store.chosen(out, "")
     own = kinds_in(directory)
     below = results_below(directory) if directory.is_dir() and not own else {}

@@ -28,25 +28,7 @@ def _package(name: str, call: str) -> Any:
 
 
 def data_frame(columns: Mapping[str, Any], units: Mapping[str, str]) -> Any:
-    """Makes a pandas DataFrame; its attrs["units"] has the unit of each column.
-
-    Parameters
-    ----------
-    columns : Mapping
-        Columns of equal length.
-    units : Mapping
-        Unit of each column.
-
-    Returns
-    -------
-    pandas.DataFrame
-        The table.
-
-    Raises
-    ------
-    SceneError
-        pandas is not installed.
-    """
+    """Makes a pandas DataFrame; its attrs["units"] has the unit of each column. Raises SceneError."""
     found = _package("pandas", "frame()").DataFrame(dict(columns))
     found.attrs["units"] = dict(units)
     return found
@@ -54,29 +36,7 @@ def data_frame(columns: Mapping[str, Any], units: Mapping[str, str]) -> Any:
 
 def data_set(arrays: Mapping[str, tuple[Sequence[str], Any]], units: Mapping[str, str], edges: Mapping[str, float] | None = None,
              coordinates: Mapping[str, Any] | None = None) -> Any:
-    """Makes an xarray Dataset; attrs["units"] of each array has its unit.
-
-    Parameters
-    ----------
-    arrays : Mapping
-        Names of the dimensions and values of each array.
-    units : Mapping
-        Unit of each array.
-    edges : Mapping, optional
-        Width of the box along a dimension, Å, whose coordinates are the middles of pixels; 0: not known.
-    coordinates : Mapping, optional
-        Further coordinates: (dimension, values, attributes).
-
-    Returns
-    -------
-    xarray.Dataset
-        The arrays.
-
-    Raises
-    ------
-    SceneError
-        xarray is not installed.
-    """
+    """Makes an xarray Dataset; attrs["units"] of each array has its unit. Raises SceneError."""
     xarray = _package("xarray", "to_xarray()")
     places = dict(coordinates or {})
     for name, edge in (edges or {}).items():

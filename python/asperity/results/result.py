@@ -37,21 +37,7 @@ LARGEST_ARRAY = 2**28
 
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
-    """Returns the load of a scene's state and the load of its theory as text. They differ after an approach, whose state is without
-    load.
-
-    Parameters
-    ----------
-    scene : Any
-        Keys of the scene.
-    swept : bool
-        True: drive.load is an axis of a sweep.
-
-    Returns
-    -------
-    tuple[str, str]
-        "at zero load" or "under a load of 5 MPa", and "" or " under a load of 5 MPa".
-    """
+    """Returns the load of a scene's state and the load of its theory as text. They differ after an approach, whose state is without load."""
     keys = Values({"scene": scene}).part("scene")
     load = keys.number("drive.load", 0.0)
     under = "under the load" if swept else f"under a load of {load:.4g} MPa".replace("-", "−")
@@ -80,20 +66,7 @@ def read_json(path: Path) -> Values:
 
 
 def expect(directory: Path, *files: str) -> None:
-    """Checks that a directory contains one of several files.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory.
-    *files : str
-        Names of the files.
-
-    Raises
-    ------
-    InputOutputError
-        The directory contains none of the files.
-    """
+    """Checks that a directory contains one of several files. Raises InputOutputError."""
     example = "name a directory that a run has written, for example results/first-contact"
     if not directory.is_dir():
         raise InputOutputError(str(directory), "is no result directory",
@@ -147,24 +120,7 @@ class RunFile:
         self.path, self.unread = path, unread
 
     def lacks(self, where: str, name: object, there: Iterable[str], what: str) -> UnknownName:
-        """Returns the error for a part that the file lacks.
-
-        Parameters
-        ----------
-        where : str
-            Group.
-        name : object
-            Name of the part.
-        there : Iterable[str]
-            Names of the existing parts.
-        what : str
-            Kind of the part: "array" or "state".
-
-        Returns
-        -------
-        UnknownName
-            The error, to be raised.
-        """
+        """Returns the error for a part that the file lacks."""
         return UnknownName.among(where, name, there, self.unread or "it is empty", what)
 
     @functools.cached_property
@@ -199,27 +155,7 @@ class RunFile:
             return list(found) if isinstance(found, h5py.Group) else []
 
     def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
-        """Reads a data set of numbers.
-
-        Parameters
-        ----------
-        name : str
-            Path in the file.
-        dimensions : int
-            Number of dimensions that the data set must have.
-        frame : int, optional
-            Index of the first dimension to read; None: all.
-
-        Returns
-        -------
-        np.ndarray
-            The numbers in the unit of the data set (Group.unit).
-
-        Raises
-        ------
-        InputOutputError
-            The file cannot be read, has no such data set, or a data set of another kind (ValueError within).
-        """
+        """Reads a data set of numbers. Raises ValueError, InputOutputError."""
         with self._opened() as file:
             found = file[name]
             if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
@@ -232,20 +168,7 @@ class RunFile:
             return np.asarray(found[()] if frame is None else found[frame])
 
     def attribute(self, name: str, key: str) -> Any:
-        """Reads an attribute of a data set or group.
-
-        Parameters
-        ----------
-        name : str
-            Path in the file.
-        key : str
-            Name of the attribute.
-
-        Returns
-        -------
-        Any
-            The value; None if there is no such attribute.
-        """
+        """Reads an attribute of a data set or group."""
         with self._opened() as file:
             found = file[name].attrs.get(key)
             return found.decode() if isinstance(found, bytes) else found

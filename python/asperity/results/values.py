@@ -18,20 +18,7 @@ def finite(value: Any, otherwise: float) -> float: ...
 @overload
 def finite(value: Any, otherwise: None = None) -> float | None: ...
 def finite(value: Any, otherwise: float | None = None) -> float | None:
-    """Returns a value of a JSON file if it is a finite number.
-
-    Parameters
-    ----------
-    value : Any
-        Value.
-    otherwise : float, optional
-        Answer for any other value.
-
-    Returns
-    -------
-    float | None
-        The number, or `otherwise`.
-    """
+    """Returns a value of a JSON file if it is a finite number."""
     with contextlib.suppress(OverflowError):
         if isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value):
             return float(value)

@@ -31,20 +31,8 @@ def _taken(place: Path) -> int:
 
 @contextlib.contextmanager
 def in_use(place: Path) -> Iterator[None]:
-    """Makes a directory, and keeps other commands out of it; the directory is removed again if nothing was written into it.
-
-    Parameters
-    ----------
-    place : Path
-        Directory.
-
-    Raises
-    ------
-    InputOutputError
-        Another process has the directory in use, or it cannot be made.
-    SceneError
-        A file has the name of the lock and is none.
-    """
+    """Makes a directory, and keeps other commands out of it; the directory is removed again if nothing was written into it. Raises InputOutputError,
+    SceneError."""
     made = [path for path in (place, *place.parents) if not path.exists()]
     store.directory(place)
     handle = _taken(place)

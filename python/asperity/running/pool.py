@@ -131,67 +131,21 @@ def look_at(job: Job) -> Outcome:
 
 
 def in_the_way_of_run(directory: Path, inputs: Iterable[str] = (), damaged: bool = False) -> list[dict[str, str]]:
-    """Returns the files that prevent a run in a directory, because it would replace them.
-
-    Parameters
-    ----------
-    directory : Path
-        Directory of the run.
-    inputs : Iterable[str]
-        Files that the run reads.
-    damaged : bool
-        True: the existing result cannot be read and will be renamed.
-
-    Returns
-    -------
-    list[dict[str, str]]
-        The files, as problems of SceneError.of().
-    """
+    """Returns the files that prevent a run in a directory, because it would replace them."""
     aside = (RESULT, "run.h5") if damaged and store.is_named(directory, RESULT) else ()
     names = [name for name in (*store.RUN_FILES, store.LOCK) if name not in aside]
     return store.in_the_way(directory, names, renew=False, inputs=inputs) + store.in_the_way(directory, [LOG], inputs=inputs)
 
 
 def require_free_runs(place: Path, names: re.Pattern[str]) -> None:
-    """Checks that the runs of a study would replace no file. Called before the first file is written.
-
-    Parameters
-    ----------
-    place : Path
-        Directory of the study.
-    names : re.Pattern
-        Names of the directories of its runs.
-
-    Raises
-    ------
-    SceneError
-        A directory without a result contains files that a run would replace.
-    """
+    """Checks that the runs of a study would replace no file. Called before the first file is written. Raises SceneError."""
     folders = [one for one in sorted(place.glob("*/")) if names.fullmatch(one.name) and not (one / RESULT).exists()]
     if problems := [problem for one in folders for problem in in_the_way_of_run(one)]:
         raise SceneError.of(problems)
 
 
 def look_at_all(jobs: list[Job], say: Callable[[str], None]) -> list[Outcome]:
-    """Returns the outcome of each job; reports a result that cannot be read.
-
-    Parameters
-    ----------
-    jobs : list[Job]
-        Runs.
-    say : Callable[[str], None]
-        Called with each sentence for the user.
-
-    Returns
-    -------
-    list[Outcome]
-        The outcomes, in the order of the jobs.
-
-    Raises
-    ------
-    SceneError
-        A waiting job would replace files.
-    """
+    """Returns the outcome of each job; reports a result that cannot be read. Raises SceneError."""
     outcomes = [look_at(job) for job in jobs]
     problems = []
     for job, outcome in zip(jobs, outcomes):
@@ -226,28 +180,7 @@ def _told(going: str) -> str:
 
 
 def run_task(words: list[str], folder: str, directory: str, threads: str, overrule: bool, going: str) -> Ended:
-    """Runs a job to its end, or until `going` tells it to stop. All arguments can be pickled.
-
-    Parameters
-    ----------
-    words : list[str]
-        Command.
-    folder : str
-        Working directory of the command.
-    directory : str
-        Directory of the result.
-    threads : str
-        Threads of the run if the worker's OMP_NUM_THREADS is not set or is overruled; "": not set.
-    overrule : bool
-        True: ignores the worker's OMP_NUM_THREADS.
-    going : str
-        File whose deletion stops the run; the run is killed if the file contains "kill".
-
-    Returns
-    -------
-    Ended
-        Exit code, time and reason.
-    """
+    """Runs a job to its end, or until `going` tells it to stop. All arguments can be pickled."""
     place, start = Path(directory), time.monotonic()
     # A run whose worker was killed writes its checkpoint meanwhile.
     while not (told := _told(going)) and time.monotonic() - start < 60 and lock.is_used(place):

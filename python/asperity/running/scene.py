@@ -79,39 +79,13 @@ def assignments(overrides: Overrides | None) -> list[str]:
 
 
 def file_beside(name: str, scene: str) -> str:
-    """Returns the path of a file that a scene names: beside the scene, or else in the working directory.
-
-    Parameters
-    ----------
-    name : str
-        Name of the file in the scene.
-    scene : str
-        Scene file.
-
-    Returns
-    -------
-    str
-        The path.
-    """
+    """Returns the path of a file that a scene names: beside the scene, or else in the working directory."""
     beside = Path(scene).parent / name
     return str(beside if Path(str(beside).partition(":/")[0]).exists() else name)
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Returns the files that a command reads for a scene: its file, maps or atoms, table, and map of the work of adhesion.
-
-    Parameters
-    ----------
-    file : str
-        Scene file.
-    scene : Mapping[str, Any]
-        Keys of the scene.
-
-    Returns
-    -------
-    list[str]
-        The paths.
-    """
+    """Returns the files that a command reads for a scene: its file, maps or atoms, table, and map of the work of adhesion."""
     named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("surface", "counter"), ("interface", "table"))
              if scene.get(section, {}).get(key) != "none"]
     field = scene.get("interface", {}).get("adhesion")
@@ -131,22 +105,7 @@ def _caller() -> str:
 
 @contextlib.contextmanager
 def scene_file(scene: SceneLike, folder: str = "", overrides: Overrides | None = None) -> Iterator[str]:
-    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name".
-
-    Parameters
-    ----------
-    scene : SceneLike
-        Scene file or dictionary.
-    folder : str
-        Folder of the temporary file; "": that of the system.
-    overrides : Overrides, optional
-        Overrides that a script gave; errors about them name the script.
-
-    Yields
-    ------
-    str
-        The path of the file.
-    """
+    """Yields the file of a scene; for a dictionary a temporary one, named by its entry "name"."""
     try:
         with _file_of(scene, folder) as file:
             yield file

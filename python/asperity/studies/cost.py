@@ -27,38 +27,12 @@ TRIES = 4  # combinations that are run for a target
 
 
 def errors_of(measured: np.ndarray, reference: np.ndarray) -> np.ndarray:
-    """Computes signed relative errors.
-
-    Parameters
-    ----------
-    measured, reference : np.ndarray
-        Numbers of numbers_of().
-
-    Returns
-    -------
-    np.ndarray
-        The errors; NaN where the reference is zero or a number is missing.
-    """
+    """Computes signed relative errors."""
     return (measured - reference) / np.where(reference == 0, NAN, np.abs(reference))
 
 
 def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, grains: np.ndarray | float = 0.0) -> float:
-    """Returns the largest absolute relative error of the quantities of the reference, each at least its resolution.
-
-    Parameters
-    ----------
-    measured, reference : np.ndarray
-        Numbers of numbers_of().
-    question : str
-        "state" or "path".
-    grains : np.ndarray | float
-        Resolutions of the numbers, from grains_of().
-
-    Returns
-    -------
-    float
-        The error; NaN if the measured run lacks a quantity, or the reference has none.
-    """
+    """Returns the largest absolute relative error of the quantities of the reference, each at least its resolution."""
     if question == "path" and np.isnan(reference[ASKED["state"]:]).all():
         return NAN  # a reference that followed no path says nothing of one
     asked = slice(ASKED[question])
@@ -68,20 +42,7 @@ def largest_error(measured: np.ndarray, reference: np.ndarray, question: str, gr
 
 
 def pareto_front(seconds: Sequence[float], errors: Sequence[float]) -> np.ndarray:
-    """Finds the points for which no other point has both a smaller run time and a smaller error.
-
-    Parameters
-    ----------
-    seconds : Sequence[float]
-        Times, s.
-    errors : Sequence[float]
-        Relative errors.
-
-    Returns
-    -------
-    np.ndarray
-        True for each point on the front; NaN is never on it.
-    """
+    """Finds the points for which no other point has both a smaller run time and a smaller error."""
     s, e = np.asarray(seconds, float), np.asarray(errors, float)
     beaten = (s <= s[:, None]) & (e <= e[:, None]) & ((s < s[:, None]) | (e < e[:, None]))
     return ~(np.isnan(s) | np.isnan(e) | beaten.any(axis=1))
@@ -131,19 +92,7 @@ class Cost(Named):
                                            default=None) for t in TARGETS]
 
     def combinations(self, base: Base) -> list[tuple[float, float, Row]]:
-        """Returns combinations of one value of each part, the cheapest first.
-
-        Parameters
-        ----------
-        base : Base
-            Starting point of the combinations.
-
-        Returns
-        -------
-        list[tuple[float, float, Row]]
-            For each its time relative to the reference runs, the sum of its relative errors (each at least the resolution), and the
-            row to run.
-        """
+        """Returns combinations of one value of each part, the cheapest first."""
         least = largest_error(self.rows[0].numbers, self.rows[0].numbers, base.question, self.rows[0].grains)
         parts: dict[str, list[tuple[float, float, Row]]] = {p.part: [] for p in self.case.parameters if p.part in base.parts}
         for parameter in (p for p in self.case.parameters if p.part in parts):
@@ -172,21 +121,8 @@ class Cost(Named):
         return complete
 
     def choose(self, targets: tuple[float, ...], run: Callable[[list[Row]], bool]) -> bool:
-        """Runs the cheapest combinations of each base that may meet each target, simultaneously, and then further ones for the
-        targets that were missed.
-
-        Parameters
-        ----------
-        targets : tuple[float, ...]
-            Relative errors.
-        run : Callable[[list[Row]], bool]
-            Runs rows; returns False if stopped.
-
-        Returns
-        -------
-        bool
-            False if stopped before the end.
-        """
+        """Runs the cheapest combinations of each base that may meet each target, simultaneously, and then further ones for the targets that were
+        missed."""
         varied = {parameter.part for parameter in self.case.parameters}
         bases = [base for base in self.case.bases if varied.intersection(base.parts)]  # --parameters may leave out all of one
         searches = [(base, target, self.combinations(base)) for base in bases for target in targets]

@@ -97,27 +97,7 @@ def _chosen(parameters: list[Parameter], names: list[str]) -> list[Parameter]:
 
 
 def cost_case(scene: Variations, names: list[str], same_experiment: bool) -> CostCase:
-    """Makes the case of a scene.
-
-    Parameters
-    ----------
-    scene : Variations
-        Settings of the scene that can be varied.
-    names : list[str]
-        Parameters to vary; none: all that the scene has.
-    same_experiment : bool
-        True: only numerical parameters are varied, and the reference is the scene with these at their best.
-
-    Returns
-    -------
-    CostCase
-        The reference, the parameters and the bases of combinations.
-
-    Raises
-    ------
-    SceneError
-        The scene has no parameter of a name, or is at finite strain without same_experiment.
-    """
+    """Makes the case of a scene. Raises SceneError."""
     if not same_experiment:
         scene.refuse_finite_strain("measure the same scene at small strain, or with --target")
     own, dynamic, moves, length = scene.own, scene.dynamic, scene.moves, scene.length

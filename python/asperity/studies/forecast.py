@@ -73,20 +73,7 @@ class Forecast:
 
 
 def seconds_of(scene: str, overrides: list[str]) -> float:
-    """Returns the time of a run by `asperity plan`.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    overrides : list[str]
-        Overrides.
-
-    Returns
-    -------
-    float
-        Time, s; NaN if unknown.
-    """
+    """Returns the time of a run by `asperity plan`."""
     try:
         return program.plan(scene, overrides)["seconds"]["altogether"]
     except Error:

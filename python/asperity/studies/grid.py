@@ -114,25 +114,7 @@ def _first_list(values: str) -> str:
 
 
 def axes_of(assignments: list[str], of_scene: list[dict[str, str]]) -> tuple[list[Axis], list[str]]:
-    """Separates the keys that are swept from those that are fixed.
-
-    Parameters
-    ----------
-    assignments : list[str]
-        Overrides of the command line, each "key=values".
-    of_scene : list[dict[str, str]]
-        Axes of the scene's [sweep], each with its key, values and where they stand.
-
-    Returns
-    -------
-    tuple[list[Axis], list[str]]
-        The axes, and the overrides that are fixed.
-
-    Raises
-    ------
-    SceneError
-        Values cannot be read, or a key is swept twice.
-    """
+    """Separates the keys that are swept from those that are fixed. Raises SceneError."""
     schema = program.schema()
     found: dict[str, Axis] = {}
     fixed: list[str] = []

@@ -56,31 +56,7 @@ LOSSLESS = 0.02
 
 @dataclass
 class Prony:
-    """Branches of a viscoelastic block that were fitted to a master curve.
-
-    Attributes
-    ----------
-    young : float
-        Relaxed Young's modulus, block.young, GPa.
-    young_range : (float, float)
-        Relaxed moduli with which branches describe the curve as well, GPa.
-    stated : bool
-        True: young is what was stated (relaxed=...), and no result of the fit.
-    prony : list of (float, float)
-        Branches, block.prony: modulus over the relaxed one, and relaxation time (ps), the shortest first.
-    poisson : float or None
-        Poisson's ratio with which shear moduli were converted.
-    rms_error, storage_error, loss_error : float
-        rms errors of the fit over the moduli, of both, the storage and the loss modulus.
-    largest_error, at : float
-        Largest error, and its angular frequency (rad/s).
-    source : str
-        Name of the file of the master curve.
-    frequency, storage, loss : array
-        The master curve: angular frequencies (rad/s), Young's moduli (GPa).
-    notes : list of str
-        Notes on the curve.
-    """
+    """Branches of a viscoelastic block that were fitted to a master curve."""
 
     if TYPE_CHECKING:
         def plot(self, ax: Axes | None = None) -> Axes: ...
@@ -102,18 +78,7 @@ class Prony:
     notes: list[str] = field(default_factory=list)
 
     def modulus(self, frequency: float | np.ndarray) -> np.ndarray:
-        """Returns the fitted modulus.
-
-        Parameters
-        ----------
-        frequency : float or array
-            Angular frequencies, rad/s.
-
-        Returns
-        -------
-        array
-            Complex Young's moduli, GPa.
-        """
+        """Returns the fitted modulus."""
         from ..theories import viscoelastic
 
         return self.young * viscoelastic.modulus(self.prony, 1e-12 * np.asarray(frequency, float))
@@ -285,31 +250,7 @@ def _refuse_range(curve: MasterCurve, stiff: float, low: float, high: float) -> 
 
 
 def fit(curve: MasterCurve, branches: int | None = None, poisson: float | None = None, relaxed: str = "") -> Prony:
-    """Computes branches that fit a master curve.
-
-    Parameters
-    ----------
-    curve : MasterCurve
-        The curve.
-    branches : int, optional
-        Number of branches at most; None: one for each decade of frequency.
-    poisson : float, optional
-        Poisson's ratio, with which shear moduli become Young's.
-    relaxed : str
-        Relaxed Young's modulus with its unit; "": that of the fit.
-
-    Returns
-    -------
-    Prony
-        The branches.
-
-    Raises
-    ------
-    InputOutputError
-        No branches describe the curve, or it does not determine the relaxed modulus.
-    SceneError
-        A number of branches or Poisson's ratio is missing or wrong.
-    """
+    """Computes branches that fit a master curve. Raises InputOutputError, SceneError."""
     if curve.kind == "G" and poisson is None:
         raise SceneError("--poisson", "is missing", f"the moduli of {curve.source} are of shear, and block.young is 2 (1 + ν) times as "
                          "large", "say --poisson 0.49")

@@ -45,20 +45,7 @@ SLIDING = (Quantity("slide.friction_stress", "τ", "friction stress of the last 
 
 
 def quantities_of(result: Values, curved: bool) -> tuple[Quantity, ...]:
-    """Returns the quantities that are stated.
-
-    Parameters
-    ----------
-    result : Values
-        Contents of result.json.
-    curved : bool
-        The substrate is a sphere.
-
-    Returns
-    -------
-    tuple[Quantity, ...]
-        The quantities; each loss beside `lost` is one.
-    """
+    """Returns the quantities that are stated."""
     flat = tuple(AREA if q.path == "contact_fraction" and AREA.path in result else q for q in FLAT)
     yielding = YIELDING if result.part("yielding") else ()
     return (CURVED if curved else flat + tuple(
@@ -72,20 +59,7 @@ def slide_of(result: Values) -> Values | None:
 
 
 def number_of(result: Values, path: str) -> float:
-    """Returns a number of a result.
-
-    Parameters
-    ----------
-    result : Values
-        Contents of result.json.
-    path : str
-        Path of a Quantity; "pull_off_stress" is in MPa.
-
-    Returns
-    -------
-    float
-        The number in the unit of its path; NaN if the result has none.
-    """
+    """Returns a number of a result."""
     if path == "binding_energy_ratio":
         return result.number("binding_energy", NAN) / (result.number("delta_gamma") or NAN)
     if path == "pull_off_stress":
@@ -98,20 +72,7 @@ def number_of(result: Values, path: str) -> float:
 
 
 def convergence_of(result: Values, path: str) -> float:
-    """Returns the bound that a result states for the error of its solver.
-
-    Parameters
-    ----------
-    result : Values
-        Contents of result.json.
-    path : str
-        Path of the number there, or "binding_energy_ratio".
-
-    Returns
-    -------
-    float
-        The bound in the unit of the number; NaN if the result states none.
-    """
+    """Returns the bound that a result states for the error of its solver."""
     parent, _, leaf = path.rpartition(".")
     if path.startswith("slide.") and (slide := slide_of(result)):
         if leaf == "steady_contact_area":
@@ -127,22 +88,7 @@ def convergence_of(result: Values, path: str) -> float:
 
 
 def grain_of(result: Values, path: str, value: float) -> float:
-    """Returns the least error of a number: one site of an area, 1e-6 Δγ of an energy per area.
-
-    Parameters
-    ----------
-    result : Values
-        Contents of result.json.
-    path : str
-        Path of the number there, or "binding_energy_ratio".
-    value : float
-        The number, in its unit.
-
-    Returns
-    -------
-    float
-        The least error in the unit of the number; 0 if it has none.
-    """
+    """Returns the least error of a number: one site of an area, 1e-6 Δγ of an energy per area."""
     flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
     sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
     if path in ("contact_fraction", AREA.path, "slide.steady_contact_area", "yielding.largest_fraction"):

@@ -138,40 +138,12 @@ class Number(Named):
 
 
 def cut(value: float, error: float, least: float, most: float) -> tuple[float, float]:
-    """Cuts the error of a value at the possible range.
-
-    Parameters
-    ----------
-    value : float
-        Number.
-    error : float
-        Standard error of the number.
-    least, most : float
-        Possible range.
-
-    Returns
-    -------
-    tuple[float, float]
-        The errors upwards and downwards, all in one unit.
-    """
+    """Cuts the error of a value at the possible range."""
     return min(error, most - value), min(error, value - least)
 
 
 def rounded(value: float, error: float) -> tuple[str, str]:
-    """Rounds a number and its error to two digits of the error.
-
-    Parameters
-    ----------
-    value : float
-        Number.
-    error : float
-        Error of the number, in its unit.
-
-    Returns
-    -------
-    tuple[str, str]
-        Number and error as text.
-    """
+    """Rounds a number and its error to two digits of the error."""
     if not error > 0.0:
         return f"{value:.6g}", "0"
     digits = max(0, 1 - math.floor(math.log10(error)))
@@ -184,20 +156,7 @@ def rounded(value: float, error: float) -> tuple[str, str]:
 
 
 def with_error(value: float, up: float, down: float) -> str:
-    """Spells a number with its error: "0.45 ± 0.03"; with errors of two sizes "0.985 (+0.015, -0.031)".
-
-    Parameters
-    ----------
-    value : float
-        Number.
-    up, down : float
-        Errors upwards and downwards, in the same unit.
-
-    Returns
-    -------
-    str
-        Text with two digits of the larger error.
-    """
+    """Spells a number with its error: "0.45 ± 0.03"; with errors of two sizes "0.985 (+0.015, -0.031)"."""
     number, larger = rounded(value, max(up, down))
     if math.isclose(up, down, rel_tol=1e-9):
         return f"{number} ± {larger}"
@@ -207,20 +166,7 @@ def with_error(value: float, up: float, down: float) -> str:
 
 
 def upwards(factor: float, bound: float) -> str:
-    """Rounds a bound to two digits, away from zero.
-
-    Parameters
-    ----------
-    factor : float
-        Factor that converts the bound to the unit of the text.
-    bound : float
-        Bound in the unit of the number.
-
-    Returns
-    -------
-    str
-        The rounded bound as text.
-    """
+    """Rounds a bound to two digits, away from zero."""
     size = factor * abs(bound)
     step = 10.0 ** (math.floor(math.log10(size)) - 1)
     return ("-" if bound < 0.0 else "") + f"{float(f'{step * math.ceil(size / step * (1 - 1e-12)):.2g}'):g}"

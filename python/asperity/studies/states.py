@@ -78,20 +78,7 @@ class Search:
         return lost
 
     def free(self, found: str, start: State | None = None) -> float | None:
-        """Relaxes the sites under the load, and restores the sites afterwards.
-
-        Parameters
-        ----------
-        found : str
-            Description of how the state was found.
-        start : State, optional
-            Start of the relaxation; None: the present place of the sites.
-
-        Returns
-        -------
-        float | None
-            The binding energy of the state, meV/Å²; None if no state is found.
-        """
+        """Relaxes the sites under the load, and restores the sites afterwards."""
         here = self.statics.copy()
         if start:
             self.put(start)

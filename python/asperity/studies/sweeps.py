@@ -418,33 +418,7 @@ def _directory(asked: str | None, name: str, theory_only: bool, say: Callable[[s
 
 def forecast(scenes: list[str], sets: list[str], out: str | None, theory_only: bool, options: PoolOptions,
              say: Callable[[str], None]) -> Forecast:
-    """Returns the runs of sweeps that are left, and their time.
-
-    Parameters
-    ----------
-    scenes : list[str]
-        Scene files.
-    sets : list[str]
-        Overrides and axes, each "key=values".
-    out : str | None
-        Result directory; None: the default one.
-    theory_only : bool
-        True: no simulation.
-    options : PoolOptions
-        Options of the runs.
-    say : Callable[[str], None]
-        Called with each sentence for the user.
-
-    Returns
-    -------
-    Forecast
-        The forecast.
-
-    Raises
-    ------
-    SceneError
-        A scene or a value is refused.
-    """
+    """Returns the runs of sweeps that are left, and their time. Raises SceneError."""
     axes, fixed = axes_of(sets, [])
     found = {file: program.check(file, fixed + points_of(axes)[0]) for file in scenes}
     name = "+".join(found[file]["name"] for file in scenes)

@@ -231,18 +231,7 @@ def _status(words: list[str]) -> str:
 
 
 def text_of(table: Table) -> tuple[list[str], list[list[str]], str]:
-    """Returns a table as text.
-
-    Parameters
-    ----------
-    table : Table
-        Table of a sweep.
-
-    Returns
-    -------
-    tuple[list[str], list[list[str]], str]
-        Heads of the columns, one row for all seeds of a point, and a sentence with the meaning of the numbers.
-    """
+    """Returns a table as text."""
     axes = [key for key in table.axes if not is_seed(key)]
     slides = np.isfinite(table.column("theory.sliding.friction_coefficient")).any()  # in place of theories of adhesion
     shown_columns = OF_SIMULATION if table.simulated else OF_THEORY

@@ -35,18 +35,7 @@ LENGTHS = {"lennard-jones": "interface.r0", "morse": "interface.morse_r_min"}
 
 
 def joined(first: Setting, then: Setting) -> Setting:
-    """Returns the settings joined; later settings of a key replace earlier ones.
-
-    Parameters
-    ----------
-    first, then : Setting
-        Keys and their values.
-
-    Returns
-    -------
-    Setting
-        The settings of both, each key once.
-    """
+    """Returns the settings joined; later settings of a key replace earlier ones."""
     later = {one.partition("=")[0] for one in then}
     return [one for one in first if one.partition("=")[0] not in later] + then
 
@@ -122,54 +111,15 @@ class Variations:
 
     @staticmethod
     def worded(key: str, value: float) -> str:
-        """Spells a value of a key with its unit.
-
-        Parameters
-        ----------
-        key : str
-            Key of the scene, "section.key".
-        value : float
-            Number in the unit of the key.
-
-        Returns
-        -------
-        str
-            "2.6 Å", "32 layers".
-        """
+        """Spells a value of a key with its unit."""
         return f"{value:.6g} {program.schema()[key].get('unit') or 'layers' * (key == 'block.thickness')}".strip()
 
     def at(self, key: str, *values: float) -> list[Choice]:
-        """Returns choices of a key.
-
-        Parameters
-        ----------
-        key : str
-            Key of the scene.
-        values : float
-            Numbers in the unit of the key.
-
-        Returns
-        -------
-        list[Choice]
-            A choice for each value.
-        """
+        """Returns choices of a key."""
         return [(self.worded(key, v), [f"{key}={v:.6g}"]) for v in values]
 
     def scaled(self, key: str, *factors: float) -> list[Choice]:
-        """Returns choices of a key as multiples of the scene's value.
-
-        Parameters
-        ----------
-        key : str
-            Key of the scene.
-        factors : float
-            Values over that of the scene.
-
-        Returns
-        -------
-        list[Choice]
-            A choice for each factor.
-        """
+        """Returns choices of a key as multiples of the scene's value."""
         return self.at(key, *(f * self.own(key) for f in factors))
 
     def stable(self, *factors: float) -> list[Choice]:
@@ -178,20 +128,7 @@ class Variations:
                                                if f * self.own("drive.timestep") < 0.9 * self.longest_timestep))
 
     def cut(self, tail: bool, *cutoffs: float) -> list[Choice]:
-        """Returns choices of the cutoff.
-
-        Parameters
-        ----------
-        tail : bool
-            True: with the tail beyond the cutoff.
-        cutoffs : float
-            Cutoffs, Å.
-
-        Returns
-        -------
-        list[Choice]
-            A choice for each cutoff.
-        """
+        """Returns choices of the cutoff."""
         return [(label + " + tail" * tail, [*setting, f"interface.tail={str(tail).lower()}"])
                 for label, setting in self.at("interface.cutoff", *cutoffs)]
 
@@ -293,20 +230,7 @@ class Study:
         self.runs = Runs(scene, overrides, self.place, options, say)
 
     def forecast_of(self, rows: Sequence[Variation], beyond: str = "") -> Forecast:
-        """Returns the runs of some rows that are left, and their time.
-
-        Parameters
-        ----------
-        rows : Sequence[Variation]
-            Rows of the study.
-        beyond : str
-            Words for what is run after them.
-
-        Returns
-        -------
-        Forecast
-            The forecast.
-        """
+        """Returns the runs of some rows that are left, and their time."""
         once = {id(job): (job, row) for job, row in zip(self.runs.jobs(rows), rows)}
         left = [row for job, row in once.values() if look_at(job).status == WAITING]
         base: dict[tuple[str, ...], float] = {}
@@ -321,22 +245,7 @@ class Study:
 
     @staticmethod
     def require_known(names: Iterable[str], groups: Iterable[Varied], option: str) -> None:
-        """Checks that groups of these names exist.
-
-        Parameters
-        ----------
-        names : Iterable[str]
-            Names that were asked for.
-        groups : Iterable[Varied]
-            Groups that the scene has.
-        option : str
-            Option of the command line, for the message: "--parts".
-
-        Raises
-        ------
-        SceneError
-            A name is none of them.
-        """
+        """Checks that groups of these names exist. Raises SceneError."""
         there = [group.name for group in groups]
         for name in names:
             if name not in there:
@@ -345,20 +254,7 @@ class Study:
 
 
 def work_of(setting: Setting, scene: Variations) -> float:
-    """Estimates the run time of a setting relative to that of the scene.
-
-    Parameters
-    ----------
-    setting : Setting
-        Keys and their values.
-    scene : Variations
-        Settings of the scene.
-
-    Returns
-    -------
-    float
-        The ratio of the times.
-    """
+    """Estimates the run time of a setting relative to that of the scene."""
     set_to = dict(one.split("=", 1) for one in setting)
 
     def ratio(key: str) -> float:
