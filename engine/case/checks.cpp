@@ -266,6 +266,7 @@ void check_keys(const Case& c, io::Problems& problems) {
     const PairPotential& potential = c.simulation.interface.potential;
     const double half = scene.edge() / 2.0;
     const double cutoff = interface.cutoff.value_or(cutoff_of(potential));
+    const double minimum = minimum_of(potential);
     if (cutoff > half && !wall) {
         // If the cutoff is the default, the box is the choice of the scene.
         const bool is_set = scene.positions.is_set("interface.cutoff");
@@ -278,7 +279,8 @@ void check_keys(const Case& c, io::Problems& problems) {
                 "the box is {} x {:.6g} Å (surface.spacing) = {:.6g} Å wide, and an atom must not "
                 "meet the same neighbour twice",
                 surface.sites, surface.spacing, scene.edge()),
-            fmt::format("take a cutoff of {:.6g} Å at most", half) +
+            (half > minimum ? fmt::format("take a cutoff of {:.6g} Å at most", half)
+                            : std::string("take a larger surface.spacing")) +
                 (sites <= most_sites ? fmt::format(", or surface.sites = {:.0f} at least", sites)
                                      : std::string())});
     } else if (!wall && surface.kind != SurfaceKind::atoms) {
@@ -291,15 +293,17 @@ void check_keys(const Case& c, io::Problems& problems) {
                 fmt::format("with sites {:.6g} Å and atoms of the substrate {:.6g} Å apart it may "
                             "be {:.6g} Å",
                             surface.spacing, between_atoms, most),
-                fmt::format("take {:.6g} Å (4 r0) and interface.tail = true, or a smaller "
-                            "surface.lattice_ratio",
-                            4.0 * zero_of(potential)));
+                4.0 * zero_of(potential) <= most
+                    ? fmt::format("take {:.6g} Å (4 r0) and interface.tail = true, or a smaller "
+                                  "surface.lattice_ratio",
+                                  4.0 * zero_of(potential))
+                    : "take a larger surface.spacing, or a smaller surface.lattice_ratio");
     }
-    const double minimum = minimum_of(potential);
     if (cutoff <= minimum && pairs)
-        problems.add("interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", cutoff),
-                     fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
-                     fmt::format("the usual cutoff is 4 r0 = {:.6g} Å", 4.0 * zero_of(potential)));
+        problems.add(
+            "interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", cutoff),
+            fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
+            fmt::format("take interface.cutoff = {:.6g} Å (4 r0)", 4.0 * zero_of(potential)));
 
     if (surface.kind == SurfaceKind::self_affine && surface.q_max &&
         surface.rolloff > *surface.q_max)

@@ -700,7 +700,7 @@ io::Schema bind(Scene& scene) {
     schema
         .key("velocities", output.velocities,
              "writes velocities in the frames of the trajectory too")
-        .needs = {needs.trajectory};
+        .needs = {needs.dynamic, needs.trajectory};
     schema.list("fields", output.fields,
                 {"relaxed", std::string(after_approach), "pull-off", "segments", "every:"},
                 "times of maps: of the relaxed state, a number of ps after the end of the "

@@ -44,6 +44,14 @@ PYBIND11_MODULE(_engine, m) {
         py::arg("where"), py::arg("given"), py::arg("unit"),
         "A number in this unit, given so or as a text with a unit. Raises SceneError.");
 
+    m.def(
+        "check",
+        [](const std::vector<std::string>& overrides) {
+            working([&] { examine(SceneText{"", "overrides", overrides}.read(1)); });
+        },
+        py::arg("overrides"),
+        "Checks the scene that these overrides make of the defaults. Raises SceneError.");
+
     bind_program(m);
     bind_records(m);
     bind_state(m);
