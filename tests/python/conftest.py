@@ -217,8 +217,8 @@ def place(tmp_path, monkeypatch):
     return work
 
 
-@pytest.fixture()
-def light():
+@contextlib.contextmanager
+def without_pictures():
     """Leaves the renormalised theory and the drawing of pictures out of the commands of this process, which would take most of
     the time of a test that looks at neither. undo() puts them back."""
     from asperity.plots import style  # here: they load OpenMP, and ranks.py imports this file before it chooses threads
@@ -229,6 +229,12 @@ def light():
         patch.setattr(combined, "_renormalised", lambda rough, quick: {"note": "left out by a test"})
         patch.setattr(style, "picture", lambda fig, kind: b"a picture")
         patch.setattr(style, "inline_svg", lambda fig: "<svg></svg>")
+        yield patch
+
+
+@pytest.fixture()
+def light():
+    with without_pictures() as patch:
         yield patch
 
 

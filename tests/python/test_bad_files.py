@@ -19,7 +19,7 @@ from conftest import OF_PYTHON, command, in_this_process
 from test_files import SCENE, inputs as inputs  # the fixture
 
 DEEP = 100_000
-MANY = 500_000
+MANY = 50_000
 
 
 def sealed(text):

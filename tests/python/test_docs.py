@@ -43,7 +43,7 @@ def test_commands(work, line, request):
     if "numerics.device=" in line and re.search(r"kernels for (portable|v2)\b", command("info")):
         wanted = 2
     words = line.partition("#")[0]
-    if re.search(" (sweep|report) ", words) and not words.strip().endswith(WHOLE):
+    if not words.strip().endswith(WHOLE):
         request.getfixturevalue("light")
     if " run scenes/atoms/" in words:  # as wide as its atoms
         words += SHORT + " --progress off"

@@ -19,7 +19,7 @@ import pytest
 import asperity
 import test_curve
 from asperity.files import store
-from conftest import command
+from conftest import command, without_pictures
 
 SCENE = """
 [surface]
@@ -80,6 +80,12 @@ def there(place: Path) -> dict[str, bytes]:
     """Every file and link below a directory, with its content."""
     return {str(path.relative_to(place)): os.readlink(path).encode() if path.is_symlink() else path.read_bytes()
             for path in sorted(place.rglob("*")) if path.is_symlink() or not path.is_dir()}
+
+
+@pytest.fixture(scope="module", autouse=True)
+def light():
+    with without_pictures():
+        yield
 
 
 @pytest.fixture(scope="module")
