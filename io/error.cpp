@@ -76,7 +76,8 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     for (const std::string& candidate : candidates) {
         const std::string other = plain(candidate);
         int d = distance(wanted, other);
-        if (wanted.size() >= 3 && (other.starts_with(wanted) || wanted.starts_with(other)))
+        if (std::min(wanted.size(), other.size()) >= 3 &&
+            (other.starts_with(wanted) || wanted.starts_with(other)))
             d = std::min(d, 1); // "temp" for "temperature"
         if (d < best_distance || (d == best_distance && best.empty())) {
             best = candidate;

@@ -457,9 +457,18 @@ double Case::load_in_megapascal() const {
     return simulation.drive.load_force / (units::megapascal * area());
 }
 
+/// Returns a length with a unit of its size: "332.8 Å", "26.62 µm", "1.6 mm".
+static std::string length_in_words(double length) {
+    constexpr double micrometre = 1e4, millimetre = 1e7; // Å
+    if (length < 10.0 * micrometre) return fmt::format("{:.1f} Å", length);
+    if (length < millimetre) return fmt::format("{:.4g} µm", length / micrometre);
+    return fmt::format("{:.4g} mm", length / millimetre);
+}
+
 std::string Case::box_in_words() const {
     const int sites = simulation.block.sites;
-    if (!in_newtons()) return fmt::format("{0} x {0} sites, {1:.1f} Å wide", sites, edge());
+    if (!in_newtons())
+        return fmt::format("{0} x {0} sites, {1} wide", sites, length_in_words(edge()));
     return fmt::format("{0} x {0} sites, {1} nm wide{2}", sites, io::cell(0.1 * edge()),
                        effects.free_edges ? ", with free edges" : "");
 }
@@ -468,8 +477,10 @@ std::string Case::block_in_words() const {
     const BlockOptions& block = simulation.block;
     if (effects.free_edges) return "a half-space";
     if (block.continuum)
-        return fmt::format("a continuum, {:.1f} Å thick", block.thickness * block.spacing);
-    return fmt::format("{} layers ({:.1f} Å)", block.thickness, block.thickness * block.spacing);
+        return fmt::format("a continuum, {} thick",
+                           length_in_words(block.thickness * block.spacing));
+    return fmt::format("{} layers ({})", block.thickness,
+                       length_in_words(block.thickness * block.spacing));
 }
 
 bool Case::jumps_as_a_whole() const {

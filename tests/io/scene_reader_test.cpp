@@ -329,6 +329,7 @@ TEST(SceneReader, Nearest) {
     EXPECT_EQ(nearest("RMS", words), "rms");
     EXPECT_EQ(nearest("roll-off", words), "rolloff");
     EXPECT_EQ(nearest("layers-per-level", words), "layers_per_level");
+    EXPECT_EQ(nearest("cuda", {"none", "auto", "0"}), "") << "a digit begins no word";
     EXPECT_EQ(nearest("time_step", words), "timestep");
     EXPECT_EQ(nearest("banana", words), "");
 }
