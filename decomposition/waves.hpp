@@ -53,6 +53,15 @@ struct Slab {
     int first_block() const { return first_block(ranks.rank()); }
     /// Returns the number of blocks of this rank.
     int blocks() const { return first_block(ranks.rank() + 1) - first_block(); }
+    /// Returns a rank's first column of waves; columns() behind the last rank.
+    int first_column(int rank) const {
+        return std::min(columns(), first_block(rank) * block_columns);
+    }
+    int first_column() const { return first_column(ranks.rank()); }
+    /// Returns the column behind this rank's last one.
+    int end_column() const { return first_column(ranks.rank() + 1); }
+    /// Returns true if this rank holds a column of waves.
+    bool holds(int column) const { return first_column() <= column && column < end_column(); }
     /// Returns the number of values in a block of waves.
     std::size_t block_length(int components) const {
         return 2 * block_columns * static_cast<std::size_t>(components) *

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <utility>
 
 namespace asperity {
 
@@ -30,9 +32,8 @@ WavePhase along(double phase) { return {std::cos(phase), std::sin(phase)}; }
 
 } // namespace
 
-FreeEdges::FreeEdges(const BlockOptions& block, int grid)
-    : block_(block), has_added_(block.is_coated()), grid_(grid),
-      far_(Slab(grid, Communicator()), 1) {
+FreeEdges::FreeEdges(const BlockOptions& block, const Slab& slab)
+    : block_(block), has_added_(block.is_coated()), slab_(slab) {
     block_.thickness = 1 << 30;
     plain_ = block_.uncoated();
     using Spline = boost::math::interpolators::cardinal_cubic_b_spline<double>;
@@ -41,27 +42,75 @@ FreeEdges::FreeEdges(const BlockOptions& block, int grid)
         const std::vector<double> table = added_far();
         added.emplace(table.data(), table.size(), 0.0, table_step * block.spacing, 0.0);
     }
-    const Slab slab(grid, Communicator());
-    SiteField<double> far = site_field<double>(slab, 1);
-    const PlaneView<double> at = far[0].plane(0);
+    const int grid = slab.sites;
     const double modulus = block.contact_modulus(), a = block.spacing, s = smoothing * a;
     const double centre = 1.0 / (std::pow(std::numbers::pi, 1.5) * modulus * s);
-#pragma omp parallel for schedule(static)
-    for (int y = 0; y < grid; ++y)
+    const SurfaceTransform<double> transform(slab, 1);
+    SiteRows<double> rows = transform.from_sites();
+#pragma omp parallel for schedule(static) num_threads(rows.threads())
+    for (int row = 0; row < slab.rows; ++row) {
+        double* const sites = rows.own()[0];
+        const int y = slab.first + row;
         for (int x = 0; x < grid; ++x) {
             const double dx = std::min(x, grid - x), dy = std::min(y, grid - y);
             const double r = a * std::sqrt(dx * dx + dy * dy);
-            at(x, y) = r > 0.0 ? std::erf(0.5 * r / s) / (std::numbers::pi * modulus * r) : centre;
-            if (added) at(x, y) += (*added)(r);
+            sites[x] = r > 0.0 ? std::erf(0.5 * r / s) / (std::numbers::pi * modulus * r) : centre;
+            if (added) sites[x] += (*added)(r);
         }
-    to_waves(far, SurfaceTransform<double>(slab, 1), far_);
+        rows.put(row);
+    }
+    far_.resize(at(slab.end_column(), 0));
+    const WaveBlocks<double> blocks = std::move(rows).to_blocks();
+#pragma omp parallel for schedule(static) num_threads(blocks.threads())
+    for (int b = 0; b < slab.blocks(); ++b) {
+        const double* const waves = blocks.get(b);
+        const int first = slab.first_column() + b * block_columns;
+        for (int nx = first; nx < std::min(first + block_columns, slab.end_column()); ++nx)
+            for (int ny = 0; ny < slab.columns(); ++ny)
+                far_[at(nx, ny)] = waves[2 * (block_columns * ny + nx - first)];
+    }
+    mirror();
+}
+
+void FreeEdges::mirror() {
+    const int mine = slab_.ranks.rank(), first = slab_.first_column(), end = slab_.end_column();
+    const auto width = [&](int rank) {
+        return slab_.first_column(rank + 1) - slab_.first_column(rank);
+    };
+    // The rank of the larger nx sends its waves, [nx][ny], to the rank that holds the column ny.
+    std::vector<std::vector<double>> parts(static_cast<std::size_t>(slab_.ranks.size()));
+    std::vector<Message> messages;
+    for (int rank = 0; rank < slab_.ranks.size(); ++rank) {
+        if (rank == mine) continue;
+        std::vector<double>& part = parts[static_cast<std::size_t>(rank)];
+        part.resize(static_cast<std::size_t>(width(mine)) * static_cast<std::size_t>(width(rank)));
+        if (rank > mine) {
+            messages.push_back({.to = rank, .from = rank, .send = {}, .receive = part});
+            continue;
+        }
+        auto to = part.begin();
+        for (int nx = first; nx < end; ++nx)
+            to = std::copy_n(far_.data() + at(nx, slab_.first_column(rank)), width(rank), to);
+        messages.push_back({.to = rank, .from = rank, .send = part, .receive = {}});
+    }
+    slab_.ranks.exchange(messages);
+    for (int nx = first; nx < end; ++nx)
+        for (int ny = nx + 1; ny < end; ++ny)
+            far_[at(nx, ny)] = far_[at(ny, nx)];
+    for (int rank = mine + 1; rank < slab_.ranks.size(); ++rank) {
+        auto from = parts[static_cast<std::size_t>(rank)].begin();
+        for (int ny = slab_.first_column(rank); ny < slab_.first_column(rank + 1); ++ny)
+            for (int nx = first; nx < end; ++nx)
+                far_[at(nx, ny)] = *from++;
+    }
 }
 
 double FreeEdges::compliance(int nx, int ny) const {
-    const double far = *far_.wave(0, nx, ny);
+    if (nx < ny) std::swap(nx, ny);
+    const double far = far_[slab_.holds(nx) ? at(nx, ny) : at(ny, nx)];
     if (nx == 0 && ny == 0) return far + near_uniform();
-    const double phase_x = phase_of(nx, grid_), phase_y = phase_of(ny, grid_);
-    return far + near(wave_phase(nx, grid_), wave_phase(ny, grid_),
+    const double phase_x = phase_of(nx, slab_.sites), phase_y = phase_of(ny, slab_.sites);
+    return far + near(wave_phase(nx, slab_.sites), wave_phase(ny, slab_.sites),
                       std::sqrt(phase_x * phase_x + phase_y * phase_y));
 }
 
@@ -85,7 +134,7 @@ double FreeEdges::added(double phase) const {
 
 std::vector<double> FreeEdges::added_far() const {
     using Gauss = boost::math::quadrature::gauss<double, 10>;
-    const double widest = grid_ / std::numbers::sqrt2 + 2.0; // all lengths over the spacing
+    const double widest = slab_.sites / std::numbers::sqrt2 + 2.0; // all lengths over the spacing
     std::vector<double> phase, weight;
     const auto add = [&](double from, double to) {
         for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i)
@@ -106,18 +155,21 @@ std::vector<double> FreeEdges::added_far() const {
     for (double from = panel; from < last; from += panel)
         add(from, std::min(from + panel, last));
     std::vector<double> table(static_cast<std::size_t>(widest / table_step) + 1);
+    // The ranks compute the entries in turn.
+    const auto ranks = static_cast<std::size_t>(slab_.ranks.size());
 #pragma omp parallel for schedule(static)
-    for (std::size_t i = 0; i < table.size(); ++i)
+    for (std::size_t i = static_cast<std::size_t>(slab_.ranks.rank()); i < table.size(); i += ranks)
         for (std::size_t j = 0; j < phase.size(); ++j)
             table[i] += weight[j] * boost::math::cyl_bessel_j(0, phase[j] * table_step *
                                                                      static_cast<double>(i));
+    slab_.ranks.sum(std::span(table)); // each entry and zeros
     return table;
 }
 
 /// Returns the limit of long waves, from three of them, without layers and surface stress: their
 /// part vanishes there.
 double FreeEdges::near_uniform() const {
-    const double longest = phase_of(1, 16 * grid_);
+    const double longest = phase_of(1, 16 * slab_.sites);
     double value[3];
     for (int i = 0; i < 3; ++i) {
         const double phase = longest / (1 << i);

@@ -36,6 +36,7 @@
 #include "decomposition/waves.hpp"
 #include "engine/options/block_options.hpp"
 
+#include <cstddef>
 #include <vector>
 
 namespace asperity {
@@ -43,14 +44,23 @@ namespace asperity {
 /// Compliance of the waves of a surface with free edges.
 class FreeEdges {
 public:
-    /// Computes the far field and its transform on this rank. grid: number of sites along an edge
-    /// of the grid, 2N.
-    FreeEdges(const BlockOptions& block, int grid);
+    /// Computes the transform of the far field in the slabs of the grid of 2N x 2N sites.
+    /// Collective.
+    FreeEdges(const BlockOptions& block, const Slab& slab);
 
-    /// Returns g^ at q = 2 pi (nx, ny) / (2N a), 0 <= nx, ny <= N, Å^2/eV.
+    /// Returns g^ at q = 2 pi (nx, ny) / (2N a), 0 <= nx, ny <= N, Å^2/eV. This rank must hold the
+    /// column nx or ny.
     double compliance(int nx, int ny) const;
 
 private:
+    /// Returns the place of a wave of this rank in far_.
+    std::size_t at(int nx, int ny) const {
+        return static_cast<std::size_t>(nx - slab_.first_column()) *
+                   static_cast<std::size_t>(slab_.columns()) +
+               static_cast<std::size_t>(ny);
+    }
+    /// Replaces the waves ny > nx of the far field by their mirror images. Collective.
+    void mirror();
     /// Returns the near part, 1/S - far^, at these phases, Å^2/eV.
     double near(WavePhase x, WavePhase y, double phase) const;
     /// Returns far^ without K, Å^2/eV.
@@ -65,8 +75,10 @@ private:
     BlockOptions block_; ///< the block as a half-space
     BlockOptions plain_; ///< block_ without layers and surface stress
     bool has_added_;
-    int grid_;
-    Waves<double> far_; ///< Å^2/eV
+    Slab slab_;
+    /// Waves of the far field, [column of this rank][ny], ny = 0 .. N, Å^2/eV; real, because the
+    /// field is even.
+    std::vector<double> far_;
 };
 
 } // namespace asperity

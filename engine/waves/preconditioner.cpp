@@ -5,17 +5,16 @@
 namespace asperity {
 
 Preconditioner::Preconditioner(const Response& block, double k)
-    : layout_{block.slab().sites, block.components()}, first_block_(block.slab().first_block()),
-      table_(layout_.size(block.slab().all_blocks())) {
+    : layout_(block.slab(), block.components()), table_(layout_.size(block.slab().blocks())) {
     tune(block, k);
 }
 
 void Preconditioner::tune(const Response& block, double k) {
     k_ = k;
-    const int columns = block.slab().columns();
+    const Slab& slab = block.slab();
 #pragma omp parallel for schedule(static)
-    for (int ny = 0; ny < columns; ++ny)
-        for (int nx = 0; nx < columns; ++nx) {
+    for (int ny = 0; ny < slab.columns(); ++ny)
+        for (int nx = slab.first_column(); nx < slab.end_column(); ++nx) {
             SurfaceMatrix m = block.acting_stiffness(nx, ny);
             m.xx += k;
             m.yy += k;
@@ -27,8 +26,8 @@ void Preconditioner::tune(const Response& block, double k) {
 }
 
 void Preconditioner::apply(int b, const float* from, double fraction, float* to) const {
-    multiply_block(table_.data() + layout_.size(first_block_ + b), layout_.sites,
-                   layout_.components, from, fraction, to, to);
+    multiply_block(table_.data() + layout_.size(b), layout_.sites, layout_.components, from,
+                   fraction, to, to);
 }
 
 } // namespace asperity

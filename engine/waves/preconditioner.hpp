@@ -27,7 +27,6 @@ public:
 
 private:
     TableLayout layout_;
-    int first_block_;
     std::vector<float> table_; ///< Å^2/eV
     double k_ = 0.0;
 };

@@ -183,12 +183,11 @@ SurfaceMatrix Response::acting_stiffness(int nx, int ny) const {
 }
 
 double Response::stiffest_wave() const {
-    if (!pattern_) return factor_ * table_.stiffest();
     double stiffest = 0.0;
-    for (int n = 0; n < slab_.columns(); ++n)
+    for (int n = slab_.first_column(); n < slab_.end_column(); ++n)
         for (int m = n == 0 ? 1 : 0; m < slab_.columns(); ++m)
             stiffest = std::max(stiffest, acting_stiffness(n, m).zz);
-    return stiffest;
+    return slab_.ranks.max(stiffest);
 }
 
 double Response::held_stiffness() const {

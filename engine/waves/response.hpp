@@ -130,11 +130,12 @@ public:
     /// Returns the force that holds the uniform normal wave, as a function of the mean height.
     /// Collective.
     Holder holder() const;
-    /// Returns the stiffness that acts on a wave, 0 <= nx, ny <= N/2, eV/Å^2: the table's entry
-    /// times the factor of branches; for the uniform normal wave the holder's stiffness.
+    /// Returns the stiffness that acts on a wave of a column nx of this rank, 0 <= nx, ny <= N/2,
+    /// eV/Å^2: the table's entry times the factor of branches; for the uniform normal wave the
+    /// holder's stiffness.
     SurfaceMatrix acting_stiffness(int nx, int ny) const;
     /// Returns the largest stiffness that acts on the normal component of a wave other than the
-    /// uniform one, eV/Å^2.
+    /// uniform one, eV/Å^2. Collective.
     double stiffest_wave() const;
     /// Returns the displacement of the top plane along z, Å. Collective.
     double top() const;

@@ -238,6 +238,41 @@ TEST(Slabs, TransformLikeOneRankInSingle) {
         transform_like_one_rank<float>(1e-6, components);
 }
 
+/// Each rank has the stiffness of the waves that it transforms and of no others, bit for bit that
+/// of one rank, also where the far field of free edges takes part in it.
+TEST(StiffnessTable, IsSharedAmongTheRanks) {
+    for (const int sites : {8, 33, 64, 100})
+        for (const bool frictionless : {false, true})
+            for (const bool free_edges : {false, true})
+                for (const bool coated : {false, true}) {
+                    if (free_edges && !frictionless) continue;
+                    BlockOptions options = test::paper_block(sites, 12, 0);
+                    options.free_edges = options.continuum = free_edges;
+                    if (coated)
+                        options.layers = {{{3.0 * options.young, 0.2}, 3 * options.spacing}};
+                    const Slab slab(options.grid(), test::world()),
+                        whole(options.grid(), Communicator());
+                    const StiffnessTable shared(options, slab, frictionless),
+                        alone(options, whole, frictionless);
+                    EXPECT_EQ(shared.uniform(), alone.uniform());
+                    const auto numbers = [](const SurfaceMatrix& s) {
+                        return std::tuple(s.xx, s.yy, s.zz, s.xy, s.xz, s.yz);
+                    };
+                    double columns = slab.end_column() - slab.first_column();
+                    for (int nx = slab.first_column(); nx < slab.end_column(); ++nx)
+                        for (int ny = 0; ny < slab.columns(); ++ny) {
+                            ASSERT_EQ(numbers(shared.at(nx, ny)), numbers(alone.at(nx, ny)))
+                                << sites << ": " << nx << ' ' << ny;
+                            ASSERT_EQ(alone.at(nx, ny).zz, alone.at(ny, nx).zz);
+                        }
+                    double bytes = static_cast<double>(shared.bytes());
+                    slab.ranks.sum(std::span(&columns, 1));
+                    slab.ranks.sum(std::span(&bytes, 1));
+                    EXPECT_EQ(columns, slab.columns());
+                    EXPECT_EQ(bytes, static_cast<double>(alone.bytes()));
+                }
+}
+
 TEST(SpectralBlock, RelaxesLikeOneRank) {
     using Constraints = std::array<Constraint, 3>;
     const Constraints gently = {Constraint::load(0.0), Constraint::top(-0.3),

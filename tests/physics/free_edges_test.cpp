@@ -88,7 +88,7 @@ ExponentialWall hard_wall(const BlockOptions& o, double factor = 1000.0) {
 /// continuum the force is shared by the sites (0 or -1, 0 or -1): its waves end at the shortest one
 /// of the sites, and a force on one site makes displacements that alternate.
 std::function<double(int, int)> displacement_by(double force, const BlockOptions& o) {
-    const FreeEdges edges(o, o.grid());
+    const FreeEdges edges(o, Slab(o.grid(), Communicator()));
     const int n = o.grid();
     std::vector<double> wave, cosine;
     for (int i = 0; i < n * n; ++i)
@@ -113,7 +113,7 @@ TEST(FreeEdges, HaveAPositiveComplianceOfAllWaves) {
     for (const double poisson : {-0.3, 0.0, 0.3, 0.49})
         for (const int sites : {4, -4, 5, -5, 16, -16, 33, -33, 64, -64}) { // < 0: a lattice
             const BlockOptions o = free_block(std::abs(sites), 10.0, 1.0, poisson, sites > 0);
-            const FreeEdges edges(o, o.grid());
+            const FreeEdges edges(o, Slab(o.grid(), Communicator()));
             double longest = 0.0, least = edges.compliance(0, 0);
             for (int nx = 0; nx <= o.sites; ++nx)
                 for (int ny = 0; ny <= o.sites; ++ny) {
@@ -127,7 +127,7 @@ TEST(FreeEdges, HaveAPositiveComplianceOfAllWaves) {
 
 TEST(FreeEdges, HaveAPositiveComplianceOfAllWavesOf256Sites) {
     const BlockOptions o = free_block(256, 256.0, 1.0);
-    const FreeEdges edges(o, o.grid());
+    const FreeEdges edges(o, Slab(o.grid(), Communicator()));
     double least = edges.compliance(0, 0);
     for (int ny = 0; ny <= o.sites; ++ny)
         for (int nx = 0; nx <= ny; ++nx) // the same with x and y exchanged
@@ -188,7 +188,7 @@ TEST(FreeEdges, HaveAPositiveComplianceOfAllWavesOfLayers) {
             BlockOptions o = free_block(33, 86.0, 1.0);
             o.layers = {{{young, 0.4}, 5 * o.spacing}, {{3.0, 0.2}, 3 * o.spacing}};
             o.surface_stress = stress;
-            const FreeEdges edges(o, o.grid());
+            const FreeEdges edges(o, Slab(o.grid(), Communicator()));
             for (int nx = 0; nx <= o.sites; ++nx)
                 for (int ny = 0; ny <= o.sites; ++ny)
                     EXPECT_GT(edges.compliance(nx, ny), 0.0) << young << ", " << stress;
