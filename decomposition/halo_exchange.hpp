@@ -54,13 +54,4 @@ private:
 void gather_footprints(const Communicator& communicator, const ProcessGrid& grid, int level,
                        std::span<const PlaneView<double>> planes);
 
-/// Returns a plane of a level as a dense sites * sites array (row-major) on the root, and an empty
-/// array on other ranks. Collective.
-std::vector<double> gather_plane(const Communicator& communicator, const ProcessGrid& grid,
-                                 int level, PlaneView<const double> plane);
-/// Copies each rank's tile from the dense array of the root; the inverse of gather_plane().
-/// Collective.
-void scatter_plane(const Communicator& communicator, const ProcessGrid& grid, int level,
-                   std::vector<double>& dense, PlaneView<double> plane);
-
 } // namespace asperity

@@ -321,17 +321,12 @@ void Hdf5File::transfer(const std::string& dataset, std::int64_t type, const Sha
     open_->check_disk();
 }
 
-void Hdf5File::append(const std::string& dataset, std::int64_t type, std::size_t values,
-                      const void* rows) {
-    Shape now = shape(dataset), offset(now.size(), 0), count = now;
-    offset[0] = std::exchange(count[0], 1);
-    const std::uint64_t row = volume(count);
-    if (values % row != 0) open_->fail(dataset, "does not take these rows");
-    count[0] = values / row;
-    now[0] += count[0];
+std::uint64_t Hdf5File::extend(const std::string& dataset) {
+    Shape now = shape(dataset);
+    const std::uint64_t row = now.at(0)++;
     if (H5Dset_extent(open_->dataset(dataset), extents(now).data()) < 0)
         open_->fail(dataset, "cannot be appended to");
-    transfer(dataset, type, offset, count, values, nullptr, rows);
+    return row;
 }
 
 void Hdf5File::write_attribute(const std::string& object, const std::string& name,

@@ -31,6 +31,8 @@ namespace asperity::io {
 class Hdf5File {
 public:
     using Shape = std::vector<std::uint64_t>;
+    /// Returns the number of values of a shape.
+    static std::uint64_t volume(const Shape& shape);
     using Attribute = std::variant<std::int64_t, double, std::string, std::vector<std::int64_t>,
                                    std::vector<std::string>>;
 
@@ -82,10 +84,11 @@ public:
         create(dataset, type(T()), shape, compressed);
         write_slab(dataset, Shape(shape.size(), 0), shape, data);
     }
-    /// Creates a data set to be filled by write_slab() or, if its shape is {0, ...}, by append().
+    /// Creates a data set to be filled by write_slab(); one of shape {0, ...} grows by extend().
+    /// compressed: as for write().
     template <class T>
-    void make_dataset(const std::string& dataset, const Shape& shape) {
-        create(dataset, type(T()), shape);
+    void make_dataset(const std::string& dataset, const Shape& shape, bool compressed = false) {
+        create(dataset, type(T()), shape, compressed);
     }
     /// Writes a block of a data set. offset, count: first index and extent of the block.
     template <class T>
@@ -109,11 +112,8 @@ public:
     }
     Shape shape(const std::string& dataset) const; ///< returns the shape of a data set
 
-    /// Appends whole rows to a data set.
-    template <class T>
-    void append(const std::string& dataset, std::span<const T> rows) {
-        append(dataset, type(T()), rows.size(), rows.data());
-    }
+    /// Adds a row to a growing data set. Returns the index of the row.
+    std::uint64_t extend(const std::string& dataset);
 
 private:
     struct Open;
@@ -124,7 +124,6 @@ private:
     static std::int64_t type(std::int64_t);
     static std::int64_t type(std::int32_t);
     static std::int64_t type(std::uint8_t);
-    static std::uint64_t volume(const Shape& shape);
 
     /// Creates a data set and the groups above it.
     void create(const std::string& dataset, std::int64_t type, const Shape& shape,
@@ -133,8 +132,6 @@ private:
     void transfer(const std::string& dataset, std::int64_t type, const Shape& offset,
                   const Shape& count, std::size_t values, void* read_into,
                   const void* write_from) const;
-    void append(const std::string& dataset, std::int64_t type, std::size_t values,
-                const void* rows);
 
     std::string path_;
     std::unique_ptr<Open> open_;

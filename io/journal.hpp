@@ -22,6 +22,47 @@
 
 namespace asperity::io {
 
+/// Reader of an entry's payload, in memory or in a file: numbers in the order in which they were
+/// put. A copy reads on from the same place.
+class PayloadReader {
+public:
+    /// Reads from memory.
+    explicit PayloadReader(Bytes bytes) : left_(bytes.size()), bytes_(bytes) {}
+    /// Reads `size` bytes of an open file from `offset` on. path: for messages; must outlive the
+    /// reader.
+    PayloadReader(int file, const std::string& path, std::uint64_t offset, std::uint64_t size)
+        : left_(size), file_(file), path_(&path), offset_(offset) {}
+    /// Returns the next number. Throws FileError at the end.
+    template <class T>
+    T get() {
+        T value;
+        take(std::as_writable_bytes(std::span(&value, 1)));
+        return value;
+    }
+    /// Returns the next `count` numbers. Throws FileError at the end.
+    template <class T>
+    std::vector<T> get(std::size_t count) {
+        std::vector<T> values(count);
+        take(std::as_writable_bytes(std::span(values)));
+        return values;
+    }
+    /// Returns all numbers that have not been read.
+    template <class T>
+    std::vector<T> rest() {
+        return get<T>(left_ / sizeof(T));
+    }
+    /// Returns true if all numbers have been read.
+    bool at_end() const { return left_ == 0; }
+
+private:
+    void take(std::span<std::byte> to);
+    std::uint64_t left_; ///< bytes
+    Bytes bytes_{};      ///< numbers in memory that have not been read
+    int file_ = -1;      ///< descriptor; -1: memory is read
+    const std::string* path_ = nullptr;
+    std::uint64_t offset_ = 0;
+};
+
 /// An append-only file of entries.
 class Journal {
 public:
@@ -42,19 +83,30 @@ public:
 
     /// Appends an entry. kind: number of the caller's choice. Throws FileError; after a failure
     /// every further call throws too.
-    void append(std::uint64_t kind, Bytes payload);
+    void append(std::uint64_t kind, Bytes payload) {
+        begin(kind, payload.size());
+        add(payload);
+    }
+    /// Begins an entry whose `size` bytes of payload follow by add(). The entry is part of the
+    /// journal when it is complete. Throws like append().
+    void begin(std::uint64_t kind, std::uint64_t size);
+    /// Appends a part of the payload of the entry that was begun. Throws like append().
+    void add(Bytes part);
     /// Returns the mark of the present end.
-    Mark mark() const { return {bytes_, digest_}; }
+    Mark mark() const { return complete_; }
     /// Flushes all entries to the disk. Throws FileError.
     void synchronize();
-    /// Calls take with every entry, in their order. Throws FileError.
-    void replay(const std::function<void(std::uint64_t kind, Bytes payload)>& take) const;
+    /// Calls take with every entry, in their order. The reader reads the file and must not outlive
+    /// the journal. Throws FileError.
+    void replay(const std::function<void(std::uint64_t kind, PayloadReader payload)>& take) const;
 
 private:
+    void write(Bytes bytes);
+
     std::string path_;
     Descriptor file_;
-    std::uint64_t bytes_ = 0;
-    std::uint32_t digest_ = 0;
+    Mark complete_, written_;   ///< ends of the complete entries and of all that was written
+    std::uint64_t missing_ = 0; ///< bytes that the entry that was begun still lacks
     bool failed_ = false;
 };
 
@@ -76,30 +128,6 @@ public:
 
 private:
     std::vector<std::byte> bytes_;
-};
-
-/// Reader of an entry's payload: numbers in the order in which they were put.
-class PayloadReader {
-public:
-    explicit PayloadReader(Bytes bytes) : bytes_(bytes) {}
-    /// Returns the next number. Throws FileError at the end.
-    template <class T>
-    T get() {
-        return get<T>(1).front();
-    }
-    /// Returns the next `count` numbers. Throws FileError at the end.
-    template <class T>
-    std::vector<T> get(std::size_t count) {
-        std::vector<T> values(count);
-        take(std::as_writable_bytes(std::span(values)));
-        return values;
-    }
-    /// Returns true if all numbers have been read.
-    bool at_end() const { return bytes_.empty(); }
-
-private:
-    void take(std::span<std::byte> to);
-    Bytes bytes_;
 };
 
 } // namespace asperity::io

@@ -65,12 +65,25 @@ std::string machine() {
     return fmt::format("{}, {} processor{}", model, count, count == 1 ? "" : "s");
 }
 
-AvailableMemory available_memory() {
-    AvailableMemory least{std::numeric_limits<double>::infinity(), "nothing"};
-    const auto limit = [&](std::optional<double> bytes, const char* because) {
-        if (bytes && *bytes < least.bytes) least = {*bytes, because};
-    };
-    limit(entry("/proc/meminfo", "MemAvailable:"), "MemAvailable");
+namespace {
+
+/// The smallest of several limits.
+class LeastMemory {
+public:
+    void limit(std::optional<double> bytes, const char* because) {
+        if (bytes && *bytes < least_.bytes) least_ = {std::max(0.0, *bytes), because};
+    }
+    const AvailableMemory& get() const { return least_; }
+
+private:
+    AvailableMemory least_{std::numeric_limits<double>::infinity(), "nothing"};
+};
+
+} // namespace
+
+AvailableMemory memory_of_machine() {
+    LeastMemory least;
+    least.limit(entry("/proc/meminfo", "MemAvailable:"), "MemAvailable");
 
     // "0::/a/b" (version 2) or "5:memory:/a/b" (version 1); every group above counts too. Inside of
     // a container the path may not be there, and the root then is the container's own.
@@ -90,21 +103,31 @@ AvailableMemory available_memory() {
                 entry(group / "memory.stat", v2 ? "inactive_file " : "total_inactive_file ")
                     .value_or(0.0);
             if (most && used)
-                limit(*most - *used + files,
-                      v2 ? "the control group's memory.max" : "the control group's limit");
+                least.limit(*most - *used + files,
+                            v2 ? "the control group's memory.max" : "the control group's limit");
             if (group == root || !group.has_relative_path()) break;
         }
     }
+    return least.get();
+}
+
+AvailableMemory memory_of_process() {
+    LeastMemory least;
     const auto resource = [&](auto which, const char* used, const char* because) {
         rlimit r{};
         if (::getrlimit(which, &r) == 0 && r.rlim_cur != RLIM_INFINITY)
-            limit(static_cast<double>(r.rlim_cur) - entry("/proc/self/status", used).value_or(0.0),
-                  because);
+            least.limit(static_cast<double>(r.rlim_cur) -
+                            entry("/proc/self/status", used).value_or(0.0),
+                        because);
     };
     resource(RLIMIT_AS, "VmSize:", "ulimit -v");
     resource(RLIMIT_DATA, "VmData:", "ulimit -d");
-    if (least.bytes < 0.0) least.bytes = 0.0;
-    return least;
+    return least.get();
+}
+
+AvailableMemory available_memory() {
+    const AvailableMemory machine = memory_of_machine(), process = memory_of_process();
+    return process.bytes < machine.bytes ? process : machine;
 }
 
 } // namespace asperity::io

@@ -26,14 +26,19 @@ void set_commit(const std::string& described);
 /// Returns the processor's name and the number of processors seen: "AMD EPYC 9B14, 2 processors".
 std::string machine();
 
-/// Memory that this process can still allocate, and the limit that determines it.
+/// Memory that can still be allocated, and the limit that determines it.
 struct AvailableMemory {
     double bytes = 0.0;  ///< memory left, bytes; infinite without a limit
     std::string because; ///< name of the limit, for messages: "MemAvailable", "ulimit -v"
 };
-/// Returns the smallest of the free memory of the machine (MemAvailable of /proc/meminfo, without
-/// swap), the memory left in the control groups of this process (memory.max or
-/// memory.limit_in_bytes), and the limits of address space and data (ulimit -v, -d).
+/// Returns the memory left to all processes of the machine together: the smaller of its free memory
+/// (MemAvailable of /proc/meminfo, without swap) and the memory left in the control groups of this
+/// process (memory.max or memory.limit_in_bytes).
+AvailableMemory memory_of_machine();
+/// Returns the memory left to this process by its own limits of address space and data (ulimit -v,
+/// -d).
+AvailableMemory memory_of_process();
+/// Returns the smaller of the two.
 AvailableMemory available_memory();
 
 } // namespace asperity::io

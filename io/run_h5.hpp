@@ -17,7 +17,9 @@
 #include "io/quantities.hpp"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,22 +31,35 @@ void describe(Hdf5File& file, const std::string& dataset);
 /// Writes the attributes `unit` and `description` of a data set from a quantity.
 void describe(Hdf5File& file, const std::string& dataset, const Quantity& quantity);
 
-/// Returns true if at least a quarter of the values equal the value before, as in maps of pressure
-/// and contact. Compression reduces such maps to a tenth or less, at several hundred MB/s; heights
-/// and gaps are reduced to 0.75 to 0.86, four times as slowly.
+/// Tells whether a map is worth compressing: at least a quarter of its values equal the value
+/// before, as in maps of pressure and contact. Compression reduces such maps to a tenth or less, at
+/// several hundred MB/s; heights and gaps are reduced to 0.75 to 0.86, four times as slowly.
 template <class T>
-bool is_repetitive(const std::vector<T>& values) {
-    std::size_t repeats = 0;
-    for (std::size_t i = 1; i < values.size(); ++i)
-        repeats += values[i] == values[i - 1];
-    return 4 * repeats >= values.size() && repeats > 0;
-}
+class Repetition {
+public:
+    /// Adds the next values of the map.
+    void add(std::span<const T> values) {
+        for (const T& value : values) {
+            repeats_ += count_ > 0 && value == last_;
+            last_ = value;
+            ++count_;
+        }
+    }
+    /// Returns true if the values so far are worth compressing.
+    bool is_large() const { return 4 * repeats_ >= count_ && repeats_ > 0; }
+
+private:
+    std::size_t count_ = 0, repeats_ = 0;
+    T last_{};
+};
 
 /// Writes a new data set with its unit and description; compresses repetitive maps.
 template <class T>
 void write_described(Hdf5File& file, const std::string& dataset, const Hdf5File::Shape& shape,
                      const std::vector<T>& data) {
-    file.write<T>(dataset, shape, data, shape.size() > 1 && is_repetitive(data));
+    Repetition<T> repetition;
+    repetition.add(data);
+    file.write<T>(dataset, shape, data, shape.size() > 1 && repetition.is_large());
     describe(file, dataset);
 }
 

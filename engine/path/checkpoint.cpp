@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/checkpoint.hpp"
 
+#include "decomposition/plane_bands.hpp"
 #include "io/error.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
@@ -120,6 +121,15 @@ std::vector<RestoredArray> state_to_restore(Block& block) {
     return list;
 }
 
+namespace {
+
+/// Returns the first index of a band of a plane in the data set of an array.
+io::Hdf5File::Shape place_of(int plane, int first_row) {
+    return {static_cast<std::uint64_t>(plane), static_cast<std::uint64_t>(first_row), 0};
+}
+
+} // namespace
+
 void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                       const ProcessGrid& grid, const std::vector<StateArray>& arrays,
                       const StateNumbers& numbers, const std::string& fingerprint) {
@@ -137,11 +147,12 @@ void write_checkpoint(const io::FilePlace& place, const Communicator& ranks,
                                        {static_cast<std::uint64_t>(array.planes), sites, sites});
         });
         for (int z = 0; z < array.planes; ++z) {
-            const auto dense = gather_plane(ranks, grid, array.level, array.field->plane(z));
-            ranks.on_root([&] {
-                file->write_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
-                                         {1, sites, sites}, std::span<const double>(dense));
-            });
+            const PlaneView<const double> plane = array.field->plane(z);
+            gather_bands(ranks, grid, array.level, std::span(&plane, 1),
+                         [&](int first, std::span<const double> band) {
+                             file->write_slab<double>(array.name, place_of(z, first),
+                                                      {1, band.size() / sites, sites}, band);
+                         });
         }
     }
     ranks.on_root([&] { file->close(); });
@@ -205,13 +216,13 @@ StateNumbers read_checkpoint(const io::FilePlace& place, const Communicator& ran
     for (const RestoredArray& array : arrays(numbers)) {
         const auto sites = static_cast<std::uint64_t>(grid.tile(array.level).sites);
         for (int z = 0; z < array.planes; ++z) {
-            std::vector<double> dense;
-            ranks.on_root([&] {
-                dense.resize(sites * sites);
-                file->read_slab<double>(array.name, {static_cast<std::uint64_t>(z), 0, 0},
-                                        {1, sites, sites}, std::span<double>(dense));
-            });
-            scatter_plane(ranks, grid, array.level, dense, array.field->plane(z));
+            scatter_bands(
+                ranks, grid, array.level,
+                [&](int first, std::span<double> band) {
+                    file->read_slab<double>(array.name, place_of(z, first),
+                                            {1, band.size() / sites, sites}, band);
+                },
+                array.field->plane(z));
         }
     }
     return numbers;

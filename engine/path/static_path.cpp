@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/static_path.hpp"
 
-#include "decomposition/halo_exchange.hpp"
+#include "decomposition/plane_bands.hpp"
 #include "engine/scene/map_statistics.hpp"
 
 #include <fmt/format.h>

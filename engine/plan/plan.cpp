@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/plan/plan.hpp"
 
+#include "decomposition/plane_bands.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/path/expected_path.hpp"
 #include "engine/run/stress_record.hpp"
@@ -43,6 +44,13 @@ std::string memory_text(double bytes) {
 
 constexpr double one_day = 86400.0; ///< s
 
+/// Bytes of the root for a node of a band of a map: the others' parts, the band, and what is
+/// written.
+constexpr double bytes_of_bands = 3.0 * sizeof(double);
+/// Bytes for a component of a site in which the transforms of several ranks exchange waves, in
+/// double and single precision.
+constexpr double bytes_exchanged = sizeof(double) + sizeof(float);
+
 /// Returns pieces of growing width; the last is the largest that the time allows.
 std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double atoms) {
     // The box of a piece is twice the cutoff at least.
@@ -75,18 +83,20 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
     const double bytes = piece.bytes[part];
     if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
-    if (part == Piece::maps) // the root collects them, and holds an entry of the journal
-        return rank == 0
-                   ? bytes * whole + 2.0 * stress_bytes(c.simulation.block.sites, c.output.stress)
-                   : 0.0;
+    if (part == Piece::maps &&
+        bytes > 0.0) // the root holds bands of the others', and the stresses whole
+        return bytes * here + (rank == 0
+                                   ? bytes_of_bands * rows_of_band(block.grid()) * block.grid() +
+                                         stress_bytes(block.sites, c.output.stress)
+                                   : 0.0);
     if (c.effects.dynamic && (part == Piece::block || part == Piece::kept))
         return bytes * nodes_of(c.levels) / piece.nodes / whole * (tile.nx + h) * (tile.ny + h) /
                std::pow(piece.sites + h, 2);
-    // Each rank has the table of the waves whole, and a relaxation half of it again.
-    const double tables = part == Piece::rest    ? (c.effects.dynamic ? 1.5 : 0.5)
-                          : part == Piece::block ? 1.0
-                                                 : 0.0;
-    return bytes * here + tables * piece.table * (whole - here);
+    // Ranks exchange waves where a block at rest is: for good, or while a dynamic one is relaxed.
+    const bool at_rest = part == (c.effects.dynamic ? Piece::rest : Piece::block) && bytes > 0.0;
+    const double components = c.effects.dynamic || c.effects.lateral ? 3.0 : 1.0;
+    return bytes * here +
+           (at_rest && c.ranks > 1 ? bytes_exchanged * components * tile.nx * tile.ny : 0.0);
 }
 
 /// Returns the bytes of the maps of a state for a site: seven numbers and a mark, and those that
@@ -316,17 +326,21 @@ void require_memory(const Case& c, const Communicator& ranks) {
     if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5) return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
     const double needed = ranks.sum_on_machine(mine);
-    const io::AvailableMemory there = io::available_memory();
-    // All ranks refuse alike, with the numbers of the machine that is worst off.
-    const double worst = ranks.max(needed / there.bytes);
+    const io::AvailableMemory machine = io::memory_of_machine(), own = io::memory_of_process();
+    // All ranks refuse alike, with the numbers of the machine or the rank that is worst off.
+    const double of_machine = ranks.max(needed / machine.bytes),
+                 of_rank = ranks.max(mine / own.bytes), worst = std::max(of_machine, of_rank);
     if (worst <= 1.0) return;
+    const io::AvailableMemory& there = of_rank > of_machine ? own : machine;
     const bool coarser = c.effects.dynamic && !c.simulation.block.multiscale;
     io::Problems problems = c.scene.problems();
     problems.add(
         "surface.sites",
         fmt::format("= {}: the run does not fit into memory", c.simulation.block.sites),
-        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
-                    worst * there.bytes / 1e9, there.bytes / 1e9, there.because),
+        fmt::format("{:.3g} GB are needed {}, and {:.3g} GB are available ({})",
+                    worst * there.bytes / 1e9,
+                    of_rank > of_machine ? "by a process" : "on this machine", there.bytes / 1e9,
+                    there.because),
         fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
                     "close what else runs here",
                     coarser ? ", block.model = \"multiscale\"" : ""));

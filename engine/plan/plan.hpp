@@ -53,7 +53,7 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not
 /// fit into the memory of its machines: the memory of all ranks of each machine is compared with
-/// the memory available. Collective.
+/// the memory left there, and that of each rank with its own limits. Collective.
 void require_memory(const Case& c, const Communicator& ranks);
 
 } // namespace asperity

@@ -5,7 +5,6 @@
 #include "engine/dynamics/simulation.hpp"
 #include "engine/path/checkpoint.hpp"
 #include "engine/path/static_path.hpp"
-#include "engine/run/recorder.hpp"
 #include "engine/statics/zero_load.hpp"
 #include "io/error.hpp"
 
@@ -152,7 +151,6 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     done.sites = sites;
     done.atoms = std::pow(piece.substrate(), 2) + static_cast<double>(heights.atoms.size());
     done.nodes = nodes_of(piece.levels);
-    done.table = static_cast<double>(waves->table_bytes());
 
     // Height of the state of a slow approach.
     const double lowest = heights.statistics.lowest;
@@ -205,12 +203,8 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     if (path) done.points = path->steps();
     const VectorPlane<const double> layer =
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
-    std::optional<io::PayloadWriter> entry;
-    if (piece.effects.maps)
-        part(Piece::maps, [&] {
-            entry = Recorder::entry_of_fields("", layer, Communicator(), grid, *below, options);
-        });
-    done.bytes[Piece::maps] *= 2.0; // and the maps that the entry is made of
+    std::optional<InterfaceMaps> maps;
+    if (piece.effects.maps) part(Piece::maps, [&] { maps = below->maps(layer); });
     return done;
 }
 

@@ -15,11 +15,10 @@ namespace asperity {
 /// Measured memory and time of a piece.
 struct Piece {
     /// Parts of a run's memory. kept: copies of states, for the guard or as last points of a path;
-    /// rest: work arrays of relaxations and quasi-static paths; maps: buffers while the maps of a
-    /// state are written; parts: their number.
+    /// rest: work arrays of relaxations and quasi-static paths; maps: the maps of a state while they
+    /// are written; parts: their number.
     enum Part : std::size_t { surface, interface, block, kept, rest, maps, parts };
     std::array<double, parts> bytes{};
-    double table = 0.0; ///< size of the stiffness table, which each rank holds whole, bytes
     int sites = 0;      ///< number of sites across
     double atoms = 0.0; ///< number of atoms of the substrate
     double nodes = 0.0; ///< number of nodes of all levels

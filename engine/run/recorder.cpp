@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 #include "engine/run/recorder.hpp"
 
+#include "decomposition/plane_bands.hpp"
 #include "engine/run/stress_record.hpp"
 #include "engine/units.hpp"
 #include "io/machine.hpp"
@@ -11,6 +12,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <span>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -19,22 +24,10 @@ namespace asperity {
 
 namespace {
 
-/// Gathers a tile's map to that of the whole box, on the root.
-std::vector<double> whole(const Communicator& ranks, const ProcessGrid& grid,
-                          const std::vector<double>& tile_map) {
-    const Tile tile = grid.tile(0);
-    Field<double> field(tile, 1);
-    for (int y = 0; y < tile.ny; ++y)
-        for (int x = 0; x < tile.nx; ++x)
-            field.plane(0)(x, y) =
-                tile_map[static_cast<std::size_t>(y) * static_cast<std::size_t>(tile.nx) +
-                         static_cast<std::size_t>(x)];
-    return gather_plane(ranks, grid, 0, std::as_const(field).plane(0));
-}
-
-/// Entries of the journal: rows of the series, or members of a group of run.h5. A member is a data
-/// set, an attribute of the group, or a row of a data set that grows.
-enum EntryKind : std::uint64_t { rows_entry, group_entry };
+/// Entries of the journal: rows of the series, the head of a group of run.h5, and its members. A
+/// member is a data set, an attribute of the group, or a row of a data set that grows. Members
+/// follow the head of their group, in its entry or in entries of their own.
+enum EntryKind : std::uint64_t { rows_entry, group_entry, member_entry };
 enum MemberKind : std::uint64_t { data_set, attribute, growing };
 using Types = std::tuple<double, float, std::int64_t, std::uint8_t>;
 
@@ -58,63 +51,131 @@ std::string get_text(io::PayloadReader& entry) {
     return {text.begin(), text.end()};
 }
 
-/// Adds a group to an entry. numbered: the group gets a number if its name exists already.
-void put_group(io::PayloadWriter& entry, const std::string& group, bool numbered) {
-    put_text(entry, group);
-    entry.put<std::uint64_t>(numbered);
+/// Returns a view of a map of a tile, [y * nx + x].
+PlaneView<const double> view_of(const std::vector<double>& map, const Tile& tile) {
+    return {map.data(), tile.nx, tile.nx, tile.ny};
 }
 
-/// Adds a data set to an entry. unit: unit of a growing data set; io/quantities.hpp has the units
-/// of the others.
+/// Appends the head of a group to the journal; its members follow. numbered: the group gets a
+/// number if its name exists already.
+void append_group(io::Journal& journal, const std::string& group, bool numbered) {
+    io::PayloadWriter entry;
+    put_text(entry, group);
+    entry.put<std::uint64_t>(numbered);
+    journal.append(group_entry, entry.bytes());
+}
+
+/// Begins a member of the last group; its `count` values follow by add(). unit: unit of a growing
+/// data set; io/quantities.hpp has the units of the others.
 template <class T>
-void put_member(io::PayloadWriter& entry, MemberKind kind, const std::string& name,
-                const io::Hdf5File::Shape& shape, std::span<const T> values,
-                const std::string& unit = "") {
-    entry.put<std::uint64_t>(kind);
-    put_text(entry, name);
-    put_text(entry, unit);
-    entry.put(type_number<T>());
-    entry.put<std::uint64_t>(shape.size());
-    entry.put(shape);
-    entry.put<std::uint64_t>(values.size());
-    entry.put(values);
+void begin_member(io::Journal& journal, MemberKind kind, const std::string& name,
+                  const io::Hdf5File::Shape& shape, std::uint64_t count,
+                  const std::string& unit = "") {
+    io::PayloadWriter head;
+    head.put<std::uint64_t>(kind);
+    put_text(head, name);
+    put_text(head, unit);
+    head.put(type_number<T>());
+    head.put<std::uint64_t>(shape.size());
+    head.put(shape);
+    head.put(count);
+    journal.begin(member_entry, head.bytes().size() + count * sizeof(T));
+    journal.add(head.bytes());
+}
+template <class T>
+void append_member(io::Journal& journal, MemberKind kind, const std::string& name,
+                   const io::Hdf5File::Shape& shape, std::span<const T> values,
+                   const std::string& unit = "") {
+    begin_member<T>(journal, kind, name, shape, values.size(), unit);
+    journal.add(std::as_bytes(values));
+}
+
+/// Calls take(offset, count) for blocks of a data set of this shape, in the order of their values,
+/// each of whole rows and, if a row is no longer, of at most band_length values.
+void each_block(const io::Hdf5File::Shape& shape, const auto& take) {
+    std::size_t axis = 0; // along which blocks are cut
+    std::uint64_t row = io::Hdf5File::volume(shape), before = 1;
+    for (; axis < shape.size(); ++axis) {
+        row /= std::max<std::uint64_t>(1, shape[axis]);
+        if (row <= band_length || axis + 1 == shape.size()) break;
+        before *= shape[axis];
+    }
+    if (axis == shape.size()) return;
+    const std::uint64_t most =
+        std::max<std::uint64_t>(1, band_length / std::max<std::uint64_t>(1, row));
+    for (std::uint64_t i = 0; i < before; ++i) {
+        io::Hdf5File::Shape offset(shape.size(), 0), count = shape;
+        std::uint64_t left = i;
+        for (std::size_t k = axis; k-- > 0; left /= shape[k]) {
+            offset[k] = left % shape[k];
+            count[k] = 1;
+        }
+        for (std::uint64_t first = 0; first < shape[axis]; first += most) {
+            offset[axis] = first;
+            count[axis] = std::min(most, shape[axis] - first);
+            take(offset, count);
+        }
+    }
+}
+
+/// Returns true if the values that a reader has left are worth compressing.
+template <class T>
+bool is_repetitive(const io::Hdf5File::Shape& shape, io::PayloadReader values) {
+    if (shape.size() < 2) return false;
+    io::Repetition<T> repetition;
+    each_block(shape, [&](const auto&, const io::Hdf5File::Shape& count) {
+        repetition.add(values.get<T>(io::Hdf5File::volume(count)));
+    });
+    return repetition.is_large();
 }
 
 template <class T>
 void write_member(io::Hdf5File& file, MemberKind kind, const std::string& group,
-                  const std::string& name, const std::string& unit,
-                  const io::Hdf5File::Shape& shape, const std::vector<T>& values) {
+                  const std::string& name, const std::string& unit, io::Hdf5File::Shape shape,
+                  io::PayloadReader& values) {
     const std::string path = group + "/" + name;
-    if (kind == data_set) return io::write_described(file, path, shape, values);
     if constexpr (std::is_same_v<T, double>)
         if (kind == attribute)
-            return io::write_described_attribute(file, group, name, values.front());
-    if (!file.exists(path)) {
-        file.make_dataset<T>(path, shape);
-        if (!unit.empty()) file.write_attribute(path, "unit", unit);
+            return io::write_described_attribute(file, group, name, values.get<T>());
+    std::uint64_t row = 0;
+    if (kind == growing) {
+        if (!file.exists(path)) {
+            file.make_dataset<T>(path, shape);
+            if (!unit.empty()) file.write_attribute(path, "unit", unit);
+        }
+        row = file.extend(path);
+        shape[0] = 1;
+    } else {
+        file.make_dataset<T>(path, shape, is_repetitive<T>(shape, values));
     }
-    file.append<T>(path, values);
+    each_block(shape, [&](io::Hdf5File::Shape offset, const io::Hdf5File::Shape& count) {
+        offset[0] += row;
+        file.write_slab<T>(path, offset, count, values.get<T>(io::Hdf5File::volume(count)));
+    });
+    if (kind == data_set) io::describe(file, path);
 }
 
-/// Writes the entry of a group into run.h5.
-void write_group(io::Hdf5File& file, io::PayloadReader entry) {
+/// Returns the name in run.h5 of the group whose head is read.
+std::string group_of(const io::Hdf5File& file, io::PayloadReader& entry) {
     const std::string first = get_text(entry);
     const bool numbered = entry.get<std::uint64_t>() != 0;
     std::string group = first; // a path of several cycles comes to a state of this name again
     for (int n = 2; numbered && file.exists(group); ++n)
         group = first + "-" + std::to_string(n);
-    while (!entry.at_end()) {
-        const auto kind = static_cast<MemberKind>(entry.get<std::uint64_t>());
-        const std::string name = get_text(entry), unit = get_text(entry);
-        const auto type = entry.get<std::uint64_t>();
-        const auto shape = entry.get<std::uint64_t>(entry.get<std::uint64_t>());
-        const auto size = entry.get<std::uint64_t>();
-        const auto write = [&]<class T>(T) {
-            if (type == type_number<T>())
-                write_member(file, kind, group, name, unit, shape, entry.get<T>(size));
-        };
-        std::apply([&](auto... of_type) { (write(of_type), ...); }, Types{});
-    }
+    return group;
+}
+
+/// Writes the member of a group that is read into run.h5.
+void write_member(io::Hdf5File& file, const std::string& group, io::PayloadReader& entry) {
+    const auto kind = static_cast<MemberKind>(entry.get<std::uint64_t>());
+    const std::string name = get_text(entry), unit = get_text(entry);
+    const auto type = entry.get<std::uint64_t>();
+    const auto shape = entry.get<std::uint64_t>(entry.get<std::uint64_t>());
+    entry.get<std::uint64_t>(); // number of values
+    const auto write = [&]<class T>(T) {
+        if (type == type_number<T>()) write_member<T>(file, kind, group, name, unit, shape, entry);
+    };
+    std::apply([&](auto... of_type) { (write(of_type), ...); }, Types{});
 }
 
 /// Returns the statistics of the surfaces of a pair with the names of their spectra.
@@ -163,23 +224,48 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
     io::write_described(file, "/substrate/spectrum_target", {q.size()}, target);
 }
 
-/// Adds P(u), normalised to one: 200 bins from the least to the greatest gap. Holes do not count.
-void put_gap_density(io::PayloadWriter& entry, std::vector<double> gap) {
-    std::erase_if(gap, [](double u) { return std::isnan(u); });
-    const auto [least, greatest] = std::minmax_element(gap.begin(), gap.end());
-    constexpr std::size_t bins = 200;
-    const double size = std::max(std::abs(*least), std::abs(*greatest));
-    const double width = std::max((*greatest - *least) / bins, size > 0.0 ? 1e-12 * size : 1.0);
-    std::vector<double> density(bins, 0.0), edge(bins + 1);
-    for (std::size_t i = 0; i <= bins; ++i)
-        edge[i] = *least + width * static_cast<double>(i);
-    for (double u : gap) {
-        const auto bin = static_cast<std::size_t>((u - *least) / width);
-        density[std::min(bin, bins - 1)] += 1.0 / (width * static_cast<double>(gap.size()));
+/// P(u), normalised to one: 200 bins from the least to the greatest gap. Holes do not count.
+class GapDensity {
+public:
+    /// Looks at the gaps of the first n x n sites of the box in this rank's tile. Collective.
+    GapDensity(const Communicator& ranks, const Tile& tile, int n, const std::vector<double>& gap) {
+        double least = std::numeric_limits<double>::infinity(), greatest = -least;
+        for (int y = 0; y < std::min(tile.ny, n - tile.y0); ++y)
+            for (int x = 0; x < std::min(tile.nx, n - tile.x0); ++x) {
+                const double u = view_of(gap, tile)(x, y);
+                if (std::isnan(u)) continue;
+                least = std::min(least, u);
+                greatest = std::max(greatest, u);
+                ++sites_;
+            }
+        least_ = -ranks.max(-least);
+        greatest = ranks.max(greatest);
+        ranks.sum(std::span(&sites_, 1));
+        const double size = std::max(std::abs(least_), std::abs(greatest));
+        width_ = std::max((greatest - least_) / bins, size > 0.0 ? 1e-12 * size : 1.0);
     }
-    put_member<double>(entry, data_set, "gap_edges", {bins + 1}, edge);
-    put_member<double>(entry, data_set, "gap_density", {bins}, density);
-}
+    /// Adds gaps to the density.
+    void add(std::span<const double> gap) {
+        for (const double u : gap) {
+            if (std::isnan(u)) continue;
+            const auto bin = static_cast<std::size_t>((u - least_) / width_);
+            density_[std::min(bin, bins - 1)] += 1.0 / (width_ * static_cast<double>(sites_));
+        }
+    }
+    void append_to(io::Journal& journal) const {
+        std::vector<double> edge(bins + 1);
+        for (std::size_t i = 0; i <= bins; ++i)
+            edge[i] = least_ + width_ * static_cast<double>(i);
+        append_member<double>(journal, data_set, "gap_edges", {bins + 1}, edge);
+        append_member<double>(journal, data_set, "gap_density", {bins}, density_);
+    }
+
+private:
+    static constexpr std::size_t bins = 200;
+    double least_ = 0.0, width_ = 0.0; ///< Å
+    std::int64_t sites_ = 0;           ///< number of gaps of the box
+    std::vector<double> density_ = std::vector<double>(bins, 0.0);
+};
 
 } // namespace
 
@@ -221,21 +307,88 @@ void Recorder::append_rows() {
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       const BlockOptions& block) {
-    const io::PayloadWriter entry =
-        entry_of_fields(state, layer, communicator_, grid, interface, block);
-    communicator_.on_root([&] { journal_->append(group_entry, entry.bytes()); });
+    const InterfaceMaps maps = interface.maps(layer);
+    const Tile tile = grid.tile(0);
+    const auto n = static_cast<std::size_t>(interface.sites_across());
+    communicator_.on_root([&] { append_group(*journal_, "/fields/" + state, true); });
+    /// Appends a map of the first n x n sites in bands.
+    const auto put = [&]<class T>(const std::string& name, PlaneView<const double> map,
+                                  const ProcessGrid& cut, const std::function<T(double)>& value,
+                                  GapDensity* density = nullptr) {
+        communicator_.on_root([&] { begin_member<T>(*journal_, data_set, name, {n, n}, n * n); });
+        gather_bands(communicator_, cut, 0, std::span(&map, 1),
+                     [&](int first, std::span<const double> band) {
+                         const auto width = static_cast<std::size_t>(tile.sites);
+                         const auto row = static_cast<std::size_t>(first);
+                         std::vector<T> values;
+                         for (std::size_t y = 0; y < band.size() / width && row + y < n; ++y) {
+                             const auto line = band.subspan(y * width, n);
+                             if (density) density->add(line);
+                             std::ranges::transform(line, std::back_inserter(values), value);
+                         }
+                         journal_->add(std::as_bytes(std::span(std::as_const(values))));
+                     });
+    };
+    const std::function<double(double)> same = [](double value) { return value; };
+    const auto put_map = [&](const std::string& name, const std::vector<double>& map) {
+        put(name, view_of(map, tile), grid, same);
+    };
+    GapDensity density(communicator_, tile, static_cast<int>(n), maps.gap);
+    put("gap", view_of(maps.gap, tile), grid, same, &density);
+    put_map("pressure", maps.pressure);
+    if (block.counter) {
+        const Slab slab(tile.sites, communicator_);
+        const ProcessGrid slabs =
+            ProcessGrid::slabs(communicator_.size(), communicator_.rank(), tile.sites);
+        SiteField<double> u = site_field<double>(slab, 1);
+        move_plane(communicator_, grid, view_of(maps.pressure, tile), slabs, u[0].plane(0));
+        displace_surface(block.counter_block(), slab, u);
+        put("u_z_counter", std::as_const(u[0]).plane(0), slabs,
+            std::function<double(double)>(
+                // The pressure is in GPa, and pushes down.
+                [](double z) { return z * -units::gigapascal; }));
+    }
+    put_map("distance", maps.distance);
+    if (interface.yielding_wall()) {
+        put_map("set", maps.set);
+        put_map("yielded_height", maps.yielded_heights);
+    }
+    for (const auto& [name, values] : maps.of_sites)
+        put_map(name, values);
+    put("u_x", layer.x, grid, same);
+    put("u_y", layer.y, grid, same);
+    put("u_z", layer.z, grid, same);
+    const std::vector<double> contact(maps.contact.begin(), maps.contact.end());
+    put("contact", view_of(contact, tile), grid,
+        std::function<std::uint8_t(double)>(
+            [](double touches) { return static_cast<std::uint8_t>(touches); }));
+    communicator_.on_root([&] {
+        const auto [slide_x, slide_y] = interface.place();
+        const auto put_number = [&](const char* name, double value) {
+            append_member(*journal_, attribute, name, {}, std::span<const double>(&value, 1));
+        };
+        put_number("reference_height", interface.reference_height());
+        if (slide_x != 0.0 || slide_y != 0.0) {
+            put_number("slide_x", slide_x);
+            put_number("slide_y", slide_y);
+        }
+        density.append_to(*journal_);
+    });
 }
 
 void Recorder::stresses(const std::string& state, const VectorPlane<const double>& layer,
                         const ProcessGrid& grid, const Interface& interface,
                         const BlockOptions& block, const StressOptions& options) {
     const InterfaceMaps maps = interface.maps(layer);
-    std::vector<double> pressure = whole(communicator_, grid, maps.pressure);
-    std::vector<double> gap = whole(communicator_, grid, maps.gap);
+    const Tile tile = grid.tile(0);
+    const auto whole = [&](const std::vector<double>& map) {
+        return gather_plane(communicator_, grid, 0, view_of(map, tile));
+    };
+    std::vector<double> pressure = whole(maps.pressure), gap = whole(maps.gap);
     const std::vector<double> z = gather_plane(communicator_, grid, 0, layer.z);
     const bool slid = interface.place() != std::array<double, 2>{};
     communicator_.on_root([&] {
-        crop_map(pressure, grid.tile(0).sites, interface.sites_across());
+        crop_map(pressure, tile.sites, interface.sites_across());
         if (slid) // the wall below each site, to a constant
             for (std::size_t i = 0; i < gap.size(); ++i)
                 gap[i] = z[i] - gap[i];
@@ -244,133 +397,68 @@ void Recorder::stresses(const std::string& state, const VectorPlane<const double
             slid && options.friction == 0.0 ? with_slopes(block, std::move(pressure), gap)
                                             : with_friction(std::move(pressure), options.friction),
             options);
-        io::PayloadWriter entry;
-        put_group(entry, "/stress/" + state, true);
+        append_group(*journal_, "/stress/" + state, true);
         for (const StressArray& array : record.arrays)
-            put_member<float>(entry, data_set, array.name, array.shape, array.values);
+            append_member<float>(*journal_, data_set, array.name, array.shape, array.values);
         for (const auto& [name, value] : record.attributes)
-            put_member(entry, attribute, name, {}, std::span<const double>(&value, 1));
-        journal_->append(group_entry, entry.bytes());
+            append_member(*journal_, attribute, name, {}, std::span<const double>(&value, 1));
     });
 }
-
-io::PayloadWriter Recorder::entry_of_fields(const std::string& state,
-                                            const VectorPlane<const double>& layer,
-                                            const Communicator& ranks, const ProcessGrid& grid,
-                                            const Interface& interface, const BlockOptions& block) {
-    const InterfaceMaps maps = interface.maps(layer);
-    const int across = grid.tile(0).sites, inner = interface.sites_across();
-    const auto n = static_cast<std::uint64_t>(inner);
-    io::PayloadWriter entry;
-    ranks.on_root([&] {
-        entry.reserve(4096 + state.size() + 57 * n * n);
-        put_group(entry, "/fields/" + state, true);
-    });
-    std::vector<double> gap;                                                 // on the root
-    const auto put = [&](const char* name, const std::vector<double>& map) { // one at a time
-        ranks.on_root([&] { put_member<double>(entry, data_set, name, {n, n}, map); });
-    };
-    const auto of_box = [&](std::vector<double> map) {
-        ranks.on_root([&] { crop_map(map, across, inner); });
-        return map;
-    };
-    gap = of_box(whole(ranks, grid, maps.gap));
-    put("gap", gap);
-    const std::vector<double> pressure = of_box(whole(ranks, grid, maps.pressure));
-    put("pressure", pressure);
-    if (block.counter)
-        ranks.on_root([&] {
-            std::vector<double> u = surface_displacement(block.counter_block(), pressure);
-            for (double& z : u)
-                z *= -units::gigapascal; // the pressure is in GPa, and pushes down
-            put_member<double>(entry, data_set, "u_z_counter", {n, n}, u);
-        });
-    put("distance", of_box(whole(ranks, grid, maps.distance)));
-    if (interface.yielding_wall()) {
-        put("set", of_box(whole(ranks, grid, maps.set)));
-        put("yielded_height", of_box(whole(ranks, grid, maps.yielded_heights)));
-    }
-    for (const auto& [name, values] : maps.of_sites)
-        put(name.c_str(), of_box(whole(ranks, grid, values)));
-    put("u_x", of_box(gather_plane(ranks, grid, 0, layer.x)));
-    put("u_y", of_box(gather_plane(ranks, grid, 0, layer.y)));
-    put("u_z", of_box(gather_plane(ranks, grid, 0, layer.z)));
-    const auto touching = of_box(whole(ranks, grid, {maps.contact.begin(), maps.contact.end()}));
-    ranks.on_root([&] {
-        const std::vector<std::uint8_t> contact(touching.begin(), touching.end());
-        put_member<std::uint8_t>(entry, data_set, "contact", {n, n}, contact);
-        const auto [slide_x, slide_y] = interface.place();
-        const auto put_number = [&](const char* name, double value) {
-            put_member(entry, attribute, name, {}, std::span<const double>(&value, 1));
-        };
-        put_number("reference_height", interface.reference_height());
-        if (slide_x != 0.0 || slide_y != 0.0) {
-            put_number("slide_x", slide_x);
-            put_number("slide_y", slide_y);
-        }
-        put_gap_density(entry, std::move(gap));
-    });
-    return entry;
-}
-
-namespace {
-
-std::array<std::vector<double>, 3> whole_layer(const Communicator& ranks, const ProcessGrid& grid,
-                                               const VectorPlane<const double>& layer) {
-    return {gather_plane(ranks, grid, 0, layer.x), gather_plane(ranks, grid, 0, layer.y),
-            gather_plane(ranks, grid, 0, layer.z)};
-}
-
-} // namespace
 
 void Recorder::frame(const Path& path, bool velocities) {
     const StepRecord& now = path.now();
-    std::array<std::vector<double>, 3> u = whole_layer(communicator_, path.grid(), path.layer()), v;
-    for (std::size_t axis : {0u, 1u}) // positions are over the substrate
-        if (const double place = now.slide[axis]; place != 0.0)
-            for (double& x : u[axis])
-                x += place;
-    if (velocities) v = whole_layer(communicator_, path.grid(), path.velocities());
+    const BlockOptions& block = path.scene_case().simulation.block;
+    const auto sites = static_cast<std::size_t>(block.sites);
+    const double edge = block.sites * block.spacing;
+    const double height = 2.0 * path.interface().start_height() + // room for both ends
+                          block.thickness * block.spacing;
+    std::array<float, 9> edges{}; // a matrix
+    edges[0] = edges[4] = static_cast<float>(edge);
+    edges[8] = static_cast<float>(height);
+    const std::int64_t step = now.step;
+    const double time = now.time * 1e-3; // ps
+    /// Appends the time of the values of an element.
+    const auto put_time = [&](const std::string& name) {
+        append_member(*journal_, growing, name + "/step", {0}, std::span(&step, 1));
+        append_member(*journal_, growing, name + "/time", {0}, std::span(&time, 1), "ps");
+    };
     communicator_.on_root([&] {
-        const BlockOptions& block = path.scene_case().simulation.block;
-        const auto sites = static_cast<std::size_t>(block.sites);
-        std::vector<float> position(3 * sites * sites), velocity;
-        for (std::size_t i = 0; i < sites * sites; ++i) {
-            // Sites stand over the hollows of the substrate (docs/explanation/model.md).
-            const std::array<double, 3> rest = {
-                (static_cast<double>(i % sites) + 0.5) * block.spacing,
-                (static_cast<double>(i / sites) + 0.5) * block.spacing,
-                path.interface().reference_height()};
-            for (std::size_t c = 0; c < 3; ++c)
-                position[3 * i + c] = static_cast<float>(rest[c] + u[c][i]);
-        }
-        if (velocities) {
-            velocity.resize(position.size());
-            for (std::size_t i = 0; i < sites * sites; ++i)
-                for (std::size_t c = 0; c < 3; ++c)
-                    velocity[3 * i + c] = static_cast<float>(1e3 * v[c][i]); // Å/fs to Å/ps
-        }
-        const double edge = block.sites * block.spacing;
-        const double height = 2.0 * path.interface().start_height() + // room for both ends
-                              block.thickness * block.spacing;
-        std::array<float, 9> edges{}; // a matrix
-        edges[0] = edges[4] = static_cast<float>(edge);
-        edges[8] = static_cast<float>(height);
-        const std::int64_t step = now.step;
-        const double time = now.time * 1e-3; // ps
-        io::PayloadWriter entry;
-        put_group(entry, io::trajectory, false);
-        const auto put = [&](const std::string& name, const char* unit, io::Hdf5File::Shape shape,
-                             std::span<const float> values) {
-            put_member(entry, growing, name + "/value", shape, values, unit);
-            put_member(entry, growing, name + "/step", {0}, std::span(&step, 1));
-            put_member(entry, growing, name + "/time", {0}, std::span(&time, 1), "ps");
-        };
-        put("box/edges", "Angstrom", {0, 3, 3}, edges);
-        put("position", "Angstrom", {0, sites * sites, 3}, position);
-        if (velocities) put("velocity", "Angstrom ps-1", {0, sites * sites, 3}, velocity);
-        journal_->append(group_entry, entry.bytes());
+        append_group(*journal_, io::trajectory, false);
+        append_member<float>(*journal_, growing, "box/edges/value", {0, 3, 3}, edges, "Angstrom");
+        put_time("box/edges");
     });
+    /// Appends a vector for each site in bands: value(component, site, the layer's number).
+    const auto put = [&](const std::string& name, const char* unit,
+                         const VectorPlane<const double>& layer, const auto& value) {
+        communicator_.on_root([&] {
+            begin_member<float>(*journal_, growing, name + "/value", {0, sites * sites, 3},
+                                3 * sites * sites, unit);
+        });
+        const std::array planes = {layer.x, layer.y, layer.z};
+        gather_bands(
+            communicator_, path.grid(), 0, planes, [&](int first, std::span<const double> band) {
+                const std::size_t count = band.size() / 3;
+                std::vector<float> vectors(band.size());
+                for (std::size_t i = 0; i < count; ++i)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        vectors[3 * i + c] = static_cast<float>(value(
+                            c, static_cast<std::size_t>(first) * sites + i, band[c * count + i]));
+                journal_->add(std::as_bytes(std::span(std::as_const(vectors))));
+            });
+        communicator_.on_root([&] { put_time(name); });
+    };
+    put("position", "Angstrom", path.layer(), [&](std::size_t c, std::size_t site, double u) {
+        // Sites stand over the hollows of the substrate (docs/explanation/model.md), and positions
+        // are over the substrate.
+        const std::array<double, 3> rest = {
+            (static_cast<double>(site % sites) + 0.5) * block.spacing,
+            (static_cast<double>(site / sites) + 0.5) * block.spacing,
+            path.interface().reference_height()};
+        return rest[c] + (c < 2 && now.slide[c] != 0.0 ? u + now.slide[c] : u);
+    });
+    if (velocities)
+        put("velocity", "Angstrom ps-1", path.velocities(),
+            [](std::size_t, std::size_t, double v) { return 1e3 * v; }); // Å/fs to Å/ps
 }
 
 Recorder::Position Recorder::position() {
@@ -411,9 +499,12 @@ void Recorder::build() {
     io::Hdf5File file({directory_, io::run_file::series}, io::Hdf5File::Mode::create);
     io::write_h5md_head(file);
     write_substrate(file, surface_);
-    journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
-        io::PayloadReader entry(payload);
-        if (kind == group_entry) write_group(file, entry);
+    std::string group;
+    journal_->replay([&](std::uint64_t kind, io::PayloadReader entry) {
+        if (kind == rows_entry) return;
+        if (kind == group_entry) group = group_of(file, entry);
+        while (!entry.at_end())
+            write_member(file, group, entry);
     });
     if (file.exists(io::trajectory)) io::describe_trajectory(file);
     const auto all = series();
@@ -434,11 +525,11 @@ std::map<std::string, std::vector<double>> Recorder::series() const {
     std::vector<std::vector<double>*> columns;
     for (const SeriesColumn* c : columns_)
         columns.push_back(&all[c->name()]);
-    journal_->replay([&](std::uint64_t kind, io::Bytes payload) {
-        io::PayloadReader entry(payload);
-        while (kind == rows_entry && !entry.at_end())
-            for (std::vector<double>* column : columns)
-                column->push_back(entry.get<double>());
+    journal_->replay([&](std::uint64_t kind, io::PayloadReader entry) {
+        if (kind != rows_entry) return;
+        const std::vector<double> rows = entry.rest<double>();
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            columns[i % columns.size()]->push_back(rows[i]);
     });
     return all;
 }

@@ -59,14 +59,9 @@ public:
     /// Returns the number of rows so far.
     std::uint64_t rows() const { return rows_; }
     /// Appends the maps of a state (gap, pressure, contact, displacement) and the distribution of
-    /// gaps P(u). Each name may be used once.
+    /// gaps P(u), in bands (decomposition/plane_bands.hpp).
     void fields(const std::string& state, const VectorPlane<const double>& layer,
                 const ProcessGrid& grid, const Interface& interface, const BlockOptions& block);
-    /// Returns the entry that fields() appends to the journal, on the root. Collective.
-    static io::PayloadWriter entry_of_fields(const std::string& state,
-                                             const VectorPlane<const double>& layer,
-                                             const Communicator& ranks, const ProcessGrid& grid,
-                                             const Interface& interface, const BlockOptions& block);
     /// Appends the stresses below a state whose maps were appended last (output.stress).
     void stresses(const std::string& state, const VectorPlane<const double>& layer,
                   const ProcessGrid& grid, const Interface& interface, const BlockOptions& block,

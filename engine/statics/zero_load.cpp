@@ -3,7 +3,7 @@
 #include "engine/statics/zero_load.hpp"
 
 #include "decomposition/global_sum.hpp"
-#include "decomposition/halo_exchange.hpp"
+#include "decomposition/plane_bands.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
 
@@ -96,12 +96,6 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     const ProcessGrid slabs =
         ProcessGrid::slabs(ranks.size(), ranks.rank(), c.simulation.block.sites);
     const auto components = [](const auto& field) { return std::array{field.x, field.y, field.z}; };
-    /// One component of a layer, from tiles to slabs or back.
-    const auto move = [&](const ProcessGrid& from, const PlaneView<const double>& u,
-                          const ProcessGrid& to, const PlaneView<double>& v) {
-        std::vector<double> whole = gather_plane(ranks, from, 0, u); // on the root
-        scatter_plane(ranks, to, 0, whole, v);
-    };
     SpectralBlock block(c.simulation.block, ranks);
     InterfaceOptions options = c.simulation.interface;
     options.mixed_on_request = true;
@@ -109,15 +103,15 @@ LayerAtRest bring_to_rest(const Block& moving, const Surface& surface, double re
     interface.set_reference_height(reference_height);
     interface.slide_to(place[0], place[1]);
     for (std::size_t k = 0; k < 3; ++k)
-        move(moving.grid(), components(moving.lowest_layer())[k], slabs,
-             components(block.layer().plane(0))[k]);
+        move_plane(ranks, moving.grid(), components(moving.lowest_layer())[k], slabs,
+                   components(block.layer().plane(0))[k]);
     LayerAtRest found;
     found.numbers = find_zero_load(block, interface, 0.0, c, stop);
     if (!found.numbers) return found;
     found.layer = VectorField<double>(moving.levels().front().tile, 1);
     for (std::size_t k = 0; k < 3; ++k)
-        move(slabs, components(block.lowest_layer())[k], moving.grid(),
-             components(found.layer.plane(0))[k]);
+        move_plane(ranks, slabs, components(block.lowest_layer())[k], moving.grid(),
+                   components(found.layer.plane(0))[k]);
     return found;
 }
 

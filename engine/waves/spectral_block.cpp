@@ -57,7 +57,7 @@ void SpectralBlock::settle_branches() {
 }
 
 std::size_t SpectralBlock::bytes() const {
-    std::size_t sum = table_bytes() + layer_.bytes() + force_.bytes() + waves_.bytes();
+    std::size_t sum = table_.bytes() + layer_.bytes() + force_.bytes() + waves_.bytes();
     for (const std::unique_ptr<Memory>& memory : memories_)
         sum += memory->bytes();
     return memory_force_ ? sum + memory_force_->bytes() : sum;

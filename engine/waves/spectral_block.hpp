@@ -53,8 +53,6 @@ public:
             memory->accept();
     }
 
-    /// Returns the memory of the stiffness table, bytes; each rank has the whole table.
-    std::size_t table_bytes() const { return table_.bytes(); }
     /// Returns the memory of the block on this rank, bytes.
     std::size_t bytes() const;
 };

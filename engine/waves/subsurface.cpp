@@ -74,16 +74,17 @@ void put(Complex value, double* block, const Slab& slab, int component, int colu
     at[1] = value.imag();
 }
 
-/// Calls work(block, column, row, nx, ny) for every wave, with ny of both signs.
+/// Calls work(block, column, row, nx, ny) for every wave of this rank, with ny of both signs.
 template <class Work>
 void each_wave(const Slab& slab, const Work& work) {
     const int width = static_cast<int>(block_columns);
 #pragma omp parallel for schedule(dynamic)
-    for (int b = 0; b < slab.blocks(); ++b)
-        for (int column = 0; column < width && b * width + column < slab.columns(); ++column)
+    for (int b = 0; b < slab.blocks(); ++b) {
+        const int first = slab.first_column() + b * width;
+        for (int column = 0; column < std::min(width, slab.columns() - first); ++column)
             for (int row = 0; row < slab.sites; ++row)
-                work(b, column, row, b * width + column,
-                     2 * row > slab.sites ? row - slab.sites : row);
+                work(b, column, row, first + column, 2 * row > slab.sites ? row - slab.sites : row);
+    }
 }
 
 std::vector<SolidLayer> solid_of(const BlockOptions& block) {
@@ -407,15 +408,12 @@ StressSearch search_stresses(const BlockOptions& block, const SurfaceTractions& 
     return search;
 }
 
-std::vector<double> surface_displacement(const BlockOptions& block,
-                                         const std::vector<double>& pressure) {
-    const int n = block.sites;
-    const Slab slab(block.grid(), Communicator());
+void displace_surface(const BlockOptions& block, const Slab& slab, SiteField<double>& field) {
     const StiffnessTable table(block, slab, true);
     const SurfaceTransform<double> transform(slab, 1);
-    SiteField<double> field = site_field<double>(slab, 1);
-    for (int y = 0; y < n; ++y)
-        std::copy_n(pressure.begin() + y * n, n, field[0].plane(0).line(y));
+    for (int y = 0; y < slab.rows; ++y) // no solid is below the sites around the box
+        std::fill(field[0].plane(0).line(y) + (slab.first + y < block.sites ? block.sites : 0),
+                  field[0].plane(0).line(y) + slab.sites, 0.0);
     Waves<double> waves(slab, 1);
     to_waves(field, transform, waves);
     const double force = block.spacing * block.spacing / (1.0 * slab.sites * slab.sites);
@@ -426,10 +424,6 @@ std::vector<double> surface_displacement(const BlockOptions& block,
             column, row);
     });
     to_sites(waves, transform, field);
-    std::vector<double> u;
-    for (int y = 0; y < n; ++y)
-        u.insert(u.end(), field[0].plane(0).line(y), field[0].plane(0).line(y) + n);
-    return u;
 }
 
 } // namespace asperity

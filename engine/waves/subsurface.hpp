@@ -107,10 +107,9 @@ struct StressSearch {
     std::vector<std::array<double, 3>> largest;
 };
 
-/// Returns the displacement of the surface of a block into the block by a pressure on the sites of
-/// its box, [y * n + x], Å for a pressure in eV/Å^3; the far end is held.
-std::vector<double> surface_displacement(const BlockOptions& block,
-                                         const std::vector<double>& pressure);
+/// Replaces a pressure on the sites of the grid in this rank's slab, eV/Å^3, by the displacement of
+/// the surface of a block into the block, Å; the far end is held. Collective.
+void displace_surface(const BlockOptions& block, const Slab& slab, SiteField<double>& field);
 
 /// Searches the largest stresses between half a spacing and half the edge of the box below the
 /// surface, or up to 0.999 of the block's thickness.

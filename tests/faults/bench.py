@@ -20,6 +20,8 @@ byte for byte, and result.json in all but times and counts of its `run` section.
     two        two runs in one directory; a killed run started again; the lock of another host
     memory     a limit on memory
     ranks      one of two MPI ranks killed, or stopped (SIGSTOP) for a while or for good; --long only
+    cluster    four and eight ranks as on nodes of their own: a limit on the memory of each, one of them killed and
+               the run resumed on others, a slow directory; --long only
 """
 
 import contextlib
@@ -52,6 +54,8 @@ KINDS = {
     "dynamic": [],
     "thermostat": ["drive.temperature=300"],
     "quasistatic": ["drive.mode=quasistatic", "output.trajectory=none", "drive.displacement_step=0.4"],
+    "wall": ["drive.mode=quasistatic", "drive.path=relax", "interface.kind=wall", "surface.sites=512", "surface.rms=2",
+             "output.trajectory=none", "output.checkpoint=60", 'output.fields=["relaxed"]'],
 }
 # The words that start ranks, as CMake found them.
 MPIRUN = os.environ.get("ASPERITY_MPIRUN", "mpirun --oversubscribe --bind-to none").split()
@@ -96,8 +100,10 @@ class Bench:
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=900, **options)
 
     def start(self, out, kind="dynamic", extra=(), ranks=1, **options):
-        return subprocess.Popen(self.command(out, kind, extra, ranks), env=ENVIRONMENT, text=True,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+        child = subprocess.Popen(self.command(out, kind, extra, ranks), env=ENVIRONMENT, text=True,
+                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **options)
+        child.out, child.ranks = out, ranks
+        return child
 
     def reference(self, kind):
         """The undisturbed run: its bytes and numbers, and how long it took."""
@@ -449,15 +455,82 @@ class Bench:
 
     def ranks_of(self, child):
         """The processes of a run that mpirun has started, when it has begun to record."""
+        few = child.ranks
         while child.poll() is None:
             found = [child.pid]
             while len(found) == 1:  # MPICH's mpirun has a process between
                 with open(f"/proc/{found[0]}/task/{found[0]}/children") as file:
                     found = [int(word) for word in file.read().split()]
-            if len(found) == 2 and os.path.exists(os.path.join(child.out, "run.journal")):
+            if len(found) == few and os.path.exists(os.path.join(child.out, "run.journal")):
                 return found
             time.sleep(0.001)
         return []
+
+    def have_ended(self, ranks):
+        """Whether the ranks have ended within a minute: mpirun ends before they do."""
+        give_up = time.monotonic() + 60.0
+        while any(os.path.exists(f"/proc/{rank}") for rank in ranks):
+            if time.monotonic() > give_up:
+                self.fail(f"processes {ranks} are left")
+                return False
+            time.sleep(0.01)
+        return True
+
+    def test_cluster(self):
+        import resource
+        if not shutil.which(MPIRUN[0]):
+            return "skipped: there is no mpirun"
+        found, out = [], self.out("cluster")
+
+        def limited(megabytes):
+            return lambda: resource.setrlimit(resource.RLIMIT_DATA, (megabytes << 20, resource.RLIM_INFINITY))
+
+        # Each rank has the least memory of its own in which a run of few sites goes on, and some for its part of the sites.
+        bare = next(m for m in range(16, 1024, 16) if self.bare_run(out, limited(m)))
+        most = bare + 40
+        alone = self.run(out, "wall", preexec_fn=limited(most))
+        if self.ended_well(alone, [EXIT_SCENE], "a run that is too large for one process") and "ulimit -d" not in alone.stdout:
+            self.fail(f"too little memory for one process: {alone.stdout[-300:]}")
+        shutil.rmtree(out, ignore_errors=True)
+        for ranks in (4, 8):
+            done = self.run(out, "wall", ranks=ranks, preexec_fn=limited(most))
+            if done.returncode != 0:
+                self.fail(f"{most} MB for each of {ranks} ranks: exit {done.returncode}: {done.stdout[-600:]}")
+                continue
+            data, result, _ = self.outcome(out)
+            if (data, result) != self.reference("wall")[:2]:
+                self.fail(f"other bits with {most} MB for each of {ranks} ranks")
+            shutil.rmtree(out)
+            found.append(f"{ranks} ranks within {most} MB each")
+        for kind in ("dynamic", "quasistatic"):
+            for ranks, others in ((4, 8), (8, 4), (4, 1)):
+                child = self.start(out, kind, ranks=ranks)
+                processes = self.ranks_of(child)
+                time.sleep(self.random.uniform(0.0, 1.0) * self.reference(kind)[3])
+                with contextlib.suppress(IndexError, ProcessLookupError):  # it has ended
+                    os.kill(self.random.choice(processes), signal.SIGKILL)
+                text = child.communicate(timeout=900)[0]
+                if child.returncode != 0 and "killed" not in text.lower() and "signal 9" not in text.lower():
+                    self.fail(f"a rank of {ranks} killed ({kind}): exit {child.returncode}: {text[-600:]}")
+                if not self.have_ended(processes):
+                    return "ended: a process that is left would disturb what follows"
+                if self.resumes(out, kind, f"a rank of {ranks} killed ({kind})", others):
+                    found.append(f"{ranks} -> {others}")
+                shutil.rmtree(out, ignore_errors=True)
+        done = self.run(out, "quasistatic", ranks=4, fault=(20, "slow"))
+        if self.ended_well(done, [0], "a slow directory"):
+            data, result, _ = self.outcome(out)
+            if (data, result) != self.reference("quasistatic")[:2]:
+                self.fail("other bits in a slow directory")
+            found.append("20 ms for each call of the directory")
+        shutil.rmtree(out, ignore_errors=True)
+        return "; ".join(found)
+
+    def bare_run(self, out, limit):
+        """Whether four ranks have enough memory for a surface of few sites."""
+        done = self.run(out, "wall", ["--set", "surface.sites=32"], ranks=4, preexec_fn=limit)
+        shutil.rmtree(out, ignore_errors=True)
+        return done.returncode == 0
 
     def test_ranks(self):
         if not shutil.which(MPIRUN[0]):
@@ -466,7 +539,6 @@ class Bench:
         for i in range(20 if self.long else 2):
             what, out = ("killed", "stopped and continued", "stopped, then mpirun ended")[i % 3], self.out("rank")
             child = self.start(out, ranks=2)
-            child.out = out
             ranks = self.ranks_of(child)
             time.sleep(self.random.uniform(0.0, 0.5) * self.reference("dynamic")[3])
             total += 1
@@ -484,13 +556,8 @@ class Bench:
             text = child.communicate(timeout=900)[0]
             if what == "stopped and continued" and child.returncode != 0:
                 self.fail(f"rank {what}: exit {child.returncode}: {text[-600:]}")
-            # mpirun ends before its ranks do.
-            give_up = time.monotonic() + 60.0
-            while any(os.path.exists(f"/proc/{rank}") for rank in ranks):
-                if time.monotonic() > give_up:
-                    self.fail(f"rank {what}: processes {ranks} are left")
-                    return "ended: a process that is left would disturb what follows"
-                time.sleep(0.01)
+            if not self.have_ended(ranks):
+                return "ended: a process that is left would disturb what follows"
             good += self.resumes(out, what=f"rank {what}", ranks=1 + i % 2)
             shutil.rmtree(out, ignore_errors=True)
         return f"{good} of {total} resumed to the same bits"
@@ -503,7 +570,7 @@ def main():
     bench = Bench(program, library, long)
     tests = ["calls", "kills", "kinds", "file-size", "full-disk", "damage", "signals", "directory", "two", "memory"]
     if long:
-        tests.append("ranks")
+        tests += ["ranks", "cluster"]
     try:
         for name in names or tests:
             start = time.monotonic()

@@ -8,7 +8,8 @@
 //     ASPERITY_FAULT_AT      n, from 1; 0: none
 //     ASPERITY_FAULT_HOW     an error number: that call alone; negative: that call and all after it
 //                            that would write; kill: SIGKILL just before the call;
-//                            half: a write takes half of its bytes, then SIGKILL
+//                            half: a write takes half of its bytes, then SIGKILL;
+//                            slow: none fails, and each takes n milliseconds longer
 //     ASPERITY_FAULT_LOG     a file that gets a line for each call counted ("3 pwrite run.journal")
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -72,6 +73,11 @@ static enum fate decide(const char* call, const char* what, int writes) {
     errno = before;
     const char *at = getenv("ASPERITY_FAULT_AT"), *how = getenv("ASPERITY_FAULT_HOW");
     if (!at || !how || atol(at) == 0) return go_on;
+    if (strcmp(how, "slow") == 0) {
+        usleep(1000 * (useconds_t)atol(at));
+        errno = before;
+        return go_on;
+    }
     const int error = atoi(how);
     if (error < 0 ? n < atol(at) || (n > atol(at) && !writes) : n != atol(at)) return go_on;
     if (strcmp(how, "kill") == 0) kill(getpid(), SIGKILL);

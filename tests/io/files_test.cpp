@@ -104,9 +104,10 @@ TEST(OutputFile, AFullDiskKeepsTheOldFile) {
     const auto write = [&](const std::vector<double>& data) {
         Hdf5File file(path, Hdf5File::Mode::create);
         file.write<double>("/x", {data.size()}, data);
-        file.make_dataset<double>("/s", {0});
+        file.make_dataset<double>("/s", {0, 100});
         for (int i = 0; i < 100; ++i)
-            file.append<double>("/s", std::span(data).first(100));
+            file.write_slab<double>("/s", {file.extend("/s"), 0}, {1, 100},
+                                    std::span(data).first(100));
         file.close();
     };
     write(old);
@@ -179,8 +180,9 @@ TEST(Journal, IsCutAndCheckedByItsMark) {
         EXPECT_EQ(journal.mark().digest, mark.digest);
         journal.append(3, bytes("again"));
         std::vector<std::string> found;
-        journal.replay([&](std::uint64_t, Bytes payload) {
-            found.emplace_back(reinterpret_cast<const char*>(payload.data()), payload.size());
+        journal.replay([&](std::uint64_t, PayloadReader payload) {
+            const std::vector<char> text = payload.rest<char>();
+            found.emplace_back(text.begin(), text.end());
         });
         ASSERT_EQ(found.size(), 101u);
         EXPECT_EQ(found[42], "record 42");
@@ -205,8 +207,31 @@ TEST(Journal, ARecordThatFailedIsNotForgotten) {
     }
     EXPECT_THROW(journal.append(1, bytes("third")), FileError);
     int records = 0;
-    journal.replay([&](std::uint64_t, Bytes) { ++records; });
+    journal.replay([&](std::uint64_t, const PayloadReader&) { ++records; });
     EXPECT_EQ(records, 1);
+}
+
+TEST(Journal, TakesAnEntryInPartsAndGivesItInParts) {
+    const Scratch scratch;
+    Journal journal(Directory::make(scratch / "d"), "j");
+    journal.append(1, bytes("first"));
+    const Journal::Mark before = journal.mark();
+    journal.begin(2, 6);
+    journal.add(bytes("abc"));
+    EXPECT_EQ(journal.mark().bytes, before.bytes) << "half an entry is none";
+    EXPECT_THROW(journal.add(bytes("defg")), std::logic_error);
+    journal.add(bytes("def"));
+    std::string found;
+    journal.replay([&](std::uint64_t kind, PayloadReader payload) {
+        if (kind != 2) return;
+        for (; !payload.at_end(); found += payload.get<char>()) {
+            PayloadReader ahead = payload;
+            found += static_cast<char>(ahead.rest<char>().back());
+        }
+        EXPECT_THROW(payload.get<char>(), FileError);
+    });
+    EXPECT_EQ(found, "fafbfcfdfeff");
+    EXPECT_TRUE(Journal::holds(Directory::make(scratch / "d"), "j", journal.mark()));
 }
 
 } // namespace

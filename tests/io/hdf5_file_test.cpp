@@ -123,13 +123,18 @@ TEST(Hdf5File, GrowingRows) {
     file.make_dataset<float>("/frames/f", {0, 2, 2});
     for (int i = 0; i < 5; ++i) {
         const float x = static_cast<float>(i);
-        file.append<float>("/s", std::vector<float>{x, x});
-        file.append<float>("/frames/f", std::vector<float>{x, x, x, x});
+        file.write_slab<float>("/s", {file.extend("/s")}, {1}, std::vector<float>{x});
+        const std::uint64_t frame = file.extend("/frames/f");
+        for (std::uint64_t y = 0; y < 2; ++y) // in parts
+            file.write_slab<float>("/frames/f", {frame, y, 0}, {1, 1, 2}, std::vector<float>{x, x});
     }
-    EXPECT_EQ(file.shape("/s"), Hdf5File::Shape{10});
+    EXPECT_EQ(file.shape("/s"), Hdf5File::Shape{5});
     EXPECT_EQ(file.shape("/frames/f"), (Hdf5File::Shape{5, 2, 2}));
     EXPECT_EQ(file.read<float>("/frames/f").back(), 4.0f);
-    EXPECT_THROW(file.append<float>("/frames/f", std::vector<float>{1, 2, 3}), FileError);
+    EXPECT_THROW(
+        file.write_slab<float>("/frames/f", {5, 0, 0}, {1, 2, 2}, std::vector<float>{1, 2, 3, 4}),
+        FileError)
+        << "behind the last row";
 }
 
 TEST(Hdf5File, ErrorsNameFileObjectAndCause) {

@@ -5,6 +5,7 @@
 // every rank knows what every other must have sent; copies are compared bit for bit.
 #include "decomposition/field.hpp"
 #include "decomposition/halo_exchange.hpp"
+#include "decomposition/plane_bands.hpp"
 #include "support/message.hpp"
 #include "support/world.hpp"
 
@@ -95,10 +96,18 @@ TEST_P(Boxes, PlanesAreGatheredAndScattered) {
                      mark(0, level, static_cast<int>(k % sites), static_cast<int>(k / sites), 1);
         EXPECT_EQ(wrong, 0);
 
-        for (double& d : dense)
-            d += 1.0;
         const auto back = s.fields[i].plane(0);
-        scatter_plane(world(), s.grid, level, dense, back);
+        scatter_bands(
+            world(), s.grid, level,
+            [&](int first, std::span<double> band) {
+                std::transform(
+                    dense.begin() +
+                        static_cast<std::ptrdiff_t>(static_cast<std::size_t>(first) * sites),
+                    dense.begin() + static_cast<std::ptrdiff_t>(
+                                        static_cast<std::size_t>(first) * sites + band.size()),
+                    band.begin(), [](double d) { return d + 1.0; });
+            },
+            back);
         wrong = 0;
         for (int y = 0; y < t.ny; ++y)
             for (int x = 0; x < t.nx; ++x)

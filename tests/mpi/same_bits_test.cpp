@@ -11,6 +11,7 @@
 // + 11 + 11 rows, odd offsets) and hold the other two whole. Deep: five levels down to 2 x 2 nodes;
 // two and four ranks cut four of them and hold the last one whole.
 #include "decomposition/halo_exchange.hpp"
+#include "decomposition/plane_bands.hpp"
 #include "support/cases.hpp"
 #include "support/threads.hpp"
 #include "support/world.hpp"

@@ -3,6 +3,7 @@
 #include "support/cases.hpp"
 
 #include "decomposition/halo_exchange.hpp"
+#include "decomposition/plane_bands.hpp"
 #include "engine/case/potential_table.hpp"
 #include "engine/units.hpp"
 
