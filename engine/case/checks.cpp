@@ -166,6 +166,37 @@ void check_thickness(const Scene& scene, const char* key,
                         sum + std::max(1.0, 0.5 * scene.surface.sites)));
 }
 
+/// Checks that the stiffnesses of a viscoelastic block and of an elastic second solid have one
+/// ratio for all waves, so that both relax as one solid with branches of its own
+/// (branches_in_series()).
+void check_series(const Case& c, io::Problems& problems) {
+    const BlockOptions& block = c.simulation.block;
+    if (block.branches.empty() || !block.counter) return;
+    constexpr const char* why =
+        "two solids relax as one only if their stiffnesses have the same ratio for all waves";
+    if (block.is_coated())
+        problems.add("block.prony",
+                     "against an elastic surface.counter, with layers or a surface stress", why,
+                     "leave the layers and surface stresses of both solids out, or leave prony "
+                     "out");
+    const bool half_spaces = block.free_edges && block.continuum;
+    if (!half_spaces && block.poisson != block.counter->poisson)
+        problems.add(
+            "block.prony",
+            fmt::format("against a surface.counter of another Poisson's ratio, {:.6g} instead of "
+                        "{:.6g}",
+                        block.counter->poisson, block.poisson),
+            fmt::format("{}, and solids as thick as block.thickness have it if their Poisson's "
+                        "ratios are equal",
+                        why),
+            fmt::format("take surface.counter_poisson = {:.6g} and surface.counter_young = {:.6g}, "
+                        "which has the same E*, or leave counter_young and counter_poisson out, or "
+                        "leave prony out",
+                        block.poisson,
+                        block.counter->contact_modulus() * (1.0 - block.poisson * block.poisson) /
+                            units::gigapascal));
+}
+
 /// Checks the layers and the surface stress of the block.
 void check_layers(const Case& c, io::Problems& problems) {
     const Scene& scene = c.scene;
@@ -176,6 +207,7 @@ void check_layers(const Case& c, io::Problems& problems) {
                      "branches relax the whole stiffness of a wave, and the tension of a surface "
                      "does not relax",
                      "leave surface_stress or prony out");
+    check_series(c, problems);
     check_thickness(scene, "block.layers", block.layers, problems);
     if (scene.surface.counter.is_elastic())
         check_thickness(scene, "surface.counter_layers", scene.surface.counter.layers, problems);

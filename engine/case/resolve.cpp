@@ -5,6 +5,7 @@
 #include "engine/case/spacing_limits.hpp"
 #include "engine/case/wall_shape.hpp"
 
+#include "engine/options/branches_in_series.hpp"
 #include "engine/scene/parse_path.hpp"
 #include "engine/units.hpp"
 #include "io/error.hpp"
@@ -137,6 +138,8 @@ BlockOptions block_of(const Scene& scene, bool dynamic) {
         block.counter->young = *counter.young * units::gigapascal;
         block.counter->poisson = counter.poisson;
         coat(*block.counter, counter.layers, counter.surface_stress);
+        const double own = block.Solid::contact_modulus(), other = block.counter->contact_modulus();
+        block.branches = branches_in_series(block.branches, own / (own + other));
     }
     block.top_spring = {scene.drive.stiffness.value_or(0.0) * units::newton_per_metre,
                         scene.drive.mass.value_or(0.0) * units::atomic_mass};

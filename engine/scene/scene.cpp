@@ -381,11 +381,6 @@ io::Schema bind(Scene& scene) {
     prony.needs = {needs.refusing(needs.equilibria, "on a dynamic path",
                                   "only the block of a quasi-static path can be viscoelastic",
                                   "take drive.mode = \"quasistatic\", or leave prony out"),
-                   needs.refusing({[&scene] { return !scene.surface.counter.is_elastic(); }, ""},
-                                  "against an elastic surface.counter",
-                                  "branches relax all of the stiffness of a wave, and that of two "
-                                  "solids is not one of the block's branches",
-                                  "take counter_young = \"rigid\", or leave prony out"),
                    {[&scene] { return !scene.only_relaxes(); },
                     "drive.path is one relaxation, and its state is the relaxed one"}};
     constexpr const char* at_rest = "only the block of a quasi-static path, which is the waves of "

@@ -4,6 +4,8 @@
 // A viscoelastic block: the modulus in time, energies of a step, limits of slow and fast paths, a
 // layer on a spring that yields (integrated here on its own) and the loss of an oscillation, each
 // against its closed form.
+#include "engine/options/branches_in_series.hpp"
+
 #include "support/path_case.hpp"
 
 #include <gtest/gtest.h>
@@ -67,6 +69,45 @@ std::vector<StepRecord> lead(QuasistaticPath& path, double to) {
 }
 
 } // namespace
+
+/// Compliances add up at every frequency, 1/(S0 M) = 1/(S m) + 1/S', and the energy after a jump is
+/// that of the springs of both solids.
+TEST(Rate, BranchesOfTwoSolidsInSeries) {
+    const auto modulus = [](const std::vector<Branch>& branches, std::complex<double> s) {
+        std::complex<double> m = 1.0;
+        for (const auto& [ratio, time] : branches)
+            m += ratio * s * time / (1.0 + s * time);
+        return m;
+    };
+    for (const std::vector<Branch>& own :
+         {two, {{4.0, 30.0}}, {{1e-3, 1.0}, {500.0, 1.01}, {3.0, 1e6}}})
+        for (double share : {1e-6, 0.1, 0.5, 0.99}) {
+            const std::vector<Branch> both = branches_in_series(own, share);
+            ASSERT_EQ(both.size(), own.size());
+            for (std::size_t k = 0; k < own.size(); ++k) {
+                EXPECT_GT(both[k].time, own[k].time);
+                if (k + 1 < own.size()) {
+                    EXPECT_LT(both[k].time, own[k + 1].time);
+                }
+            }
+            for (double omega = 1e-9; omega < 1e4; omega *= 3.0) { // S = share, S' = 1 - share
+                const std::complex<double> s(0.0, omega), softness = 1.0 - share;
+                const std::complex<double> sum = softness / modulus(own, s) + share;
+                EXPECT_LT(std::abs(1.0 / modulus(both, s) - sum), 1e-12 * std::abs(sum)) << omega;
+            }
+        }
+    // One branch r S with a spring of extension h, after a jump by 1 of both solids.
+    const double r = 4.0, tau = 30.0, own = 0.3, other = 0.7, relaxed = own * other;
+    const Branch both = branches_in_series({{r, tau}}, own).front();
+    for (double t : {0.0, 5.0, 80.0}) {
+        const double left = std::exp(-t / both.time);
+        const double force = relaxed * (1.0 + both.ratio * left);
+        const double second = force / other, first = 1.0 - second, h = (force / own - first) / r;
+        EXPECT_NEAR(force * second + own * (first * first + r * h * h),
+                    relaxed * (1.0 + both.ratio * left * left), 1e-14)
+            << t;
+    }
+}
 
 /// Stretched at once and held, in steps of any length: E(t)/E = 1 + sum r exp(-t/tau).
 TEST(Rate, TheModulusFallsByItsSeries) {
