@@ -229,9 +229,9 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
 }
 
 /// Returns the tolerance at a point with this force: that of the load to which the segment leads,
-/// if the force comes down to it or nothing attracts before.
+/// if the force comes down to it.
 double QuasistaticPath::tolerance_at(double force) const {
-    const bool of_load = to_load() && (course_.direction > 0.0 || !options_.attracts());
+    const bool of_load = to_load() && course_.direction > 0.0;
     return tolerance_under(of_load ? std::max(force, load()) : force);
 }
 
@@ -304,8 +304,10 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
     if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
     if (step.of_energies) course_.work_left_out += step.gap;
-    // An extension that is wrong acts on with the larger ones that follow: twice.
-    course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
+    if (options_.reversible() && !interface_.yielding_wall()) // no memory keeps an error
+        course_.errors.end_at(step.gap);
+    else // An extension that is wrong acts on with the larger ones that follow: twice.
+        course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
     const double way = std::abs(at - this->at());
     if (step.uncertain > 0.0)
         course_.errors.add_instability(at, way, step.uncertain,

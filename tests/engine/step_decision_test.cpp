@@ -212,3 +212,17 @@ TEST(WorkErrors, CountWhatAnInstabilityMayTakeAlong) {
     EXPECT_NEAR(total(0.01), 1e-3 + std::sqrt(5 * 9e-8 + 4 * 4.0 * (0.01 / 0.5) * 4.0), 1e-9);
     EXPECT_LT(total(1e-4), 0.15 * total(0.01));
 }
+
+/// Where nothing is lost the works of steps are differences of energies: only the ends count, and
+/// the end of a segment is the beginning of the next.
+TEST(WorkErrors, OfAReversiblePathAreThoseOfItsEnds) {
+    WorkErrors errors;
+    errors.begin();
+    for (double error : {3.0, 50.0, 0.2, 1e-3})
+        errors.end_at(error);
+    EXPECT_DOUBLE_EQ(errors.total(), 1e-3);
+    errors.begin();
+    for (double error : {7.0, 2e-4})
+        errors.end_at(error);
+    EXPECT_DOUBLE_EQ(errors.total(), 1e-3 + 2e-4);
+}
