@@ -172,13 +172,20 @@ inline constexpr Quantity written_quantities[] = {
     {"jkr.relaxed", "meV/Å^2", per::contact,
      "work of adhesion by JKR from the binding energy at zero load instead of a pull-off force; "
      "not given under drive.load"},
-    {"contact_radius.relaxed", "Å", "", "√(contact area/π) of the state at zero load (spheres)"},
+    {"contact_radius.relaxed", "Å", "",
+     "√(contact area/π) of the state at zero load (spheres): of contact_area, or of "
+     "contact_fraction if there is none"},
+    {"contact_radius.uncertainty.relaxed", "Å", "",
+     "error of contact_radius.relaxed by the spacing, of contact_area_uncertainty"},
     {"contact_radius.pull_off", "Å", "",
-     "√(contact area/π) at the largest attraction of the pull-off (spheres)"},
+     "√(contact area/π) at the largest attraction of the pull-off (spheres); of counted sites, "
+     "without an error"},
     {"instrument.approach_force", "nN", per::block,
      "approach_force in units of instruments (spheres and boxes with free edges)"},
     {"instrument.pull_off_force", "nN", per::block, "pull_off_force in units of instruments"},
     {"instrument.contact_radius", "nm", "", "contact_radius.relaxed in units of instruments"},
+    {"instrument.contact_radius_uncertainty", "nm", "",
+     "contact_radius.uncertainty.relaxed in units of instruments"},
     {"instrument.energy_lost", "aJ", per::block, "dissipated.energy in units of instruments"},
     {"instrument.edge_distance", "nm", "",
      "smallest distance of a contact from a free edge of the box on the path (surface.boundary)"},
@@ -263,6 +270,8 @@ inline constexpr Quantity written_quantities[] = {
      "contact fraction at the end of the segment; on dynamic paths one step later"},
     {"segments[].contact_area", "1", per::area,
      "area in contact with a wall at the end of the segment, as contact_area; quasi-static"},
+    {"segments[].contact_area_uncertainty", "1", per::area,
+     "error of segments[].contact_area by the spacing, as contact_area_uncertainty"},
     {"segments[].yielding_fraction", "1", per::sites,
      "sites whose net pressure is the hardness (interface.hardness) within 0.1 %, at the end of "
      "the segment"},

@@ -110,24 +110,31 @@ constexpr MeshRule mesh_rules[] = {
     {"approach_force", "mesh_error.approach_force", 0.5, 0.3, 0.7},
     {"pull_off_force", "mesh_error.pull_off_force", 0.5, 0.45, 1.2}};
 
-/// Adds the errors by the spacing of a continuum over a wall. The rule takes edges of contacts from
-/// the state at zero load. No rule tells the error without edges, where single rows hold them, or
-/// of a surface that yields.
+/// Returns the relative error of a number by the spacing. counted, area: shares of the sites in
+/// contact and of the area. Returns nothing without edges, where single rows hold them, or for a
+/// surface that yields.
+std::optional<double> mesh_error(const MeshRule& rule, const Case& c, double counted, double area) {
+    if (!(counted > area) || !(area > 0.0)) return {};
+    if (c.edge_pinning > largest_edge_pinning || c.effects.yielding) return {};
+    const double edges = (counted - area) * c.sites() / excess_of_edge;
+    const double of_edges = contact_sites_error(edges) / (area * c.sites());
+    const double held =
+        (tension_ends_suddenly(c) ? rule.sudden : rule.pinning) * (c.edge_pinning - 1.0);
+    return std::hypot(rule.edges * of_edges, held);
+}
+
+/// Adds the errors by the spacing of a continuum over a wall, with edges of contacts of the state
+/// at zero load.
 void add_mesh_errors(const Case& c, io::Result& result) {
     const auto counted = result.number("contact_fraction"), area = result.number("contact_area");
-    if (!counted || !area || !(*counted > *area) || !(*area > 0.0)) return;
-    if (c.edge_pinning > largest_edge_pinning || c.effects.yielding) return;
-    const double edges = (*counted - *area) * c.sites() / excess_of_edge;
-    const double of_edges = contact_sites_error(edges) / (*area * c.sites());
-    const double pinning = c.edge_pinning - 1.0;
-    const bool ends_suddenly = tension_ends_suddenly(c);
+    if (!counted || !area) return;
     for (const MeshRule& rule : mesh_rules) {
         const auto value = result.number(rule.number);
         // Waves of a lattice are too soft: no rule tells the errors of its numbers.
         const bool of_lattice = !c.simulation.block.continuum;
         if (!value || (of_lattice && rule.number.name != "contact_area")) continue;
-        const double held = (ends_suddenly ? rule.sudden : rule.pinning) * pinning;
-        result.set(rule.error, std::abs(*value) * std::hypot(rule.edges * of_edges, held));
+        if (const auto error = mesh_error(rule, c, *counted, *area))
+            result.set(rule.error, std::abs(*value) * *error);
     }
 }
 
@@ -135,10 +142,18 @@ void add_mesh_errors(const Case& c, io::Result& result) {
 void add_sphere(const Case& c, io::Result& result) {
     const std::optional<double> radius = c.radius();
     if (!radius) return;
-    if (const auto fraction = result.number("contact_fraction"))
-        result.set("contact_radius.relaxed", c.edge() * std::sqrt(*fraction / std::numbers::pi));
-    if (const auto contact = result.number("contact_radius.relaxed"))
-        result.set("instrument.contact_radius", 0.1 * *contact);
+    auto area = result.number("contact_area");
+    if (!area) area = result.number("contact_fraction");
+    if (area) {
+        const double contact = c.edge() * std::sqrt(*area / std::numbers::pi);
+        result.set("contact_radius.relaxed", contact);
+        result.set("instrument.contact_radius", 0.1 * contact);
+        if (const auto error = result.number("contact_area_uncertainty")) {
+            const double of_radius = 0.5 * contact * *error / *area;
+            result.set("contact_radius.uncertainty.relaxed", of_radius);
+            result.set("instrument.contact_radius_uncertainty", 0.1 * of_radius);
+        }
+    }
     const bool pressed = c.starts_with(Segment::relax) && c.simulation.drive.load_force != 0.0;
     const auto binding = result.number("binding_energy");
     if (!binding || pressed || !c.effects.one_modulus()) return;
@@ -202,7 +217,12 @@ void add_segments(const PathResults& results, const Case& c, io::Result& result)
         result.set("segments[].mean_height", i, s.mean_height);
         result.set("segments[].top_displacement", i, s.top);
         result.set("segments[].contact_fraction", i, c.fraction(s.in_contact));
-        if (s.area) result.set("segments[].contact_area", i, *s.area / c.sites());
+        if (s.area) {
+            const double area = *s.area / c.sites();
+            result.set("segments[].contact_area", i, area);
+            if (const auto error = mesh_error(mesh_rules[0], c, c.fraction(s.in_contact), area))
+                result.set("segments[].contact_area_uncertainty", i, area * *error);
+        }
         if (c.effects.yielding) {
             result.set("segments[].yielding_fraction", i, c.fraction(s.yielding.at_hardness));
             result.set("segments[].mean_set", i, s.yielding.mean_set);

@@ -529,8 +529,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         io::print_text(
             to,
             "  The state {} has a binding energy of {}{}: {} of the pairs across the interface, "
-            "less {} of elastic energy in "
-            "the block. {} % of the block's surface atoms are in contact.\n",
+            "less {} of elastic energy in {}. {} % of {} are in contact.\n",
             at, form.with_unit(*state),
             flat > 0.0 && !form.is_whole()
                 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
@@ -538,7 +537,9 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                                        : "two flat surfaces")
                 : std::string(),
             form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
-            io::number(100.0 * *of("contact_fraction"), 1));
+            c.simulation.block.counter ? "the two solids" : "the block",
+            io::number(100.0 * *of("contact_fraction"), 1),
+            c.simulation.interface.wall ? "the sites" : "the block's surface atoms");
     if (state && flat > 0.0 && !form.is_whole() && *state < no_adhesion * flat)
         io::print_text(
             to, "  No adhesion {}: the solids do not stick (below {:.0f} % of flat on flat).\n", at,

@@ -184,3 +184,35 @@ def test_works_of_a_soft_box_are_said_to_be_its_own(place, wide):
     assert f"wider than {widest * 1e10:.2g}"[:13] in said[0]
     scene["drive"]["path"] = ["relax"]
     assert not [note for note in asperity.check(scene).notes if "flat surfaces jump" in note]
+
+
+@pytest.mark.parametrize("hardness", ["none", "2 GPa"])
+@pytest.mark.parametrize("load", [1.0, 10.0, 80.0])
+def test_an_uncertainty_without_attraction_is_small_beside_its_work(place, load, hardness):
+    """Nothing is lost, and the errors of the points between the ends cancel."""
+    scene = {"surface": {"sites": 96, "spacing": 1.0, "rms": 0.2, "rolloff": 3, "q_max": 24}, "block": {"young": 10, "poisson": 0.3},
+             "interface": {"kind": "wall", "adhesion": 0, "hardness": hardness},
+             "drive": {"mode": "quasistatic", "path": [f"load {load} MPa", f"load {10 * load} MPa", "pull-off"]}}
+    run = asperity.run(scene, out=f"run-{load}-{hardness[:2]}")
+    for segment in run.segments:
+        assert 0 < segment.number("uncertainty") < 1e-3 * abs(segment.number("work_of_drive")), segment
+    if hardness == "none":
+        error = sum(segment.number("uncertainty") for segment in run.segments)
+        assert abs(sum(segment.number("work_of_drive") for segment in run.segments)) <= error
+
+
+def test_each_area_and_radius_over_a_wall_has_the_error_of_the_mesh(place):
+    scene = {"surface": {"kind": "flat", "sites": 64, "spacing": "2 nm", "radius": "100 nm", "boundary": "free"},
+             "block": {"young": "1 GPa", "poisson": 0.3}, "interface": {"kind": "wall", "adhesion": "50 mJ/m^2", "range": "2 nm"},
+             "drive": {"mode": "quasistatic", "path": ["approach", "load 20 nN"], "displacement_step": "0.5 nm"}}
+    run = asperity.run(scene, out="sphere")
+    radius, area = run.number("contact_radius.relaxed"), run.contact_area
+    assert radius == pytest.approx(run.edge * math.sqrt(area / math.pi), rel=1e-12) and 0 < area < run.contact_fraction
+    assert run.number("contact_radius.uncertainty.relaxed") == pytest.approx(0.5 * radius * run.contact_area_uncertainty / area, rel=1e-9)
+    for name in ("contact_radius", "contact_radius_uncertainty"):
+        assert run.number(f"instrument.{name}") == pytest.approx(0.1 * run.number(
+            f"contact_radius.{'uncertainty.' * ('unc' in name)}relaxed"), rel=1e-12)
+    for segment in run.segments:
+        assert 0 < segment.number("contact_area_uncertainty") < 0.2 * segment.number("contact_area")
+    number = {one.name: one for one in sentences.key_numbers(run)}["contact radius at zero load"]
+    assert "± " in number.note and "by the mesh" in number.note

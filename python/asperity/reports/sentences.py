@@ -130,10 +130,11 @@ def reference(run: Result, key: str) -> float:
 
 
 def of_mesh(run: Result, key: str, scale: float, unit: str) -> str:
-    """Returns the words on the error of a number by the spacing; "" if the sites are no mesh. scale: unit over that of the result."""
+    """Returns the words on the error of a number by the spacing; "" if the sites are no mesh. key: the error; scale: unit over that of the
+    result."""
     if run.key("interface.kind") != "wall" or run.key("interface.law") == "smeared":
         return ""
-    error = run.number(f"mesh_error.{key}")
+    error = run.number(key)
     return "; mesh not included" if error is None else f"; ± {error / scale:.2g} {unit} by the mesh"
 
 
@@ -159,7 +160,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
             error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
             add(number(value / flat, 3), symbol, name,
                 energy(value) + (f"; solver converged to {error:.2g} meV/Å²" if error else "")
-                + of_mesh(run, key, 1.0, "meV/Å²") * key.startswith(("binding_energy", "work_of_")))
+                + of_mesh(run, f"mesh_error.{key}", 1.0, "meV/Å²") * key.startswith(("binding_energy", "work_of_")))
 
     force = run.number("pull_off_force")
     if run.curved:  # energies over the nominal area mean nothing
@@ -172,9 +173,10 @@ def key_numbers(run: Result) -> list[KeyNumber]:
                            for k in ("delta_gamma", "theory.sphere.maugis_images"))
             smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
             add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
-                (smooth * (jkr > 0 and maugis > 0) + of_mesh(run, "pull_off_force", NANONEWTON, "nN")).removeprefix("; "))
+                (smooth * (jkr > 0 and maugis > 0) + of_mesh(run, "mesh_error.pull_off_force", NANONEWTON, "nN")).removeprefix("; "))
         if (radius := run.number("instrument.contact_radius")) is not None:
-            add(f"{radius:.4g}", "nm", f"contact radius {at}", "√(area of the sites in contact / π)")
+            add(f"{radius:.4g}", "nm", f"contact radius {at}",
+                "√(area in contact / π)" + of_mesh(run, "instrument.contact_radius_uncertainty", 1.0, "nm"))
     else:
         gamma("binding_energy", f"binding energy {at}")
         area, theory = run.number("contact_area"), run.number("theory.persson.contact_fraction")
@@ -195,7 +197,7 @@ def key_numbers(run: Result) -> list[KeyNumber]:
         if force is not None and run.edge:
             add(*_stress(force / run.edge**2 / GIGAPASCAL),
                 "pull-off stress, the largest attraction of the pull-off",
-                f"{force / NANONEWTON:.4g} nN in all" + of_mesh(run, "pull_off_force", NANONEWTON, "nN"))
+                f"{force / NANONEWTON:.4g} nN in all" + of_mesh(run, "mesh_error.pull_off_force", NANONEWTON, "nN"))
     others = _cycle_losses(run)
     for key, name, note in (
             ("lost.cycle", "lost at instabilities in a cycle" if others else "lost in a cycle (hysteresis)", _loss(run)),
