@@ -487,6 +487,8 @@ def _surfaces(scene: Variations, part: Callable, seeds: int) -> None:
     factor = 2.0 if wider else 0.5
     if curved:
         part("width", "geometry", "not varied: images of the sphere are in it")
+    elif scene.second_solid:
+        part("width", "geometry", "not varied: the map of the second solid is as wide as the box")
     else:
         cutoff = min(own("surface.q_max"), scene.sites // 2)
         box = [*_box(scene, factor), f"surface.rolloff={factor * own('surface.rolloff'):.10g}",

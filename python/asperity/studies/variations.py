@@ -136,8 +136,9 @@ class Variations:
         """Returns the setting of the same surface and block at a multiple of the spacing."""
         own = self.own
         waves = [f"surface.q_max={min(own('surface.q_max'), self.sites // 2):.10g}"] if self.scene.text("surface.kind") == "self-affine" else []
+        points = ["surface.resample=band-limited"] * self.second_solid  # its map keeps its points
         return [f"surface.spacing={factor * own('surface.spacing'):.10g}", f"surface.sites={self.sites / factor:.0f}",
-                f"block.thickness={self.thickness / factor:.0f}", *waves]
+                f"block.thickness={self.thickness / factor:.0f}", *waves, *points]
 
     def meshes(self, *factors: float) -> list[Choice]:
         """Returns choices of the spacing of a block over a wall, as a lattice and as a continuum, from coarse to fine; none that
