@@ -3,6 +3,7 @@
 """Stresses below the surface: of a rough contact against point loads summed densely, the command and its files, the keys of output, and
 what has no stresses."""
 
+import base64
 import json
 import xml.etree.ElementTree as ElementTree
 
@@ -11,6 +12,7 @@ import numpy as np
 import pytest
 
 import asperity
+from asperity.reports.stress import image_of
 from asperity.studies.stress import COMPONENTS, largest_tension, stresses_in, von_mises
 from asperity.units import GIGAPASCAL
 from conftest import command
@@ -116,6 +118,40 @@ def test_the_command_gives_what_the_run_recorded(rough, tmp_path):
     command("stress", rough.directory, "--out", out, expect=2, says=["stress.json"])
     assert (out / "stress.json").read_text() == "mine"
     assert asperity.stress(rough, out=tmp_path / "python").of("tresca").value == pytest.approx(recorded.of("tresca").value, rel=1e-6)
+
+
+@pytest.mark.parametrize("volume", [True, False])
+def test_the_image_is_in_the_format_of_vtk(rough, volume):
+    """Read by the format's description alone: an extent in points, x fastest, and arrays of base64 after their lengths in bytes. VTK's reader
+    finds the same (test_viewers.py)."""
+    found = stresses_in(rough)[0]
+    found.volume = found.volume if volume else {}
+    file = ElementTree.fromstring(image_of(found))
+    assert file.attrib == {"type": "ImageData", "version": "1.0", "byte_order": "LittleEndian", "header_type": "UInt64"}
+    [image] = file
+    [piece] = image
+    assert piece.get("Extent") == image.get("WholeExtent")
+    first_x, last_x, first_y, last_y, first_z, last_z = (int(word) for word in image.get("WholeExtent").split())
+    shape = (last_z - first_z + 1, last_y - first_y + 1, last_x - first_x + 1)
+    values = found.volume or {name: one[:, None, :] for name, one in found.section.items()}
+    assert shape == values["zz"].shape
+    origin, spacing = ([float(word) for word in image.get(name).split()] for name in ("Origin", "Spacing"))
+    assert origin == pytest.approx([SPACING / 2, SPACING / 2 if volume else found.section_y, found.depth[0]])
+    assert spacing == pytest.approx([SPACING, SPACING, found.depth[1]])
+    arrays = {}
+    for item in piece.find("PointData"):
+        assert (item.tag, item.get("type"), item.get("NumberOfComponents"), item.get("format")) == ("DataArray", "Float32", "1", "binary")
+        data = base64.b64decode(item.text, validate=True)
+        assert int.from_bytes(data[:8], "little") == len(data) - 8 == 4 * np.prod(shape)
+        arrays[item.get("Name")] = np.frombuffer(data[8:], "<f4").reshape(shape)
+    expected = {f"stress {name} (GPa)": one for name, one in values.items()}
+    expected |= {"von Mises (GPa)": von_mises(values), "largest tension (GPa)": largest_tension(values)}
+    assert set(arrays) == set(expected)
+    for name, one in expected.items():
+        assert (arrays[name] == np.asarray(one, "<f4")).all(), name
+    with h5py.File(rough.file.path) as kept:
+        written = kept["stress/relaxed/volume"][2] if volume else kept["stress/relaxed/section"][0, 2][:, None, :]
+    assert (arrays["stress zz (GPa)"] == written).all()
 
 
 def test_friction_raises_the_stress(rough, tmp_path):
