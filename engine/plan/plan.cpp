@@ -352,28 +352,27 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan, d
     bytes["state"] = plan.state_bytes;
     bytes["stress"] = plan.stress_bytes;
     bytes["frame"] = plan.frame_bytes;
-    bytes["whole"] = io::Json::object();
+    io::Json whole = io::Json::object();
     for (const auto& [what, size] : plan.whole)
-        bytes["whole"][what] = size;
-    if (node > 0.0) {
-        bytes["node"] = node;
-        bytes["ranks_of_node"] = ranks_of_node(plan, node);
-    }
+        whole[what] = size;
     const Tile tile = c.grid(0).tile(0);
     seconds["surface"] = plan.making;
     seconds["steps"] = plan.moving;
     seconds["rest"] = plan.rest;
     seconds["altogether"] = seconds_altogether(plan);
     seconds["factor"] = plan.factor;
-    return {{"name", c.scene.name},
-            {"effects", effects_json(c.effects)},
-            {"ranks", c.ranks},
-            {"threads", threads},
-            {"sites_of_rank", {tile.nx, tile.ny}},
-            {"steps", plan.steps},
-            {"bytes", bytes},
-            {"seconds", seconds},
-            {"ended", plan.ended}};
+    io::Json all = {{"name", c.scene.name},
+                    {"effects", effects_json(c.effects)},
+                    {"ranks", c.ranks},
+                    {"threads", threads},
+                    {"sites_of_rank", {tile.nx, tile.ny}},
+                    {"steps", plan.steps},
+                    {"bytes", bytes},
+                    {"whole", whole},
+                    {"seconds", seconds},
+                    {"ended", plan.ended}};
+    if (node > 0.0) all["ranks_of_node"] = ranks_of_node(plan, node);
+    return all;
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {
