@@ -40,6 +40,13 @@ bool launched_in_parallel() {
     return ranks > 0 ? ranks > 1 : std::getenv("PMIX_RANK") != nullptr;
 }
 
+void Communicator::broadcast(std::string& text) const {
+    std::uint64_t size = text.size();
+    broadcast(std::as_writable_bytes(std::span(&size, 1)));
+    text.resize(size);
+    broadcast(std::as_writable_bytes(std::span(text)));
+}
+
 void Communicator::on_root(const std::function<void()>& work) const {
     std::exception_ptr failure;
     if (root()) {

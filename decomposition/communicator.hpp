@@ -66,6 +66,7 @@ public:
     /// Sends the root's bytes to all ranks.
     void broadcast(std::span<std::byte> bytes) const;
     void broadcast(std::span<double> values) const { broadcast(std::as_writable_bytes(values)); }
+    void broadcast(std::string& text) const; ///< sends the root's text to all ranks
     /// Gathers every rank's values on all ranks, in rank order. counts[r]: number of values of rank
     /// r.
     void all_gather(std::span<const double> mine, std::span<const int> counts,

@@ -59,7 +59,7 @@ std::vector<Command> own_commands() {
           takes::json},
          [](const Arguments& given, const Communicator& world) {
              const RunOptions options = run_options(given);
-             const Case c = case_of(given, world.size());
+             const Case c = case_of(given, world.size(), world);
              require_memory(c, world);
              return run(c, options, world);
          },
@@ -75,12 +75,15 @@ std::vector<Command> own_commands() {
         {"check",
          {takes::scene, takes::set, takes::quiet, takes::json},
          [](const Arguments& given, const Communicator& world) {
-             return check_command(case_of(given, world.size()), given, world);
+             return check_command(case_of(given, world.size(), world), given, world);
          }},
         {"plan",
          {takes::scene,
           takes::set,
           {"--ranks", "N", "for so many ranks (default: as started)", &Arguments::ranks},
+          {"--memory-per-node", "SIZE",
+           "say how many ranks fit into a node of this memory, for example 256GB",
+           &Arguments::memory_per_node},
           takes::quiet,
           takes::json},
          [](const Arguments& given, const Communicator& world) {

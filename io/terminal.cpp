@@ -379,4 +379,17 @@ std::optional<double> parse_duration(std::string_view written) {
     return total > 0.0 ? std::optional(total) : std::nullopt;
 }
 
+std::optional<double> parse_memory(std::string_view written) {
+    static constexpr std::pair<std::string_view, double> units[] = {
+        {"MB", 1e6}, {"GB", 1e9}, {"TB", 1e12}, {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40}};
+    double value = 0.0;
+    const auto parsed = std::from_chars(written.data(), written.data() + written.size(), value);
+    if (parsed.ec != std::errc() || !(value > 0.0) || value > 1e9) return std::nullopt;
+    written.remove_prefix(static_cast<std::size_t>(parsed.ptr - written.data()));
+    written.remove_prefix(std::min(written.find_first_not_of(' '), written.size()));
+    for (const auto& [unit, bytes] : units)
+        if (written == unit) return value * bytes;
+    return std::nullopt;
+}
+
 } // namespace asperity::io

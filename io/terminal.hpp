@@ -133,5 +133,8 @@ std::string duration_text(double seconds);
 /// Parses a duration such as "23h50m", "90s", "1d", "45m30s" or "3600". Returns seconds; nothing if
 /// the text is no duration.
 std::optional<double> parse_duration(std::string_view written);
+/// Parses a size of memory such as "64GB" or "500 MiB". Returns bytes; nothing if the text is no
+/// size.
+std::optional<double> parse_memory(std::string_view written);
 
 } // namespace asperity::io

@@ -39,7 +39,7 @@ struct PairSum {
 };
 
 /// Returns the sum over all substrate atoms (periodic images included) within the cutoff of a site
-/// at (x, y, z), Å, row by row. Returns NaN if the position is not finite.
+/// at (x, y, z), Å, row by row. Returns NaN if the position is not finite, or if a row is not held.
 PairSum pair_sum(const SubstrateMap& map, const PairPotential& potential, double x, double y,
                  double z);
 /// Returns the sum over all substrate atoms, in their order, each with the potential of its type.
@@ -76,11 +76,11 @@ ASPERITY_HOST_DEVICE inline PairSum sum_of_pairs(const SubstrateMap& map, const 
     const double b = map.spacing;
     const bool somewhere = std::fabs(x / b) < farthest_index && std::fabs(y / b) < farthest_index &&
                            std::fabs(z) <= 1e308;
-    if (!somewhere) {
+    const auto lost = [] {
         const double nan = __builtin_nan("");
-        sum.force[0] = sum.force[1] = sum.force[2] = sum.energy = nan;
-        return sum;
-    }
+        return PairSum{{nan, nan, nan}, nan};
+    };
+    if (!somewhere) return lost();
     const double reach = pair.cutoff;
     const long j_first = static_cast<long>(std::floor((y - reach) / b));
     const long j_last = static_cast<long>(std::ceil((y + reach) / b));
@@ -88,8 +88,9 @@ ASPERITY_HOST_DEVICE inline PairSum sum_of_pairs(const SubstrateMap& map, const 
     const long i_last = static_cast<long>(std::ceil((x + reach) / b));
     for (long j = j_first; j <= j_last; ++j) {
         const double dy = y - static_cast<double>(j) * b;
-        const double* row =
-            map.height + static_cast<std::ptrdiff_t>(fold(j, map.sites)) * map.sites;
+        const int held = fold(j - map.first, map.sites);
+        if (held >= map.rows) return lost();
+        const double* row = map.height + static_cast<std::ptrdiff_t>(held) * map.sites;
         for (long i = i_first; i <= i_last; ++i) {
             const double dx = x - static_cast<double>(i) * b;
             add_pair(pair, dx, dy, z - row[fold(i, map.sites)], sum);

@@ -22,11 +22,14 @@ inline constexpr int max_half_offsets = 64;
 /// Largest number of rows of a substrate of any spacing within reach to either side.
 inline constexpr int max_rows = 2 * max_half_offsets;
 
-/// The whole substrate as a periodic map of heights, for the reference loop.
+/// The substrate as a periodic map of heights, for the reference loop: the rows that a rank holds.
 struct SubstrateMap {
-    const double* height = nullptr; ///< height[j * sites + i] of the atom at (i b, j b), Å
-    int sites = 0;                  ///< atoms across the box
-    double spacing = 2.6;           ///< b, Å
+    /// height[(j - first) * sites + i] of the atom at (i b, j b), Å.
+    const double* height = nullptr;
+    int sites = 0;        ///< atoms across the box
+    double spacing = 2.6; ///< b, Å
+    int first = 0;        ///< first row that is held
+    int rows = 0;         ///< number of rows that are held, from the first on
 };
 
 /// Largest and smallest heights of the substrate around each block of sites, for rings of lateral

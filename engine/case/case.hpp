@@ -135,21 +135,25 @@ struct Case {
 };
 
 /// Derives a case and adds the mistakes of the scene to problems; a key that has a problem already
-/// gets no further one. The case is complete only if problems is empty.
-Case resolve(const Scene& scene, int ranks, io::Problems& problems);
+/// gets no further one. The case is complete only if problems is empty. world: ranks among which
+/// the fields of the sites are divided; the root reads their files. Collective.
+Case resolve(const Scene& scene, int ranks, io::Problems& problems,
+             const Communicator& world = Communicator());
 /// Derives a case for a number of ranks. Throws io::SceneError with all mistakes.
 Case resolve(const Scene& scene, int ranks = 1);
 
-/// Reads a scene with overrides ("section.key=value") and derives its case. Throws io::SceneError
-/// with all mistakes.
+/// Reads a scene with overrides ("section.key=value") and derives its case. world: as for
+/// resolve(). Throws io::SceneError with all mistakes.
 Case read_case(const std::string& file, const std::vector<std::string>& overrides = {},
-               int ranks = 1);
+               int ranks = 1, const Communicator& world = Communicator());
 /// Reads a scene from a text in memory and derives its case. file: name shown in messages. Throws
 /// io::SceneError.
 Case read_case_text(const std::string& text, const std::string& file,
-                    const std::vector<std::string>& overrides = {}, int ranks = 1);
+                    const std::vector<std::string>& overrides = {}, int ranks = 1,
+                    const Communicator& world = Communicator());
 
-/// Makes the substrate; the root of `world` reads the map. Collective. Throws io::SceneError for
+/// Makes the substrate, whose heights lie in bands on the ranks of `world`; the root reads the map.
+/// Collective. Throws io::SceneError for
 /// wrong options or contents of the file, io::FileError if the file cannot be read.
 Surface surface_of(const Case& c, const Communicator& world = Communicator());
 

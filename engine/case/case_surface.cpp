@@ -68,7 +68,7 @@ std::vector<std::int32_t> rows_of(const Case& c, const io::AtomsFile& file) {
 }
 
 /// Returns the atoms of the scene's file, whose periodic box must be the block's.
-Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
+Surface atoms_of_file(const Case& c, const SurfaceOptions& options, const Communicator& world) {
     const auto& s = c.scene.surface;
     io::AtomsFile file = io::read_atoms_file(c.file);
     const double edge = options.length;
@@ -99,7 +99,7 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
         digest = io::digest_of(std::as_bytes(std::span(*values)), digest);
     digest = io::digest_of(std::as_bytes(std::span(std::as_const(type))), digest);
     Surface surface = surface_from_atoms(
-        options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)});
+        options, {std::move(file.x), std::move(file.y), std::move(file.z), std::move(type)}, world);
     surface.notes.insert(
         surface.notes.begin(),
         fmt::format("{}: {} atoms of {}", std::filesystem::path(s.file).filename().string(), count,
@@ -108,11 +108,12 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options) {
     return surface;
 }
 
-/// Checks the memory before anything is allocated: for the heights, and for the waves that
-/// make_surface() and measure() need. Throws io::SceneError.
-void require_memory_for_heights(const Case& c) {
+/// Checks the memory of a rank before anything is allocated: for its band of the heights, and of
+/// the waves that make_surface() and measure() need. Throws io::SceneError.
+void require_memory_for_heights(const Case& c, const Communicator& world) {
     const double n = c.substrate();
-    const double needed = n * n * (8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 32.0));
+    const double needed =
+        n * n * (8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 48.0)) / world.size();
     const io::AvailableMemory there = io::available_memory();
     if (needed <= there.bytes) return;
     io::Problems problems = c.scene.problems();
@@ -121,7 +122,7 @@ void require_memory_for_heights(const Case& c) {
         fmt::format("= {}: its surface does not fit into memory", c.scene.surface.sites),
         fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
                     needed / 1e9, there.bytes / 1e9, there.because),
-        "take fewer sites; every rank makes the whole surface");
+        "take fewer sites, or more ranks");
     problems.throw_if_any();
 }
 
@@ -147,7 +148,8 @@ Surface with_key(const Case& c, const char* key, const Make& make) {
 Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions options, bool whole,
                        const Communicator& world) {
     const std::string key(field.how.quantity.key);
-    io::HeightMap map = read_field(field, world);
+    FieldMap read = read_field(field, world);
+    io::HeightMap& map = read.map;
     options.map_edge = map.width.value_or(0.0);
     const int points = static_cast<int>(map.rows), covered = sites_of_map(options);
     if (points != covered && c.scene.surface.resample == Resample::none)
@@ -160,26 +162,22 @@ Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions opt
     // The resampled map and its waves, before the box is cut out of it.
     if (points != covered)
         io::require_memory(field.name, "the resampled map",
-                           32.0 * covered * static_cast<double>(covered));
+                           32.0 * covered * static_cast<double>(covered) / world.size());
     const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
     if (options.map_edge <= 0.0)
         map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as wide "
                                         "as the box, {:.6g} Å ({}_size)",
                                         edge, key));
-    const double width = map.width.value_or(0.0);
-    const std::uint32_t digest =
-        io::digest_of(std::as_bytes(std::span(&width, 1)),
-                      io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
     if (whole && covered != options.sites) {
         options.length *= static_cast<double>(covered) / options.sites;
         options.sites = covered;
         options.periodic = options.repeats = false; // the box is cut out of it
     }
-    Surface surface = surface_from_heights(options, std::move(map.heights), points, points);
+    Surface surface = surface_from_heights(options, std::move(map.heights), points, points, world);
     surface.doubts.insert(surface.doubts.begin(), map.doubts.begin(), map.doubts.end());
     surface.notes.insert(surface.notes.begin(), surface.doubts.begin(), surface.doubts.end());
     surface.origin = std::move(map.origin);
-    surface.file_digest = digest;
+    surface.file_digest = read.digest;
     surface.notes.insert(surface.notes.begin(),
                          fmt::format("{}: {} x {} points of {:.4g} Å, {:.6g} Å wide, heights in {}",
                                      std::filesystem::path(field.name).filename().string(), points,
@@ -219,16 +217,16 @@ Surface counter_of(const Case& c, const Communicator& world) {
 
 /// Returns the surface of the block, or of the substrate of a case without a second solid.
 Surface own_surface(const Case& c, const SurfaceOptions& options, const Communicator& world) {
-    if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options);
+    if (options.kind == SurfaceKind::atoms) return atoms_of_file(c, options, world);
     if (options.kind == SurfaceKind::file)
         return surface_of_map(c, heights_of(c), options, false, world);
-    return make_surface(options);
+    return make_surface(options, world);
 }
 
 } // namespace
 
 Surface surface_of(const Case& c, const Communicator& world) {
-    require_memory_for_heights(c);
+    require_memory_for_heights(c, world);
     SurfaceOptions own = c.surface;
     if (own.counter) own.radius = 0.0; // the pair has it
     Surface surface = with_key(c, c.scene.surface.reads_file() ? "surface.file" : "surface.kind",

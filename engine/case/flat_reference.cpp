@@ -58,7 +58,7 @@ PairSum flat_pair_sum(const InterfaceOptions& options, double spacing, int sites
             mean_wall(options));
     const double level = 0.0; // a single atom, repeated
     const double b = spacing * sites / substrate_sites;
-    const SubstrateMap map{&level, 1, b};
+    const SubstrateMap map{&level, 1, b, 0, 1};
     const int count = registries(sites, substrate_sites);
     PairSum mean;
     for (int j = 0; j < count; ++j)

@@ -193,12 +193,13 @@ void fill_interface(Case& c) {
         options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
     }
     if (options.adhesion) { // the mean of equal sites is exactly that of one
-        const int across = options.adhesion->sites;
-        double below = 0.0;
-        for (int y = 0; y < across; ++y)
-            for (int x = 0; x < across; ++x)
-                below += 1.0 - options.adhesion_factor(x, y);
-        options.mean_adhesion_factor = 1.0 - below / (static_cast<double>(across) * across);
+        const double across = options.adhesion->sites;
+        std::array<double, 1> below{};
+        options.adhesion->bands().in_order(below, [&] {
+            for (const double of_site : options.adhesion->values)
+                below[0] += 1.0 - options.adhesion_factor(of_site);
+        });
+        options.mean_adhesion_factor = 1.0 - below[0] / (across * across);
     }
 }
 
@@ -399,10 +400,10 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 }
 
 /// Fills in the maps of the sites that the scene has, and their largest values in the scene.
-void find_site_maps(Case& c, io::Problems& problems) {
+void find_site_maps(Case& c, const Communicator& world, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
     if (keys.hardness_map.given()) {
-        const auto map = site_map(c, keys.hardness_map, problems);
+        const auto map = site_map(c, keys.hardness_map, world, problems);
         if (!map) return;
         if (map->least == 0.0)
             return problems.add("interface.hardness",
@@ -415,7 +416,7 @@ void find_site_maps(Case& c, io::Problems& problems) {
     if (keys.hardness) c.simulation.interface.hardness = *keys.hardness * units::gigapascal;
     if (!keys.adhesion_map.given() || !keys.has_adhesion()) return;
     constexpr const char* key = "interface.adhesion";
-    const auto map = site_map(c, keys.adhesion_map, problems);
+    const auto map = site_map(c, keys.adhesion_map, world, problems);
     if (!map) return;
     if (keys.shape_repels() && map->least == 0.0)
         return problems.add(
@@ -428,8 +429,8 @@ void find_site_maps(Case& c, io::Problems& problems) {
 }
 
 /// Derives all consequences of keys that do not contradict each other.
-void derive(Case& c, io::Problems& problems) {
-    find_site_maps(c, problems);
+void derive(Case& c, const Communicator& world, io::Problems& problems) {
+    find_site_maps(c, world, problems);
     if (!problems.empty()) return;
     io::Problems refused = c.scene.problems();
     refuse_unsupported(c, refused);
@@ -546,7 +547,7 @@ void Case::require_runnable() const {
     if (!refused.empty()) throw io::SceneError(refused);
 }
 
-Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
+Case resolve(const Scene& scene, int ranks, io::Problems& problems, const Communicator& world) {
     if (const auto missing = missing_level())
         throw io::SceneError(io::Problem{
             "asperity", "is built for another processor",
@@ -570,7 +571,7 @@ Case resolve(const Scene& scene, int ranks, io::Problems& problems) {
     find_potentials(c, found);
     check_keys(c, found);
     c.effects = effects_of(c);
-    if (problems.empty() && found.empty()) derive(c, found);
+    if (problems.empty() && found.empty()) derive(c, world, found);
     for (const io::Problem& problem : found.list()) {
         const bool told =
             std::any_of(problems.list().begin(), problems.list().end(),
@@ -588,17 +589,19 @@ Case resolve(const Scene& scene, int ranks) {
 }
 
 Case read_case_text(const std::string& text, const std::string& file,
-                    const std::vector<std::string>& overrides, int ranks) {
+                    const std::vector<std::string>& overrides, int ranks,
+                    const Communicator& world) {
     io::Problems problems;
     const Scene scene = read_scene_text(text, file, overrides, problems);
-    Case c = resolve(scene, ranks, problems);
+    Case c = resolve(scene, ranks, problems, world);
     problems.throw_if_any();
     return c;
 }
 
-Case read_case(const std::string& file, const std::vector<std::string>& overrides, int ranks) {
+Case read_case(const std::string& file, const std::vector<std::string>& overrides, int ranks,
+               const Communicator& world) {
     return read_case_text(io::read_scene_file(file), file == io::standard_input ? "stdin" : file,
-                          overrides, ranks);
+                          overrides, ranks, world);
 }
 
 } // namespace asperity

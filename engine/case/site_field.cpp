@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: MIT
 #include "engine/case/site_field.hpp"
 
+#include "io/files.hpp"
 #include "io/json.hpp"
 
-#include <array>
-#include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -31,25 +31,28 @@ FieldFile counter_heights_of(const Case& c) {
              {.key = "surface.counter"}}};
 }
 
-io::HeightMap read_field(const FieldFile& field, const Communicator& ranks) {
-    io::HeightMap map;
+FieldMap read_field(const FieldFile& field, const Communicator& ranks) {
+    FieldMap read;
+    io::HeightMap& map = read.map;
     std::string head;
     ranks.on_root([&] {
         map = io::read_height_map(field.file, field.how);
+        const double width = map.width.value_or(0.0);
+        read.digest =
+            io::digest_of(std::as_bytes(std::span(&width, 1)),
+                          io::digest_of(std::as_bytes(std::span(std::as_const(map.heights)))));
         if (ranks.size() == 1) return;
-        io::Json json = {{"rows", map.rows}, {"unit", map.unit}, {"origin", map.origin}};
+        io::Json json = {{"rows", map.rows},
+                         {"unit", map.unit},
+                         {"origin", map.origin},
+                         {"digest", read.digest}};
         json["notes"] = map.notes;
         json["doubts"] = map.doubts;
         if (map.width) json["width"] = *map.width;
         head = io::json_text(json);
     });
-    if (ranks.size() == 1) return map;
-    std::array<std::uint64_t, 2> sizes = {head.size(), map.heights.size()};
-    ranks.broadcast(std::as_writable_bytes(std::span(sizes)));
-    head.resize(sizes[0]);
-    map.heights.resize(sizes[1]);
-    ranks.broadcast(std::as_writable_bytes(std::span(head)));
-    ranks.broadcast(std::span(map.heights));
+    if (ranks.size() == 1) return read;
+    ranks.broadcast(head);
     const io::Json json = io::parse_json(head, field.name);
     map.rows = map.columns = json["rows"];
     map.unit = json["unit"];
@@ -57,7 +60,8 @@ io::HeightMap read_field(const FieldFile& field, const Communicator& ranks) {
     map.notes = json["notes"].get<std::vector<std::string>>();
     map.doubts = json["doubts"].get<std::vector<std::string>>();
     if (json.contains("width")) map.width = json["width"].get<double>();
-    return map;
+    read.digest = json["digest"];
+    return read;
 }
 
 } // namespace asperity

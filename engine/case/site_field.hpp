@@ -8,6 +8,7 @@
 #include "engine/case/case.hpp"
 #include "io/height_map.hpp"
 
+#include <cstdint>
 #include <string>
 
 namespace asperity {
@@ -24,8 +25,14 @@ FieldFile heights_of(const Case& c);
 /// Returns the file of the heights of the second solid of a case that has one.
 FieldFile counter_heights_of(const Case& c);
 
-/// Reads the map of a field and returns it on every rank; only the root reads the file. Collective.
-/// Throws io::SceneError.
-io::HeightMap read_field(const FieldFile& field, const Communicator& ranks);
+/// Field of a file.
+struct FieldMap {
+    /// Map of the file, with its values on the root alone.
+    io::HeightMap map;
+    std::uint32_t digest = 0; ///< CRC-32 of the values of the map and its width
+};
+/// Reads the map of a field. Only the root reads the file; every rank learns its head. Collective.
+/// Throws io::SceneError on the root, RootFailure on the other ranks.
+FieldMap read_field(const FieldFile& field, const Communicator& ranks);
 
 } // namespace asperity

@@ -21,11 +21,11 @@
 #include <cstdint>
 #include <memory>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <span>
 #include <sstream>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace asperity {
@@ -120,20 +120,27 @@ std::vector<double> numbers_of(const Formula& formula, const std::string& text,
     return numbers;
 }
 
-/// A square of values, [y * sites + x].
+/// The sites of a box, in bands.
 struct Square {
     int sites;
     double spacing;
+    Bands bands;
     double edge() const { return sites * spacing; }
 
+    /// Returns the values at(x, y) of the sites of this rank's band.
     template <class At>
     std::vector<double> of(const At& at) const {
         std::vector<double> values;
-        values.reserve(static_cast<std::size_t>(sites) * static_cast<std::size_t>(sites));
-        for (int y = 0; y < sites; ++y)
-            for (int x = 0; x < sites; ++x)
-                values.push_back(at(x * spacing, y * spacing));
+        values.reserve(bands.size());
+        each([&](int x, int y, std::size_t) { values.push_back(at(x * spacing, y * spacing)); });
         return values;
+    }
+    /// Calls visit(x, y, place in the band) for each site of this rank's band.
+    template <class Visit>
+    void each(const Visit& visit) const {
+        for (int y = bands.first(); y < bands.first() + bands.held(); ++y)
+            for (int x = 0; x < sites; ++x)
+                visit(x, y, bands.at(x, y));
     }
 };
 
@@ -147,30 +154,48 @@ double fitting(double period, const Square& box) {
 /// Returns a field of random numbers whose autocorrelation is exp(-r^2 / length^2), times a factor.
 std::vector<double> random_field(const Square& box, double length, std::uint64_t seed) {
     const int n = box.sites;
-    std::vector<std::complex<double>> wave;
-    wave.reserve(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const auto bits = r123::Philox4x32()(
-                {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0u, 1u}},
-                {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}});
-            wave.emplace_back(bits[0] * 0x1p-32 - 0.5, 0.0);
-        }
-    heights::transform(wave, n, n, FFTW_FORWARD);
+    std::vector<std::complex<double>> wave(box.bands.size());
+    box.each([&](int x, int y, std::size_t i) {
+        const auto bits = r123::Philox4x32()(
+            {{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0u, 1u}},
+            {{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}});
+        wave[i] = bits[0] * 0x1p-32 - 0.5;
+    });
+    box.bands.transform(wave, FFTW_FORWARD);
     const double unit_q = 2.0 * pi / box.edge();
-    for (int y = 0; y < n; ++y)
-        for (int x = 0; x < n; ++x) {
-            const double kx = std::min(x, n - x), ky = std::min(y, n - y);
-            const double q = unit_q * std::sqrt(kx * kx + ky * ky);
-            wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
-                 static_cast<std::size_t>(x)] *= std::exp(-q * q * length * length / 8.0);
-        }
-    heights::transform(wave, n, n, FFTW_BACKWARD);
+    box.each([&](int x, int y, std::size_t i) {
+        const double kx = std::min(x, n - x), ky = std::min(y, n - y);
+        const double q = unit_q * std::sqrt(kx * kx + ky * ky);
+        wave[i] *= std::exp(-q * q * length * length / 8.0);
+    });
+    box.bands.transform(wave, FFTW_BACKWARD);
     std::vector<double> field;
     field.reserve(wave.size());
     for (const std::complex<double>& value : wave)
         field.push_back(value.real());
     return field;
+}
+
+/// Returns the number of values of a map that are below a bound. Collective.
+std::int64_t count_below(const std::vector<double>& band, const Bands& bands, double bound) {
+    std::array<std::int64_t, 1> count = {
+        std::count_if(band.begin(), band.end(), [&](double value) { return value < bound; })};
+    bands.ranks().sum(count);
+    return count[0];
+}
+
+/// Returns a bound below which half of the values of a map are, of different values. Collective.
+double median_of(const std::vector<double>& band, const Bands& bands) {
+    double low = 0.0, high = 0.0;
+    for (const double value : band)
+        low = std::min(low, value), high = std::max(high, value);
+    low = -bands.ranks().max(-low), high = std::nextafter(bands.ranks().max(high), HUGE_VAL);
+    const std::int64_t half = static_cast<std::int64_t>(bands.columns()) * bands.rows() / 2;
+    while (true) { // no more than half are below `low`, and more below `high`
+        const double middle = 0.5 * (low + high);
+        if (!(middle > low && middle < high)) return low;
+        (count_below(band, bands, middle) > half ? high : low) = middle;
+    }
 }
 
 /// Refuses lengths of a formula that the sites do not resolve. Throws BadFormula.
@@ -200,12 +225,9 @@ std::optional<double> mean_of(const Formula& formula, const std::vector<double>&
 /// Notes a mean over the sites that is not that of the formula: of a coarse pattern, or of one that
 /// the box cuts.
 void note_other_mean(const Formula& formula, const std::vector<double>& numbers,
-                     const SiteQuantity& of, const std::vector<double>& values,
-                     std::vector<std::string>& notes) {
+                     const SiteQuantity& of, double mean, std::vector<std::string>& notes) {
     constexpr double part = 0.01;
     const std::optional<double> asked = mean_of(formula, numbers);
-    const double mean =
-        std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
     if (!asked || std::abs(mean - *asked) <= part * *asked) return;
     notes.push_back(fmt::format("interface.{}: the mean over the sites is {:.4g} {}, and that of "
                                 "\"{}\" without an end {:.4g} {}",
@@ -260,14 +282,20 @@ std::vector<double> values_of(const Formula& formula, const std::vector<double>&
         });
     }
     const std::vector<double> field = random_field(box, p[2], static_cast<std::uint64_t>(p[3]));
-    std::vector<double> sorted = field;
-    const auto median = sorted.begin() + std::ssize(sorted) / 2;
-    std::nth_element(sorted.begin(), median, sorted.end());
+    const double median = median_of(field, box.bands);
     std::vector<double> values;
     values.reserve(field.size());
     for (const double value : field)
-        values.push_back(value >= *median ? p[1] : p[0]);
+        values.push_back(value >= median ? p[1] : p[0]);
     return values;
+}
+
+/// Returns the smallest and the largest value of a map. Collective.
+std::pair<double, double> extremes(const std::vector<double>& band, const Bands& bands) {
+    double low = HUGE_VAL, high = -HUGE_VAL;
+    for (const double value : band)
+        low = std::min(low, value), high = std::max(high, value);
+    return {-bands.ranks().max(-low), bands.ranks().max(high)};
 }
 
 /// Returns the values of a file on the sites of the box. Throws io::SceneError.
@@ -283,7 +311,8 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
                                      keys.size,
                                      false,
                                      {of.words, of.name, of.unit, key, of.dimension}}},
-                                   Communicator());
+                                   box.bands.ranks())
+                            .map;
     SurfaceOptions covered;
     covered.sites = box.sites;
     covered.length = box.edge();
@@ -307,14 +336,15 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
         refuse(fmt::format("has {} x {} values", points, points),
                fmt::format("it covers {} x {} sites", whole, whole),
                fmt::format("give a map of that size, or set surface.sites = {}", points));
-    std::vector<double> values = std::move(map.heights);
-    const auto [least, largest] = std::minmax_element(values.begin(), values.end());
-    const double low = *least, high = *largest;
+    Bands bands(box.bands.ranks(), points);
+    std::vector<double> values = bands.spread(std::move(map.heights));
+    const auto [low, high] = extremes(values, bands);
     if (low < 0.0)
         refuse(fmt::format("has a value of {:.4g} {}", low, of.unit), of.negative,
                "set the negative values of the map to 0 before, or correct its zero");
     if (points != whole) {
-        values = heights::resample(values, points, points, whole);
+        values = heights::resample(values, bands, whole);
+        bands = {box.bands.ranks(), whole};
         for (double& value : values) // waves overshoot beside jumps
             value = std::clamp(value, low, high);
         map.notes.push_back(fmt::format("the field of {} x {} values resampled (Fourier, periodic) "
@@ -322,7 +352,7 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
                                         points, points, whole, whole));
     }
     if (whole > box.sites) {
-        values = heights::middle(values, whole, box.sites);
+        values = heights::middle(values, bands, box.sites);
         map.notes.push_back(fmt::format("the middle {:.6g} Å of the field are taken", box.edge()));
     }
     for (const auto* list : {&map.doubts, &map.notes})
@@ -331,16 +361,32 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
     return values;
 }
 
+/// Sets the sum and the digest of the values. Collective.
+void find_sum_and_digest(SiteMap& map) {
+    std::array<double, 2> sums{};
+    map.bands().in_order(sums, [&] {
+        for (const double value : map.values)
+            sums[0] += value;
+        sums[1] = io::digest_of(std::as_bytes(std::span(std::as_const(map.values))),
+                                static_cast<std::uint32_t>(sums[1]));
+    });
+    map.sum = sums[0];
+    map.digest = static_cast<std::uint32_t>(sums[1]);
+}
+
 } // namespace
 
-std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Problems& problems) {
+std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, const Communicator& world,
+                                        io::Problems& problems) {
     const SiteQuantity& of = keys.of;
     const std::string &text = keys.source, key = fmt::format("interface.{}", of.name);
-    const Square box{c.scene.surface.sites, c.scene.surface.spacing};
+    const Square box{
+        c.scene.surface.sites, c.scene.surface.spacing, {world, c.scene.surface.sites}};
     auto map = std::make_shared<SiteMap>();
     map->name = of.name;
     map->source = text;
     map->sites = box.sites;
+    map->ranks = world;
     const std::vector<Formula> formulas = formulas_of(of);
     const auto formula = std::find_if(formulas.begin(), formulas.end(), [&](const Formula& f) {
         return text == f.name || text.starts_with(f.name + " ");
@@ -350,7 +396,8 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Pr
             const std::vector<double> numbers = numbers_of(*formula, text, of);
             refuse_too_fine(*formula, numbers, box);
             map->values = values_of(*formula, numbers, of, box, c.notes);
-            note_other_mean(*formula, numbers, of, map->values, c.notes);
+            find_sum_and_digest(*map);
+            note_other_mean(*formula, numbers, of, map->mean(), c.notes);
         } else {
             const std::size_t colon = text.find(":/");
             map->file = find_beside_scene(c.scene, text.substr(0, colon), key);
@@ -365,6 +412,7 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Pr
                                              formulas.front().example)};
             if (colon != std::string::npos) map->file += text.substr(colon);
             map->values = values_of_file(c, keys, map->file, box);
+            find_sum_and_digest(*map);
         }
     } catch (const BadFormula& bad) {
         problems.add(key, fmt::format("= \"{}\" {}", text, bad.what), bad.why, bad.fix);
@@ -373,14 +421,14 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, io::Pr
         for (const io::Problem& problem : error.problems())
             problems.add(problem);
         return nullptr;
+    } catch (const RootFailure& error) { // whose reason the root has
+        problems.add(key, std::string(": ") + error.what());
+        return nullptr;
     } catch (const std::invalid_argument& error) { // thrown for its size
         problems.add(key, std::string(": ") + error.what());
         return nullptr;
     }
-    const auto [least, largest] = std::minmax_element(map->values.begin(), map->values.end());
-    map->least = *least;
-    map->largest = *largest;
-    map->digest = io::digest_of(std::as_bytes(std::span(std::as_const(map->values))));
+    std::tie(map->least, map->largest) = extremes(map->values, map->bands());
     return map;
 }
 

@@ -49,10 +49,10 @@ std::string scene_file(const Arguments& given, std::vector<std::string>& overrid
     return files.front();
 }
 
-Case case_of(const Arguments& given, int ranks) {
+Case case_of(const Arguments& given, int ranks, const Communicator& world) {
     std::vector<std::string> overrides;
     const std::string file = scene_file(given, overrides);
-    return read_case(file, overrides, ranks);
+    return read_case(file, overrides, ranks, world);
 }
 
 Case surface_case_of(const Arguments& given, int ranks) {

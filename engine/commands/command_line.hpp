@@ -9,6 +9,7 @@
 //     return carry_out(commands, argc, argv, world);
 #pragma once
 
+#include "decomposition/communicator.hpp"
 #include "engine/case/case.hpp"
 #include "engine/run/run.hpp"
 
@@ -20,8 +21,6 @@
 
 namespace asperity {
 
-class Communicator;
-
 /// Arguments of a call, as text. Options that a command does not take keep their defaults.
 struct Arguments {
     std::vector<std::string> words; ///< the scene, and overrides that follow a --set
@@ -30,9 +29,10 @@ struct Arguments {
     std::string resume;
     bool restart = false;
     std::string wall_limit;
-    std::string progress; ///< mode; empty: "auto", or "off" with --quiet or --json
-    int ranks = 0;        ///< number of ranks to plan for; 0: the ranks of this call
-    std::string points;   ///< file with overrides, one line each
+    std::string progress;        ///< mode; empty: "auto", or "off" with --quiet or --json
+    int ranks = 0;               ///< number of ranks to plan for; 0: the ranks of this call
+    std::string memory_per_node; ///< memory of a node to plan for; empty: none
+    std::string points;          ///< file with overrides, one line each
     bool markdown = false;
     bool plain = false;
     bool json = false;
@@ -44,7 +44,7 @@ struct Arguments {
 
 /// Reads the case of the scene that the words name, with its overrides, for a number of ranks.
 /// Throws io::SceneError.
-Case case_of(const Arguments& given, int ranks);
+Case case_of(const Arguments& given, int ranks, const Communicator& world = Communicator());
 /// Reads the case like case_of(), but ignores mistakes in keys that the surface does not need.
 /// Throws io::SceneError.
 Case surface_case_of(const Arguments& given, int ranks);

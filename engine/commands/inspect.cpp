@@ -155,17 +155,26 @@ int check_command(const Case& c, const Arguments& given, const Communicator& wor
 }
 
 int plan_command(const Case& c, const Arguments& given, const Communicator& world) {
+    double node = 0.0;
+    if (!given.memory_per_node.empty()) {
+        const std::optional<double> said = io::parse_memory(given.memory_per_node);
+        if (!said)
+            throw io::SceneError(
+                io::Problem{"--memory-per-node " + given.memory_per_node, "is no size of memory",
+                            "a number and its unit are needed", "for example 256GB or 62.5GiB"});
+        node = *said;
+    }
     const std::vector<std::string> notes = examine(c, world);
     const int cores = omp_get_max_threads() * world.size();
     world.on_root([&] {
         const int threads = std::max(1, cores / c.ranks);
         if (given.json) {
-            io::Json all = plan_json(c, threads, make_plan(c, threads));
+            io::Json all = plan_json(c, threads, make_plan(c, threads), node);
             all["notes"] = notes;
             fmt::print("{}\n", io::json_text(all));
             return;
         }
-        print_plan(stdout, c, threads, make_plan(c, threads));
+        print_plan(stdout, c, threads, make_plan(c, threads), node);
         for (const std::string& note : notes)
             if (!given.quiet) io::print_text(stdout, "note: {}\n", note);
     });
@@ -182,7 +191,9 @@ void print_map_file(const Case& c) {
     const std::optional<double>&width = map.width, &height = map.height;
     const double dx = width.value_or(0.0) / static_cast<double>(map.columns),
                  dy = height.value_or(0.0) / static_cast<double>(map.rows);
-    const MapStatistics s = map_statistics(map.heights, map.columns, map.rows, dx, dy, false);
+    const MapStatistics s = map_statistics(
+        map.heights, {Communicator(), static_cast<int>(map.columns), static_cast<int>(map.rows)},
+        dx, dy, false);
     const auto if_sized = [&](double value, const char* format) {
         return width ? fmt::format(fmt::runtime(format), value) : std::string("?");
     };
@@ -260,8 +271,7 @@ void print_surface(const Surface& surface) {
     table.row({"rms curvature", io::cell(statistics.rms_curvature), "1/Å, spectral"});
     if (surface.radius == 0.0) {
         const double pixel = surface.length / surface.sites;
-        const auto n = static_cast<std::size_t>(surface.sites);
-        const MapStatistics s = map_statistics(surface.height, n, n, pixel, pixel, true);
+        const MapStatistics s = map_statistics(surface.height, surface.bands(), pixel, pixel, true);
         table.row({"rms slope", io::cell(s.rms_slope), "differences of neighbours"});
         table.row({"rms curvature", io::cell(s.rms_curvature), "1/Å, second differences"});
     }
@@ -284,14 +294,14 @@ void print_surface(const Surface& surface) {
 int surface_command(const Case& c, const Arguments& given, const Communicator& world) {
     const std::string& out = given.out;
     if (given.json) {
-        const Surface surface = surface_of(c, world);
-        const auto n = static_cast<std::size_t>(surface.sites);
+        const Surface surface = whole(surface_of(c, world));
         const double pixel = surface.length / surface.sites;
-        const io::Json all = {{"rms", surface.statistics.rms},
-                              {"slope_of_neighbours",
-                               map_statistics(surface.height, n, n, pixel, pixel, true).rms_slope},
-                              {"doubts", surface.doubts},
-                              {"notes", notes_of(c, surface)}};
+        const io::Json all = {
+            {"rms", surface.statistics.rms},
+            {"slope_of_neighbours",
+             map_statistics(surface.height, surface.bands(), pixel, pixel, true).rms_slope},
+            {"doubts", surface.doubts},
+            {"notes", notes_of(c, surface)}};
         world.on_root([&] {
             if (!out.empty()) write_surface(c, surface, out);
             fmt::print("{}\n", io::json_text(all));
@@ -299,7 +309,7 @@ int surface_command(const Case& c, const Arguments& given, const Communicator& w
         return io::exit_code::done;
     }
     if (c.surface.kind == SurfaceKind::file) world.on_root([&] { print_map_file(c); });
-    const Surface surface = surface_of(c, world);
+    const Surface surface = whole(surface_of(c, world));
     world.on_root([&] {
         const std::vector<std::string> lines = write_surface(c, surface, out);
         print_surface(surface);

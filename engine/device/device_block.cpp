@@ -86,12 +86,14 @@ DeviceLayout::DeviceLayout(const BlockOptions& block, const ProcessGrid& grid,
 
     const Tile tile = grid.tile(0);
     const double cutoff = cutoff_of(interface.potential);
-    const auto sites = static_cast<std::size_t>(block.sites);
     heights = place(Field<double>::bytes_for(tile, 1, OverLattice::halo(cutoff, block.spacing)));
     highest = place(ReachTable::size(tile) * sizeof(double));
     lowest = place(ReachTable::size(tile) * sizeof(double));
     columns = place(OverLattice::Offsets(cutoff, block.spacing).table() * sizeof(std::int32_t));
-    map = place(sites * sites * sizeof(double));
+    const RowRange under =
+        HeightMap::rows_under(tile, block.spacing, block.sites, block.spacing, interface);
+    map = place(static_cast<std::size_t>(under.count) * static_cast<std::size_t>(block.sites) *
+                sizeof(double));
     if (interface.tail) mean_height = place(Field<double>::bytes_for(tile, 1));
     if (const auto* table = std::get_if<Tabulated>(&interface.potential))
         cubics = place(4 * static_cast<std::size_t>(table->intervals) * sizeof(double));

@@ -2,29 +2,55 @@
 // SPDX-License-Identifier: MIT
 #include "engine/interface/height_map.hpp"
 
+#include "engine/options/sweep_limits.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 namespace asperity {
 
-HeightMap::HeightMap(const Surface& substrate, int sites, double spacing, bool slides)
-    : height_(substrate.height), sites_(substrate.sites),
+HeightMap::HeightMap(const Surface& substrate, const Tile& tile, int sites, double spacing,
+                     const InterfaceOptions& options)
+    : sites_(substrate.sites),
       spacing_(substrate.sites == sites ? spacing : sites * spacing / substrate.sites),
-      radius_(substrate.radius) {
-    const auto edge = static_cast<std::size_t>(sites_);
-    if (height_.size() != edge * edge)
+      radius_(substrate.radius), rows_(rows_under(tile, spacing, sites_, spacing_, options)) {
+    const Bands bands = substrate.bands();
+    if (substrate.height.size() != bands.size())
         throw std::invalid_argument(
             fmt::format("interface: a substrate of {} x {} atoms has {} heights", sites_, sites_,
-                        height_.size()));
+                        substrate.height.size()));
+    height_ = bands.fetch(substrate.height, rows_.first, rows_.count);
     highest_ = -std::numeric_limits<double>::infinity();
-    for (const double h : height_) // holes do not count
+    for (const double h : substrate.height) // holes do not count
         highest_ = h > highest_ ? h : highest_;
-    if (!slides || !substrate.pair) return;
-    counter_ = substrate.pair->counter_height;
+    highest_ = substrate.ranks.max(highest_);
+    if (!options.slides || !substrate.pair) return;
+    counter_ = bands.fetch(substrate.pair->counter_height, 0, sites_);
     highest_ = substrate.pair->own.highest + substrate.pair->counter.highest;
+}
+
+RowRange HeightMap::rows_under(const Tile& tile, double spacing, int atoms, double between,
+                               const InterfaceOptions& options) {
+    if (options.slides) return {0, atoms};
+    // A wall may end below the first sites of the grid.
+    if (options.wall) return {tile.y0, std::max(0, std::min(tile.ny, atoms - tile.y0))};
+    const double reach = options.pairs().cutoff + farthest_sideways(spacing);
+    const int more = interface_block + 1; // for the tables of OverRows
+    const int first = static_cast<int>(std::floor(((tile.y0 + 0.5) * spacing - reach) / between));
+    const int last =
+        static_cast<int>(std::ceil(((tile.y0 + tile.ny - 0.5) * spacing + reach) / between));
+    const int count = last + 1 - first + 2 * more;
+    return count < atoms ? RowRange{first - more, count} : RowRange{0, atoms};
+}
+
+void HeightMap::free_heights() {
+    rows_.count = 0;
+    height_ = std::vector<double>();
+    counter_ = std::vector<double>();
 }
 
 void HeightMap::shift(int i, int j) {
@@ -79,9 +105,9 @@ ReachTable::ReachTable(const HeightMap& map, const Tile& tile, double spacing, d
             const double site_y = (tile.y0 + y + 0.5) * spacing;
             const int j_last = static_cast<int>(std::ceil((site_y + reach) / b));
             for (int j = static_cast<int>(std::floor((site_y - reach) / b)); j <= j_last; ++j) {
-                const double* row =
-                    whole.height +
-                    static_cast<std::ptrdiff_t>(periodic(j, whole.sites)) * whole.sites;
+                const double* row = whole.height + static_cast<std::ptrdiff_t>(
+                                                       periodic(j - whole.first, whole.sites)) *
+                                                       whole.sites;
                 const double dy = site_y - j * b;
                 if (std::abs(dy) > reach) continue;
                 const double half = std::sqrt(reach * reach - dy * dy);

@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
 //
-// The substrate's heights on a square lattice, which every rank holds whole; used by all substrates
-// of one layer.
+// The substrate's heights on a square lattice, in the rows that a tile of sites needs; used by all
+// substrates of one layer.
 #pragma once
 
 #include "decomposition/field.hpp"
 #include "decomposition/tile.hpp"
+#include "engine/options/interface_options.hpp"
 #include "engine/options/substrate.hpp"
 #include "kernels/substrates.hpp"
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace asperity {
@@ -21,18 +23,32 @@ inline int blocks_in_row(const Tile& tile) {
     return (tile.nx + interface_block - 1) / interface_block;
 }
 
+/// Rows of a periodic map.
+struct RowRange {
+    int first = 0, count = 0;
+};
+
 /// Heights of the substrate's atoms on a square lattice, periodic.
 class HeightMap {
 public:
-    /// Copies the heights of a substrate. sites: number of the block's sites across the box;
+    /// Copies the heights that a tile needs. sites: number of the block's sites across the box;
     /// spacing: spacing of the block's sites, Å; slides: the block slides over the substrate, or
-    /// over the second solid of a pair.
-    HeightMap(const Surface& substrate, int sites, double spacing, bool slides = false);
+    /// over the second solid of a pair, and the tile needs all heights. Collective.
+    HeightMap(const Surface& substrate, const Tile& tile, int sites, double spacing,
+              const InterfaceOptions& options);
 
-    /// Returns the height of atom (i, j), which stands at (i b, j b), Å.
+    /// Returns the rows of the map that a tile needs: over a wall those of its sites, over atoms
+    /// those within the cutoff and farthest_sideways() of them, all if the block slides. atoms:
+    /// number of atoms across the box; between: their spacing, Å.
+    static RowRange rows_under(const Tile& tile, double spacing, int atoms, double between,
+                               const InterfaceOptions& options);
+
+    /// Returns the height of atom (i, j), which stands at (i b, j b), Å; NaN if its row is not
+    /// held.
     double at(int i, int j) const {
-        return height_[static_cast<std::size_t>(periodic(j, sites_)) *
-                           static_cast<std::size_t>(sites_) +
+        const int row = periodic(j - rows_.first, sites_);
+        if (row >= rows_.count) return std::numeric_limits<double>::quiet_NaN();
+        return height_[static_cast<std::size_t>(row) * static_cast<std::size_t>(sites_) +
                        static_cast<std::size_t>(periodic(i, sites_))];
     }
     int sites() const { return sites_; }        ///< returns the number of atoms across the box
@@ -46,11 +62,15 @@ public:
     bool is_pair() const { return !counter_.empty(); }
     /// Returns the radius of the spherical cap in the heights, Å; 0: none.
     double radius() const { return radius_; }
-    SubstrateMap view() const { return {height_.data(), sites_, spacing_}; }
-    const std::vector<double>& heights() const { return height_; }
+    SubstrateMap view() const {
+        return {height_.data(), sites_, spacing_, rows_.first, rows_.count};
+    }
+    const std::vector<double>& heights() const { return height_; } ///< returns the rows held
 
-    /// Moves all atoms by (i, j) spacings b.
+    /// Moves all atoms by (i, j) spacings b. Requires that the map slides.
     void shift(int i, int j);
+    /// Frees the heights, for a substrate that has its own copy of them.
+    void free_heights();
 
     /// Returns the height at (x, y), Å, interpolated bilinearly between the four nearest atoms.
     double between(double x, double y) const;
@@ -73,10 +93,11 @@ public:
     }
 
 private:
-    std::vector<double> height_;
-    std::vector<double> counter_; ///< heights of a second solid that slides; empty: none
     int sites_;
     double spacing_, highest_, radius_;
+    RowRange rows_;
+    std::vector<double> height_;  ///< rows_ of the map, Å
+    std::vector<double> counter_; ///< heights of a second solid that slides; empty: none
 };
 
 /// Largest and smallest heights of the substrate around each block of sites, for rings of lateral

@@ -72,12 +72,13 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
                      const InterfaceOptions& options)
     : options_(within_single(options)), tile_(tile), spacing_(spacing),
       across_(static_cast<int>(std::lround(substrate.length / spacing))),
-      map_(substrate, across_, spacing, options.slides),
+      map_(substrate, tile, across_, spacing, options_),
       method_(method_for(options, substrate, tile.sites)),
       substrate_(substrate_of(substrate.atoms)) {
     set_reference_height(start_height());
     if (options.tail && !wall()) find_mean_heights();
     if (options.slides) atoms_ = substrate.atoms;
+    if (wall()) map_.free_heights();
 }
 
 void Interface::slide_to(double x, double y) {
@@ -254,13 +255,8 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
                 maps.set.push_back(yielding->set()(x, y));
                 maps.yielded_heights.push_back(yielding->below(x, y));
             }
-    for (const auto& map : options_.site_maps()) {
-        std::vector<double>& values = maps.of_sites.emplace_back(map->name, 0).second;
-        values.reserve(count);
-        for (int y = 0; y < tile_.ny; ++y)
-            for (int x = 0; x < tile_.nx; ++x)
-                values.push_back(map->at(tile_.x0 + x, tile_.y0 + y));
-    }
+    for (const auto& map : options_.site_maps())
+        maps.of_sites.emplace_back(map->name, map->under(tile_));
     return maps;
 }
 
@@ -301,6 +297,10 @@ std::int64_t Interface::contact_edges(const VectorPlane<const double>& displacem
 Interface::Tables Interface::tables() const {
     return {std::get_if<OverLattice>(&substrate_), map_.heights(),
             mean_height_.empty() ? nullptr : &mean_height_, density()};
+}
+
+std::size_t Interface::bytes_of_map() const {
+    return map_.heights().size() * sizeof(double) + (wall() ? wall()->bytes_of_map() : 0);
 }
 
 std::size_t Interface::bytes() const {

@@ -5,8 +5,9 @@
 // (docs/explanation/model.md), which consists of atoms or is a wall.
 //
 // The interface is built once per run; its tables are rebuilt after each spacing that the block
-// slides. Every rank holds the whole height map, so that the sweep is local to the tile; its sums
-// are exact (ExactSum) and can be merged over ranks in any order.
+// slides. A rank holds the rows of the height map around its tile (all rows if the block slides),
+// so that the sweep is local to the tile; its sums are exact (ExactSum) and can be merged over
+// ranks in any order.
 //
 // The kinds of substrate are small classes: OverLattice, OverRows, OverAtoms, OverWall. Each keeps
 // the data that its sweep reads around the tile, and passes rows of sites to its kernel.
@@ -73,9 +74,10 @@ void crop_map(std::vector<T>& map, int across, int n) {
 /// The interface of one tile of sites with the substrate.
 class Interface {
 public:
-    /// Makes the tables; copies the needed part of the surface. spacing: a, the block's lattice
-    /// constant, Å. A wall may end below the first sites of the tile's grid, where the substrate's
-    /// length is less than the grid's; no solid is below the others.
+    /// Makes the tables; copies the needed part of the surface. Collective over the ranks of the
+    /// surface. spacing: a, the block's lattice constant, Å. A wall may end below the first sites
+    /// of the tile's grid, where the substrate's length is less than the grid's; no solid is below
+    /// the others.
     Interface(const Surface& substrate, const Tile& tile, double spacing,
               const InterfaceOptions& options);
 
@@ -111,7 +113,7 @@ public:
     std::int64_t contact_edges(const VectorPlane<const double>& displacement,
                                const Communicator& ranks) const;
 
-    /// Returns maps of the sites at these displacements, Å.
+    /// Returns maps of the sites at these displacements, Å. Collective.
     InterfaceMaps maps(const VectorPlane<const double>& displacement) const;
 
     /// Returns the lowest reference height at which undisplaced sites are beyond the interaction
@@ -124,7 +126,7 @@ public:
     /// Views of the tables that a device copies; valid as long as this object.
     struct Tables {
         const OverLattice* lattice;       ///< null if the substrate is of another kind
-        std::span<const double> map;      ///< all heights, Å
+        std::span<const double> map;      ///< heights around the tile, Å
         const Field<double>* mean_height; ///< mean heights for the tail, Å; nullptr without a tail
         double density;                   ///< density of the substrate's atoms, 1/Å^2
     };
@@ -138,6 +140,8 @@ public:
     /// Returns the number of sites across the box above the substrate, N.
     int sites_across() const { return across_; }
     std::size_t bytes() const; ///< returns the memory of the tables, bytes
+    /// Returns the part of bytes() that holds heights of more rows than the tile's, bytes.
+    std::size_t bytes_of_map() const;
 
 private:
     /// Substrate; std::monostate: the reference loop over the map.

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: MIT
 #include "engine/interface/over_wall.hpp"
 
+#include "engine/units.hpp"
+
 #include <fmt/format.h>
 
 #include <limits>
 #include <optional>
 #include <stdexcept>
+#include <vector>
 
 namespace asperity {
 
@@ -37,9 +40,11 @@ OverWall::OverWall(const HeightMap& map, int across, const Tile& tile,
     if (options.adhesion) {
         factor_ = Field<double>(tile, 1, 0);
         const PlaneView<double> factor = factor_.plane(0);
+        const std::vector<double> adhesion = options.adhesion->under(tile);
+        auto of_site = adhesion.begin();
         for (int y = 0; y < tile.ny; ++y)
             for (int x = 0; x < tile.nx; ++x)
-                factor(x, y) = options.adhesion_factor(tile.x0 + x, tile.y0 + y);
+                factor(x, y) = options.adhesion_factor(*of_site++);
     }
     if (options.hardness) find_yield_gaps(options, tile, n, map.spacing() * map.spacing());
 }
@@ -68,12 +73,18 @@ void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile
     yield_gap_ = Field<double>(tile, 1, 0);
     set_ = Field<double>(tile, 1, 0);
     const PlaneView<double> gap = yield_gap_.plane(0);
+    std::vector<double> hardness;
+    if (options.hardness_map) hardness = options.hardness_map->under(tile);
+    const auto hardness_at = [&](int x, int y) {
+        if (hardness.empty()) return options.hardness.value();
+        return units::gigapascal * hardness[static_cast<std::size_t>(y * tile.nx + x)];
+    };
     std::optional<double> of_all; // without maps
     for (int y = 0; y < tile.ny && tile.y0 + y < across; ++y)
         for (int x = 0; x < tile.nx && tile.x0 + x < across; ++x) {
             if (!of_all || options.adhesion || options.hardness_map)
                 of_all = with_law(x, y, [&](const auto& law) {
-                    return gap_under(law, area * options.hardness_at(tile.x0 + x, tile.y0 + y));
+                    return gap_under(law, area * hardness_at(x, y));
                 });
             gap(x, y) = *of_all;
         }

@@ -87,6 +87,8 @@ public:
     PlaneView<const double> height() const {
         return sliding_ ? sliding_->height() : height_.plane(0);
     }
+    /// Returns the part of bytes() that every rank holds whole: the map of a wall that slides.
+    std::size_t bytes_of_map() const { return sliding_ ? sliding_->bytes_of_map() : 0; }
     std::size_t bytes() const {
         return (sliding_ ? sliding_->bytes() : height_.bytes()) +
                (factor_.empty() ? 0 : factor_.bytes()) +

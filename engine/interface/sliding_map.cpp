@@ -16,11 +16,11 @@ SlidingMap::SlidingMap(const HeightMap& map, const Tile& tile)
             for (int x = 0; x < sites_; ++x)
                 map_[at(x, y)] -=
                     cap_of(radius_, (x - 0.5 * sites_) * spacing_, (y - 0.5 * sites_) * spacing_);
-    if (map.is_pair()) {
-        own_ = map.heights();
-        for (std::size_t i = 0; i < own_.size(); ++i)
-            own_[i] -= map_[i];
-    }
+    if (map.is_pair())
+        for (int y = 0; y < tile.ny; ++y)
+            for (int x = 0; x < tile.nx; ++x)
+                own_.push_back(map.at(tile.x0 + x, tile.y0 + y) -
+                               map_[at(tile.x0 + x, tile.y0 + y)]);
     const std::size_t rows = static_cast<std::size_t>(tile.ny) * shift_.waves();
     waves_.resize(rows);
     waves_of_slope_.resize(rows);
@@ -87,7 +87,7 @@ void SlidingMap::slide_to(double x, double y) {
             }
             if (!own_.empty())
                 for (int i = 0; i < tile_.nx; ++i)
-                    height(i, j) += own_[at(tile_.x0 + i, tile_.y0 + j)];
+                    height(i, j) += own_[static_cast<std::size_t>(j * tile_.nx + i)];
             if (!(radius_ > 0.0)) continue;
             const auto from_centre = [&](int site, double by) {
                 const double d = site * spacing_ + by - 0.5 * edge;

@@ -32,6 +32,8 @@ public:
     /// Returns the derivative of height() with respect to the place along axis 0 (x) or 1 (y).
     PlaneView<const double> slope(std::size_t axis) const { return slope_[axis].plane(0); }
     std::size_t bytes() const; ///< returns the memory of the fields, bytes
+    /// Returns the memory of the map that moves, which every rank holds whole, bytes.
+    std::size_t bytes_of_map() const { return map_.size() * sizeof(double); }
 
 private:
     using Complex = RowShift::Complex;
@@ -45,7 +47,8 @@ private:
     int sites_;
     double spacing_, radius_;
     std::vector<double> map_; ///< heights that move, without the cap, Å
-    std::vector<double> own_; ///< heights of the block's own surface, Å; empty: it is flat
+    /// Heights of the block's own surface below the tile, [y * nx + x], Å; empty: it is flat.
+    std::vector<double> own_;
     RowShift shift_;
     std::array<double, 2> place_{};
     /// Waves along x of the tile's rows at the present place along y: of the heights, Å, and of

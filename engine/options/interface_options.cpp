@@ -4,18 +4,32 @@
 
 #include "engine/units.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <variant>
 
 namespace asperity {
 
-SiteMap SiteMap::corner(int across) const {
+std::vector<double> SiteMap::under(const Tile& tile) const {
+    const int held = std::clamp(sites - tile.y0, 0, tile.ny);
+    const std::vector<double> rows = bands().fetch(values, tile.y0, held);
+    const int width = std::clamp(sites - tile.x0, 0, tile.nx);
+    std::vector<double> found(static_cast<std::size_t>(tile.nx) *
+                              static_cast<std::size_t>(tile.ny));
+    for (std::ptrdiff_t y = 0; y < held; ++y)
+        std::copy_n(rows.begin() + y * sites + tile.x0, width, found.begin() + y * tile.nx);
+    return found;
+}
+
+SiteMap SiteMap::piece(int across) const {
     SiteMap part = *this;
     part.sites = across;
-    part.values.clear();
-    for (int y = 0; y < across; ++y)
-        for (int x = 0; x < across; ++x)
-            part.values.push_back(at(x, y));
+    part.sum = mean() * across * across;
+    part.ranks = Communicator();
+    part.values.resize(static_cast<std::size_t>(across) * static_cast<std::size_t>(across));
+    for (std::size_t i = 0; i < part.values.size(); ++i)
+        part.values[i] = values.empty() ? mean() : values[i % values.size()];
     return part;
 }
 
@@ -28,30 +42,24 @@ std::vector<std::shared_ptr<const SiteMap>> InterfaceOptions::site_maps() const 
 
 void InterfaceOptions::crop_site_maps(int across) {
     for (auto* const map : {&adhesion, &hardness_map})
-        if (*map) *map = std::make_shared<SiteMap>((*map)->corner(across));
+        if (*map) *map = std::make_shared<SiteMap>((*map)->piece(across));
 }
 
-double InterfaceOptions::adhesion_factor(int x, int y) const {
+double InterfaceOptions::adhesion_factor(double adhesion_of_site) const {
     return std::visit(
         [&]<class Law>(const Law& of_largest) {
             if constexpr (ScaledBySite<Law>)
                 if (adhesion && adhesion->largest > 0.0)
-                    return of_largest.factor_of(adhesion->at(x, y) / adhesion->largest);
+                    return of_largest.factor_of(adhesion_of_site / adhesion->largest);
             return 1.0;
         },
         *wall);
 }
 
-double InterfaceOptions::hardness_at(int x, int y) const {
-    return hardness_map ? hardness_map->at(x, y) * units::gigapascal : hardness.value();
-}
-
 double InterfaceOptions::mean_hardness() const {
     if (!hardness_map) return hardness.value();
-    double sum = 0.0;
-    for (const double value : hardness_map->values)
-        sum += value;
-    return units::gigapascal * sum / static_cast<double>(hardness_map->values.size());
+    const double across = hardness_map->sites;
+    return units::gigapascal * hardness_map->sum / (across * across);
 }
 
 WallLaw mean_wall(const InterfaceOptions& options) {

@@ -4,6 +4,8 @@
 // Options of the interaction between the substrate and the block's lowest layer.
 #pragma once
 
+#include "decomposition/bands.hpp"
+#include "decomposition/tile.hpp"
 #include "kernels/interface_kernels.hpp"
 
 #include <cstddef>
@@ -24,23 +26,26 @@ enum class InterfaceMethod { automatic, reference, lattice, rows, cells, wall };
 
 /// A number for each site of the box, from a map or a formula (a field of sites).
 struct SiteMap {
-    std::string name;           ///< name in results: "adhesion"
-    std::string source;         ///< file or formula, as the scene gives it
-    std::string file;           ///< path of the file; empty: a formula
-    std::uint32_t digest = 0;   ///< digest of the values of the whole box
-    int sites = 0;              ///< number of sites across the box
-    std::vector<double> values; ///< values[y * sites + x], in the unit of the scene's key
-    double least = 0.0;         ///< smallest value of the whole box
-    double largest = 0.0;       ///< largest value of the whole box
+    std::string name;         ///< name in results: "adhesion"
+    std::string source;       ///< file or formula, as the scene gives it
+    std::string file;         ///< path of the file; empty: a formula
+    std::uint32_t digest = 0; ///< digest of the values of the whole box
+    int sites = 0;            ///< number of sites across the box
+    /// Band of the values on this rank, values[bands().at(x, y)], in the unit of the scene's key.
+    std::vector<double> values;
+    double least = 0.0;   ///< smallest value of the whole box
+    double largest = 0.0; ///< largest value of the whole box
+    double sum = 0.0;     ///< sum of the values of the whole box
+    Communicator ranks{}; ///< ranks that hold the values
 
-    /// Returns the value of site (x, y); 0 outside the box.
-    double at(int x, int y) const {
-        if (x >= sites || y >= sites) return 0.0;
-        return values[static_cast<std::size_t>(y) * static_cast<std::size_t>(sites) +
-                      static_cast<std::size_t>(x)];
-    }
-    /// Returns the part of the first across x across sites.
-    SiteMap corner(int across) const;
+    /// Returns the division of the values among the ranks.
+    Bands bands() const { return {ranks, sites}; }
+    /// Returns the mean value of the whole box.
+    double mean() const { return sum / (static_cast<double>(sites) * sites); }
+    /// Returns the values of a tile's sites, [y * nx + x]; 0 outside the box. Collective.
+    std::vector<double> under(const Tile& tile) const;
+    /// Returns a map of across x across of this rank's values, which it alone holds.
+    SiteMap piece(int across) const;
 };
 
 /// Options of the interface.
@@ -72,12 +77,11 @@ struct InterfaceOptions {
 
     /// Returns the maps of the sites that the interface has.
     std::vector<std::shared_ptr<const SiteMap>> site_maps() const;
-    /// Replaces each map of the sites by its part of the first across x across sites.
+    /// Replaces each map of the sites by a piece of across x across.
     void crop_site_maps(int across);
-    /// Returns the factor of the attraction of site (x, y) over the wall (kernels/wall_law.hpp).
-    double adhesion_factor(int x, int y) const;
-    /// Returns the hardness of site (x, y) of the box, eV/Å^3. Requires `hardness`.
-    double hardness_at(int x, int y) const;
+    /// Returns the factor of the attraction of a site of this work of adhesion, meV/Å^2, over the
+    /// wall (kernels/wall_law.hpp).
+    double adhesion_factor(double adhesion_of_site) const;
     /// Returns the mean hardness of the sites of the box, eV/Å^3. Requires `hardness`.
     double mean_hardness() const;
 

@@ -4,6 +4,8 @@
 // Data of the substrate: heights or atoms, and their statistics (made by engine/scene/surface.hpp).
 #pragma once
 
+#include "decomposition/bands.hpp"
+
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -50,7 +52,8 @@ inline double cap_of(double radius, double dx, double dy) {
 /// The two surfaces of a pair of rough solids; the heights of each are outwards from its own solid.
 struct SurfacePair {
     SurfaceStatistics own, counter; ///< statistics of the block's surface, and the second solid's
-    /// Heights of the second solid in its place, Å: turned over, turned and shifted.
+    /// Heights of the second solid in its place, Å, turned over, turned and shifted: this rank's
+    /// band of them.
     std::vector<double> counter_height;
     double correlation = 0.0;  ///< correlation of the heights; 0 if one surface is flat
     double band_overlap = 0.0; ///< overlap of the spectra, 1 for proportional ones, 0 for disjoint
@@ -62,8 +65,8 @@ struct Surface {
     int sites = 0;
     double length = 0.0; ///< Å
     double radius = 0.0; ///< radius of the cap that the heights include, Å; 0: none
-    /// height[y * sites + x]: height of the atom at (x, y) length / sites, Å; with `atoms`, height
-    /// of the topmost atom nearest to this place.
+    /// Band of the heights on this rank, height[bands().at(x, y)]: height of the atom at (x, y)
+    /// length / sites, Å; with `atoms`, height of the topmost atom nearest to this place.
     std::vector<double> height;
     AtomPositions atoms; ///< atoms in the box [0, length); empty: one atom per height
     long long holes = 0; ///< number of NaN heights, which mean no solid
@@ -75,6 +78,10 @@ struct Surface {
     std::optional<std::uint32_t> file_digest;
     std::vector<std::string> doubts; ///< sentences on possible mistakes in the file of a map
     std::vector<std::string> notes;  ///< sentences on clipping and resampling
+    Communicator ranks{};            ///< ranks that hold the heights
+
+    /// Returns the division of the heights among the ranks.
+    Bands bands() const { return {ranks, sites}; }
 };
 
 /// Returns the correlation length of a substrate, Å: the wavelength of the mean wavevector of its

@@ -13,6 +13,10 @@ namespace asperity {
 /// Returns the largest lateral displacement of a site that the tables allow for, Å. spacing: Å.
 inline double sideways_margin(double spacing) { return 2.0 * spacing; }
 
+/// Returns the lateral displacement of a site up to which its rank knows the heights below it,
+/// where the block does not slide, Å: a site displaced further has left the model. spacing: Å.
+inline double farthest_sideways(double spacing) { return 64.0 * spacing; }
+
 /// Returns the largest cutoff that the tables allow for over a substrate of one layer, Å. spacing:
 /// spacing of the sites, Å; between_atoms: spacing of the atoms, Å.
 inline double largest_cutoff(double spacing, double between_atoms) {

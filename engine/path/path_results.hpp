@@ -81,6 +81,8 @@ struct SegmentResults {
 
 /// Results of a path so far.
 struct PathResults {
+    // Heights of a surface that yields, before the path: rms, Å, and rms slope, by differences.
+    double unyielded_rms = 0.0, unyielded_slope = 0.0;
     std::optional<ZeroLoad> zero_load; ///< state after the last approach, or at the path's start
     PerTerm<std::optional<double>> in_cycle; ///< losses of the last cycle, meV/Å^2
     double strongest = 0.0;                  ///< strongest attraction of the path so far, eV/Å

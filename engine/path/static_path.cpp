@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 #include "engine/path/static_path.hpp"
 
-#include "decomposition/plane_bands.hpp"
 #include "engine/scene/map_statistics.hpp"
 
 #include <fmt/format.h>
@@ -21,6 +20,12 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
       block_(c.simulation.block, ranks, !c.effects.lateral) {
     remember_set(block_, interface_);
     before_first_.mean_height = interface_.reference_height();
+    if (!interface_.yielding_wall()) return;
+    const double a = c.simulation.block.spacing;
+    const MapStatistics before =
+        map_statistics(surface.height, surface.bands(), a, a, !c.effects.free_edges);
+    results_.unyielded_rms = before.rms_height;
+    results_.unyielded_slope = before.rms_slope;
 }
 
 void StaticPath::make_points() {
@@ -139,27 +144,19 @@ void StaticPath::conclude() {
 
 /// Adds the statistics of the yielded heights to the results of the last segment.
 void StaticPath::look_at_heights() {
-    const PlaneView<const double> u = block_.lowest_layer().z;
-    Field<double> below(grid_.tile(0), 1, 0);
-    for (int y = 0; y < u.ny; ++y)
-        for (int x = 0; x < u.nx; ++x)
-            below.plane(0)(x, y) = interface_.wall()->below(x, y);
-    std::vector<double> heights =
-        gather_plane(communicator(), grid_, 0, std::as_const(below).plane(0));
-    std::array<double, 2> values{};
-    communicator().on_root([&] {
-        const int n = interface_.sites_across();
-        crop_map(heights, interface_.tile().sites, n);
-        const auto across = static_cast<std::size_t>(n);
-        const double a = block_.options().spacing;
-        const MapStatistics s =
-            map_statistics(heights, across, across, a, a, !case_.effects.free_edges);
-        values = {s.rms_height, s.rms_slope};
-    });
-    communicator().broadcast(values);
+    const int n = interface_.sites_across();
+    const Tile& tile = interface_.tile(); // whole rows, in the order of the ranks
+    const int rows = std::clamp(n - tile.y0, 0, tile.ny);
+    std::vector<double> heights;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < n; ++x)
+            heights.push_back(interface_.wall()->below(x, y));
+    const Bands bands = Bands::of_rows(communicator(), n, rows);
+    const double a = block_.options().spacing;
+    const MapStatistics s = map_statistics(heights, bands, a, a, !case_.effects.free_edges);
     SegmentResults& ended = results_.segments.back();
-    ended.yielded_rms = values[0];
-    ended.yielded_slope = values[1];
+    ended.yielded_rms = s.rms_height;
+    ended.yielded_slope = s.rms_slope;
 }
 
 std::string StaticPath::position() const {

@@ -73,6 +73,30 @@ std::vector<Piece> timed_pieces(const Case& c, const Surface* of_file, double at
     return pieces;
 }
 
+/// Returns the bytes of the heights that the interface of a tile holds around it.
+double bytes_of_map(const Case& c, const Tile& tile) {
+    const double n = c.substrate(), between = c.edge() / n;
+    const InterfaceOptions& interface = c.simulation.interface;
+    const int rows =
+        HeightMap::rows_under(tile, c.simulation.block.spacing, c.substrate(), between, interface)
+            .count;
+    const bool moves = interface.slides && !interface.wall && c.surface.counter;
+    return sizeof(double) * n * rows * (moves ? 2.0 : 1.0);
+}
+
+/// Returns the arrays that each rank, or the first one, holds whole.
+std::vector<std::pair<std::string, double>> arrays_held_whole(const Case& c, double atoms) {
+    std::vector<std::pair<std::string, double>> whole;
+    const double map = sizeof(double) * std::pow(c.substrate(), 2);
+    if (c.simulation.interface.slides)
+        whole.emplace_back("heights below a slide, on each rank", map);
+    if (atoms > 0.0)
+        whole.emplace_back("atoms of the substrate, on each rank", 3.0 * sizeof(double) * atoms);
+    if (c.surface.reads_file())
+        whole.emplace_back("heights of a file, on the first rank while it is read", map);
+    return whole;
+}
+
 /// Returns the bytes of a part on one rank of the case.
 double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, double atoms) {
     const Tile tile = c.grid(rank).tile(0);
@@ -82,7 +106,10 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     const double whole = std::pow(block.grid(), 2) / one;
     const double here = static_cast<double>(tile.nx) * tile.ny / one;
     const double bytes = piece.bytes[part];
-    if (part == Piece::surface) return bytes * (std::pow(c.substrate(), 2) + atoms) / piece.atoms;
+    if (part == Piece::surface) {
+        const double maps = c.surface.counter ? 2.0 : 1.0;
+        return sizeof(double) * (maps * std::pow(c.substrate(), 2) / c.ranks + 3.0 * atoms);
+    }
     if (part == Piece::maps &&
         bytes > 0.0) // the root holds bands of the others', and the stresses whole
         return bytes * here + (rank == 0
@@ -95,14 +122,16 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     // Ranks exchange waves where a block at rest is: for good, or while a dynamic one is relaxed.
     const bool at_rest = part == (c.effects.dynamic ? Piece::rest : Piece::block) && bytes > 0.0;
     const double components = c.effects.dynamic || c.effects.lateral ? 3.0 : 1.0;
-    return bytes * here +
+    const double map = part == Piece::interface ? piece.map : 0.0;
+    return (bytes - map) * here + (map > 0.0 ? bytes_of_map(c, tile) : 0.0) +
            (at_rest && c.ranks > 1 ? bytes_exchanged * components * tile.nx * tile.ny : 0.0);
 }
 
-/// Returns the bytes of the maps of a state for a site: seven numbers and a mark, and those that
-/// the interface reads.
+/// Returns the bytes of the maps of a state for a site: six numbers and a mark, two of a surface
+/// that yields, and those that the interface reads.
 double bytes_of_maps(const InterfaceOptions& interface) {
-    return 57.0 + 8.0 * static_cast<double>(interface.site_maps().size());
+    return 49.0 + (interface.hardness ? 16.0 : 0.0) +
+           8.0 * static_cast<double>(interface.site_maps().size());
 }
 
 /// Returns the largest memory of a rank, bytes.
@@ -124,6 +153,27 @@ void print_scales(std::FILE* to, const Case& c, double height) {
                    c.scales.force, c.force_scale, c.tolerance / c.scales.force, c.tolerance);
     if (const std::string note = rounding_note(c, height); !note.empty())
         io::print_text(to, "            {}\n", note);
+}
+
+/// Returns the number of ranks that fit into the memory of a node, bytes.
+int ranks_of_node(const Plan& plan, double node) {
+    const double most = node / bytes_of_largest_rank(plan);
+    return static_cast<int>(std::min(most, 1.0 * static_cast<double>(plan.bytes_of_rank.size())));
+}
+
+/// Prints how many ranks fit into a node of this memory, bytes, and how many nodes are needed.
+void print_nodes(std::FILE* to, const Plan& plan, double node) {
+    const int ranks = static_cast<int>(plan.bytes_of_rank.size()), fit = ranks_of_node(plan, node);
+    if (fit == 0)
+        io::print_text(to,
+                       "nodes       of {} do not hold one rank of {}: take more ranks, or nodes of "
+                       "more memory\n",
+                       memory_text(node), memory_text(bytes_of_largest_rank(plan)));
+    else
+        io::print_text(to,
+                       "nodes       of {} hold {} of these ranks each; {} such node{} for all\n",
+                       memory_text(node), fit, (ranks + fit - 1) / fit,
+                       ranks <= fit ? " is enough" : "s are needed");
 }
 
 } // namespace
@@ -159,6 +209,7 @@ Plan make_plan(const Case& c, int threads) {
         plan.bytes_of_rank.push_back(std::accumulate(bytes.begin(), bytes.end(), 0.0) -
                                      std::min(bytes[Piece::rest], bytes[Piece::maps]));
     }
+    plan.whole = arrays_held_whole(c, atoms);
     const double here = std::pow(c.simulation.block.sites, 2);
     plan.state_bytes = (bytes_of_maps(c.simulation.interface) + (block.counter ? 8.0 : 0.0)) * here;
     if (c.effects.maps) plan.stress_bytes = stress_bytes(block.sites, c.output.stress);
@@ -169,7 +220,7 @@ Plan make_plan(const Case& c, int threads) {
     // The share of the work of each thread of the slowest rank.
     const double share = (1.0 + c.grid(0).imbalance()) / c.ranks / threads;
     const double wider = static_cast<double>(block.sites) / piece.sites;
-    plan.making = piece.making * wider * wider / threads;
+    plan.making = piece.making * wider * wider / c.ranks / threads;
     const double highest = surface                         ? surface->statistics.highest
                            : own.kind == SurfaceKind::flat ? 0.0
                                                            : highest_over_rms * own.rms;
@@ -203,7 +254,7 @@ Plan make_plan(const Case& c, int threads) {
     return plan;
 }
 
-void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
+void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan, double node) {
     const auto s = [](auto count) { return count == 1 ? "" : "s"; };
     io::print_text(to, "{}: {}; {}\n\n", c.scene.name, c.box_in_words(), c.block_in_words());
     io::Table effects({"effect", "", "because"}, "<<<");
@@ -246,6 +297,9 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
         io::print_text(to, "ranks       {} and {} x {} sites each, at most\n",
                        memory_text(bytes_of_largest_rank(plan)), tile.nx, tile.ny);
     }
+    for (const auto& [what, size] : plan.whole)
+        io::print_text(to, "whole       {} of {}\n", memory_text(size), what);
+    if (node > 0.0) print_nodes(to, plan, node);
     io::print_text(to, "memory      {} available here ({})\n", memory_text(there.bytes),
                    there.because);
     io::print_text(
@@ -255,7 +309,7 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan) {
             ? fmt::format("; {} for the stresses below it", memory_text(plan.stress_bytes))
             : "",
         plan.frame_bytes > 0.0 ? fmt::format("; {} a frame", memory_text(plan.frame_bytes)) : "");
-    if (bytes > there.bytes)
+    if (bytes > there.bytes && node <= 0.0)
         io::print_text(to,
                        "            The run does not fit into this machine: `asperity run` will "
                        "refuse it here. Fewer sites, coarser or\n            fewer layers, or more "
@@ -286,7 +340,7 @@ nlohmann::ordered_json effects_json(const Effects& effects) {
     return all;
 }
 
-nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
+nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan, double node) {
     io::Json bytes, seconds;
     constexpr std::array names = {"surface", "interface", "block", "kept", "rest", "maps"};
     static_assert(names.size() == Piece::parts);
@@ -298,21 +352,27 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan) {
     bytes["state"] = plan.state_bytes;
     bytes["stress"] = plan.stress_bytes;
     bytes["frame"] = plan.frame_bytes;
+    io::Json whole = io::Json::object();
+    for (const auto& [what, size] : plan.whole)
+        whole[what] = size;
     const Tile tile = c.grid(0).tile(0);
     seconds["surface"] = plan.making;
     seconds["steps"] = plan.moving;
     seconds["rest"] = plan.rest;
     seconds["altogether"] = seconds_altogether(plan);
     seconds["factor"] = plan.factor;
-    return {{"name", c.scene.name},
-            {"effects", effects_json(c.effects)},
-            {"ranks", c.ranks},
-            {"threads", threads},
-            {"sites_of_rank", {tile.nx, tile.ny}},
-            {"steps", plan.steps},
-            {"bytes", bytes},
-            {"seconds", seconds},
-            {"ended", plan.ended}};
+    io::Json all = {{"name", c.scene.name},
+                    {"effects", effects_json(c.effects)},
+                    {"ranks", c.ranks},
+                    {"threads", threads},
+                    {"sites_of_rank", {tile.nx, tile.ny}},
+                    {"steps", plan.steps},
+                    {"bytes", bytes},
+                    {"whole", whole},
+                    {"seconds", seconds},
+                    {"ended", plan.ended}};
+    if (node > 0.0) all["ranks_of_node"] = ranks_of_node(plan, node);
+    return all;
 }
 
 void require_memory(const Case& c, const Communicator& ranks) {

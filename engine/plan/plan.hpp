@@ -13,6 +13,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdio>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace asperity {
@@ -21,6 +23,9 @@ namespace asperity {
 struct Plan {
     std::array<double, Piece::parts> bytes{}; ///< memory of each part, all ranks together
     std::vector<double> bytes_of_rank;        ///< peak memory of each rank, bytes
+    /// Arrays that are not divided among the ranks, with their size on a rank, bytes. They are part
+    /// of `bytes`, those of the reading of files excepted.
+    std::vector<std::pair<std::string, double>> whole;
     double state_bytes = 0.0;  ///< size of the maps of a state in run.h5 before compression, bytes
     double stress_bytes = 0.0; ///< size of the stresses below a state there; 0: none are written
     /// Size of a frame of the trajectory in run.h5, bytes; 0: none is written.
@@ -39,17 +44,19 @@ struct Plan {
 /// Estimates memory and time of a run. threads: number of threads of a rank; 0: memory only,
 /// without reading files.
 Plan make_plan(const Case& c, int threads);
-/// Prints effects, memory and time.
-void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan);
+/// Prints effects, memory and time. node: memory of a node, bytes; 0: nothing is said of nodes.
+void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan, double node = 0.0);
 /// Returns the effects as JSON: {name: {"on", "because"}}.
 nlohmann::ordered_json effects_json(const Effects& effects);
 /// Returns the plan as JSON: {"name", "effects": {name: {"on", "because"}}, "ranks", "threads",
 /// "sites_of_rank", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
-/// "altogether", "rank", "available", "state", "stress", "frame"}, "seconds": {"surface", "steps",
-/// "rest", "altogether", "factor"}, "ended"}, named as the members of Plan and parts of Piece.
-/// bytes.altogether: peak memory; seconds.altogether: time of the whole run; bytes.rank: peak
-/// memory of a rank; bytes.state, bytes.stress, bytes.frame: size in run.h5 before compression.
-nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan);
+/// "altogether", "rank", "available", "state", "stress", "frame"}, "whole", "seconds": {"surface",
+/// "steps", "rest", "altogether", "factor"}, "ended"}, named as the members of Plan and parts of
+/// Piece. bytes.altogether: peak memory; seconds.altogether: time of the whole run; bytes.rank:
+/// peak memory of a rank; bytes.state, bytes.stress, bytes.frame: size in run.h5 before
+/// compression. node: memory of a node, bytes; if it is above 0, "ranks_of_node" is the number of
+/// ranks that fit into it.
+nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan, double node = 0.0);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not
 /// fit into the memory of its machines: the memory of all ranks of each machine is compared with

@@ -138,18 +138,16 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
         heights =
             stand_in(piece, of_file ? of_file->statistics.rms : 1.0,
                      static_cast<int>(atoms * std::pow(1.0 * sites / c.simulation.block.sites, 2)));
-    done.bytes[Piece::surface] =
-        sizeof(double) * static_cast<double>(heights.height.size() + 3 * heights.atoms.size());
     const ProcessGrid grid = piece.grid(0);
     const BlockOptions& options = piece.simulation.block;
     std::optional<Interface> below;
     part(Piece::interface, [&] {
         below.emplace(heights, grid.tile(0), options.spacing, piece.simulation.interface);
     });
+    done.map = static_cast<double>(below->bytes_of_map());
     std::optional<SpectralBlock> waves;
     part(Piece::block, [&] { waves.emplace(options, Communicator(), !piece.effects.lateral); });
     done.sites = sites;
-    done.atoms = std::pow(piece.substrate(), 2) + static_cast<double>(heights.atoms.size());
     done.nodes = nodes_of(piece.levels);
 
     // Height of the state of a slow approach.

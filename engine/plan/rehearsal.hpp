@@ -15,12 +15,12 @@ namespace asperity {
 /// Measured memory and time of a piece.
 struct Piece {
     /// Parts of a run's memory. kept: copies of states, for the guard or as last points of a path;
-    /// rest: work arrays of relaxations and quasi-static paths; maps: the maps of a state while they
-    /// are written; parts: their number.
+    /// rest: work arrays of relaxations and quasi-static paths; maps: the maps of a state while
+    /// they are written; parts: their number.
     enum Part : std::size_t { surface, interface, block, kept, rest, maps, parts };
     std::array<double, parts> bytes{};
+    double map = 0.0;   ///< size of the heights around the tile in the interface, bytes
     int sites = 0;      ///< number of sites across
-    double atoms = 0.0; ///< number of atoms of the substrate
     double nodes = 0.0; ///< number of nodes of all levels
     // Seconds of one idle processor:
     double making = 0.0; ///< surface, tables and block

@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <span>
@@ -24,10 +25,11 @@ namespace asperity {
 
 namespace {
 
-/// Entries of the journal: rows of the series, the head of a group of run.h5, and its members. A
-/// member is a data set, an attribute of the group, or a row of a data set that grows. Members
-/// follow the head of their group, in its entry or in entries of their own.
-enum EntryKind : std::uint64_t { rows_entry, group_entry, member_entry };
+/// Entries of the journal: rows of the series, the head of a group of run.h5, and its members, and
+/// rows of a map of the substrate. A member is a data set, an attribute of the group, or a row of a
+/// data set that grows. Members follow the head of their group, in its entry or in entries of their
+/// own.
+enum EntryKind : std::uint64_t { rows_entry, group_entry, member_entry, substrate_entry };
 enum MemberKind : std::uint64_t { data_set, attribute, growing };
 using Types = std::tuple<double, float, std::int64_t, std::uint8_t>;
 
@@ -185,9 +187,52 @@ std::vector<std::pair<std::string, const SurfaceStatistics*>> parts_of(const Sur
             {"/substrate/counter_spectrum", &surface.pair->counter}};
 }
 
+/// Returns the maps of a surface with their names in run.h5: this rank's bands of them.
+std::vector<std::pair<std::string, const std::vector<double>*>> maps_of(const Surface& surface) {
+    std::vector<std::pair<std::string, const std::vector<double>*>> maps = {
+        {"/substrate/height", &surface.height}};
+    if (surface.pair) maps.emplace_back("/substrate/counter_height", &surface.pair->counter_height);
+    return maps;
+}
+
+/// Calls append() on the root with entries that hold the maps of a surface, some rows in each.
+/// Collective.
+void each_entry_of_substrate(const Surface& surface,
+                             const std::function<void(const io::PayloadWriter&)>& append) {
+    constexpr int values = 1 << 20;
+    const int n = surface.sites, piece = std::max(1, values / n);
+    for (const auto& [name, band] : maps_of(surface))
+        for (int first = 0; first < n; first += piece) {
+            const int count = std::min(piece, n - first);
+            const std::vector<double> rows =
+                surface.bands().fetch(*band, first, surface.ranks.root() ? count : 0);
+            surface.ranks.on_root([&] {
+                io::PayloadWriter entry;
+                put_text(entry, name);
+                entry.put<std::uint64_t>(static_cast<std::uint64_t>(first));
+                entry.put<std::uint64_t>(static_cast<std::uint64_t>(count));
+                entry.put<std::uint64_t>(rows.size());
+                entry.put(rows);
+                append(entry);
+            });
+        }
+}
+
+/// Writes the rows of an entry into run.h5.
+void write_rows_of_substrate(io::Hdf5File& file, io::PayloadReader entry) {
+    const std::string map = get_text(entry);
+    const auto first = entry.get<std::uint64_t>(), count = entry.get<std::uint64_t>(),
+               values = entry.get<std::uint64_t>();
+    file.write_slab<double>(map, {first, 0}, {count, values / count}, entry.get<double>(values));
+}
+
 void write_substrate(io::Hdf5File& file, const Surface& surface) {
     const auto n = static_cast<std::uint64_t>(surface.sites);
-    io::write_described(file, "/substrate/height", {n, n}, surface.height);
+    const SurfaceStatistics& heights = surface.statistics;
+    for (const auto& [name, band] : maps_of(surface)) { // entries of the journal fill them
+        file.make_dataset<double>(name, {n, n}, heights.lowest == heights.highest);
+        io::describe(file, name);
+    }
     if (const std::size_t count = surface.atoms.size(); count > 0) {
         std::vector<double> places;
         places.reserve(3 * count);
@@ -209,9 +254,6 @@ void write_substrate(io::Hdf5File& file, const Surface& surface) {
         realised.push_back(bin.realised);
         target.push_back(bin.target);
     }
-    if (surface.pair)
-        io::write_described(file, "/substrate/counter_height", {n, n},
-                            surface.pair->counter_height);
     if (q.empty()) return;
     for (const auto& [name, one] : parts_of(surface)) {
         std::vector<double> own;
@@ -275,10 +317,19 @@ Recorder::Recorder(const io::Directory& directory, const Surface& surface,
     : communicator_(communicator), directory_(directory), surface_(surface), add_(std::move(add)),
       columns_(std::move(columns)) {
     if (resume) rows_ = resume->rows;
+    bool complete = false; // the journal has the heights
     communicator_.on_root([&] {
         journal_.emplace(directory_, io::run_file::journal, resume ? resume->mark.bytes : 0);
-        build();
+        journal_->replay([&](std::uint64_t kind, io::PayloadReader) {
+            complete = complete || kind == substrate_entry;
+        });
     });
+    communicator_.broadcast(std::as_writable_bytes(std::span(&complete, 1)));
+    if (!complete)
+        each_entry_of_substrate(surface_, [&](const io::PayloadWriter& entry) {
+            journal_->append(substrate_entry, entry.bytes());
+        });
+    communicator_.on_root([&] { build(); });
 }
 
 Path::Wish Recorder::wish_of_row() const {
@@ -502,6 +553,7 @@ void Recorder::build() {
     std::string group;
     journal_->replay([&](std::uint64_t kind, io::PayloadReader entry) {
         if (kind == rows_entry) return;
+        if (kind == substrate_entry) return write_rows_of_substrate(file, entry);
         if (kind == group_entry) group = group_of(file, entry);
         while (!entry.at_end())
             write_member(file, group, entry);

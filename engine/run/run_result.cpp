@@ -5,7 +5,6 @@
 #include "engine/case/spacing_limits.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/run/series.hpp"
-#include "engine/scene/map_statistics.hpp"
 #include "engine/theory/theory_case.hpp"
 #include "engine/units.hpp"
 #include "kernels/variant.hpp"
@@ -270,12 +269,9 @@ void add_yielding(const Case& c, const Surface& surface, const PathResults& resu
         most = std::max(most, s.yielding.at_hardness);
     result.set("yielding.largest_fraction", c.fraction(most));
     add_capped_theory(c, surface, results, result);
-    const auto n = static_cast<std::size_t>(surface.sites);
-    const double a = c.simulation.block.spacing;
-    const MapStatistics before = map_statistics(surface.height, n, n, a, a, !c.effects.free_edges);
-    result.set("yielding.rms_before", before.rms_height);
+    result.set("yielding.rms_before", results.unyielded_rms);
     result.set("yielding.rms_after", results.segments.back().yielded_rms);
-    result.set("yielding.slope_before", before.rms_slope);
+    result.set("yielding.slope_before", results.unyielded_slope);
     result.set("yielding.slope_after", results.segments.back().yielded_slope);
 }
 

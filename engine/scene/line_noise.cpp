@@ -63,10 +63,11 @@ Differences differences(const std::vector<double>& h, int n, bool along_y) {
 
 /// Returns the waves of a map without its mean plane and the jumps between its edges.
 std::vector<Complex> waves_of(std::vector<double> h, int n) {
-    heights::remove_plane(h, n, n);
-    heights::remove_jumps(h, n, n);
+    const Bands map({}, n);
+    heights::remove_plane(h, map);
+    heights::remove_jumps(h, map);
     std::vector<Complex> wave(h.begin(), h.end());
-    heights::transform(wave, n, n, FFTW_FORWARD);
+    map.transform(wave, FFTW_FORWARD);
     return wave;
 }
 
@@ -199,7 +200,7 @@ ExcessOfLines make_isotropic(std::vector<double>& h, int n, bool along_y, int ke
     while (q > 1 && shorter < 0.9 * found.energy)
         shorter += removed[--q];
     found.wavelength = static_cast<double>(n) / static_cast<double>(q);
-    heights::transform(wave, n, n, FFTW_BACKWARD);
+    Bands({}, n).transform(wave, FFTW_BACKWARD);
     for (std::size_t j = 0; j < wave.size(); ++j)
         h[j] += wave[j].real() / static_cast<double>(h.size());
     return found;
@@ -233,7 +234,7 @@ std::vector<std::string> treat_line_noise(std::vector<double>& h, int n, double 
                  : fmt::format(" (aligning the rows would leave {:.0f} % of it)",
                                100.0 * left / excess.energy))};
     }
-    const double rms = heights::rms_of(h), slope = rms_slope(h, n, pixel),
+    const double rms = heights::rms_of(h, Bands({}, n)), slope = rms_slope(h, n, pixel),
                  energy = flattening_energy(h, n, kept);
     if (treatment == LineNoise::align_rows)
         align_rows(h, n, s.along_y);
@@ -246,8 +247,9 @@ std::vector<std::string> treat_line_noise(std::vector<double>& h, int n, double 
         "to {:.4g} Å, the rms slope from {:.3g} to {:.3g}, and the energy that flattens the map by "
         "{:+.1f} %{}",
         s.found() ? "" : "none was found, ", said,
-        treatment == LineNoise::align_rows ? "align-rows" : "isotropic", rms, heights::rms_of(h),
-        slope, rms_slope(h, n, pixel), 100.0 * (flattening_energy(h, n, kept) / energy - 1.0),
+        treatment == LineNoise::align_rows ? "align-rows" : "isotropic", rms,
+        heights::rms_of(h, Bands({}, n)), slope, rms_slope(h, n, pixel),
+        100.0 * (flattening_energy(h, n, kept) / energy - 1.0),
         !now.found() ? ""
         : treatment == LineNoise::align_rows
             ? "; noise within the rows is left, which \"isotropic\" takes off"

@@ -7,6 +7,7 @@
 #include <fftw3.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -16,51 +17,68 @@ namespace asperity {
 
 namespace {
 
-/// Mean over what is a number.
+/// Mean over what is a number, which runs through the bands of a map.
 class Mean {
 public:
     void add(double value) {
         if (std::isnan(value)) return;
-        sum_ += value;
-        ++count_;
+        sums[0] += value;
+        ++sums[1];
     }
-    double value() const { return count_ > 0 ? sum_ / static_cast<double>(count_) : 0.0; }
+    double value() const { return sums[1] > 0.0 ? sums[0] / sums[1] : 0.0; }
 
-private:
-    double sum_ = 0.0;
-    std::size_t count_ = 0;
+    std::array<double, 2> sums{}; ///< sum and number of the values
 };
 
 } // namespace
 
-MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::size_t ny,
-                             double dx, double dy, bool periodic) {
+MapStatistics map_statistics(const std::vector<double>& h, const Bands& bands, double dx, double dy,
+                             bool periodic) {
+    const int nx = bands.columns(), ny = bands.rows(), first = bands.first(),
+              end = first + bands.held();
     MapStatistics s;
     s.lowest = std::numeric_limits<double>::infinity();
     s.highest = -s.lowest;
     Mean height, square, slope, curvature;
     for (const double v : h) {
-        height.add(v);
         if (v < s.lowest) s.lowest = v;
         if (v > s.highest) s.highest = v;
     }
-    for (const double v : h)
-        square.add((v - height.value()) * (v - height.value()));
-    const auto at = [&](std::size_t x, std::size_t y) { return h[(y % ny) * nx + x % nx]; };
+    s.lowest = -bands.ranks().max(-s.lowest);
+    s.highest = bands.ranks().max(s.highest);
+    bands.in_order(height.sums, [&] {
+        for (const double v : h)
+            height.add(v);
+    });
+    bands.in_order(square.sums, [&] {
+        for (const double v : h)
+            square.add((v - height.value()) * (v - height.value()));
+    });
+    // The rows of the band, with one before and one behind.
+    const std::vector<double> rows = bands.fetch(h, first - 1, bands.held() + 2);
+    const auto at = [&](int x, int y) {
+        return rows[static_cast<std::size_t>(y - first + 1) * static_cast<std::size_t>(nx) +
+                    static_cast<std::size_t>(x < nx ? x : x - nx)];
+    };
     // Slopes of a map that does not repeat lack the last row and column, curvatures both edges.
-    const std::size_t edge = periodic ? 0 : 1;
-    for (std::size_t y = 0; y + edge < ny; ++y)
-        for (std::size_t x = 0; x + edge < nx; ++x) {
-            const double hx = (at(x + 1, y) - at(x, y)) / dx, hy = (at(x, y + 1) - at(x, y)) / dy;
-            slope.add(hx * hx + hy * hy);
-        }
-    for (std::size_t y = edge; y + edge < ny; ++y)
-        for (std::size_t x = edge; x + edge < nx; ++x) {
-            const double centre = 2.0 * at(x, y);
-            const double hxx = (at(x + 1, y) - centre + at(x + nx - 1, y)) / (dx * dx),
-                         hyy = (at(x, y + 1) - centre + at(x, y + ny - 1)) / (dy * dy);
-            curvature.add(0.25 * (hxx + hyy) * (hxx + hyy));
-        }
+    const int edge = periodic ? 0 : 1;
+    bands.in_order(slope.sums, [&] {
+        for (int y = first; y < std::min(end, ny - edge); ++y)
+            for (int x = 0; x + edge < nx; ++x) {
+                const double hx = (at(x + 1, y) - at(x, y)) / dx,
+                             hy = (at(x, y + 1) - at(x, y)) / dy;
+                slope.add(hx * hx + hy * hy);
+            }
+    });
+    bands.in_order(curvature.sums, [&] {
+        for (int y = std::max(first, edge); y < std::min(end, ny - edge); ++y)
+            for (int x = edge; x + edge < nx; ++x) {
+                const double centre = 2.0 * at(x, y);
+                const double hxx = (at(x + 1, y) - centre + at(x + nx - 1, y)) / (dx * dx),
+                             hyy = (at(x, y + 1) - centre + at(x, y - 1)) / (dy * dy);
+                curvature.add(0.25 * (hxx + hyy) * (hxx + hyy));
+            }
+    });
     s.rms_height = std::sqrt(square.value());
     s.rms_slope = std::sqrt(slope.value());
     s.rms_curvature = std::sqrt(curvature.value());
@@ -69,7 +87,7 @@ MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::
 
 LineStatistics line_statistics(const std::vector<double>& h, int n, double length) {
     std::vector<std::complex<double>> wave(h.begin(), h.end());
-    heights::transform(wave, n, n, FFTW_FORWARD);
+    Bands({}, n).transform(wave, FFTW_FORWARD);
     LineStatistics s;
     const double points = static_cast<double>(n) * n;
     for (int k = 1; k <= n / 2; ++k) {

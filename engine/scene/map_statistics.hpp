@@ -14,7 +14,8 @@
 // with h(x) = sum_q h_q exp(i q x). Persson's C(q) (surface.hpp) is C2D / (2 pi)^2.
 #pragma once
 
-#include <cstddef>
+#include "decomposition/bands.hpp"
+
 #include <vector>
 
 namespace asperity {
@@ -26,10 +27,10 @@ struct MapStatistics {
     double rms_curvature = 0.0;         ///< sqrt(<(hxx + hyy)^2>) / 2, second differences, 1/Å
     double lowest = 0.0, highest = 0.0; ///< Å
 };
-/// Computes the statistics of a map. dx, dy: size of a pixel, Å; periodic: include differences
-/// across the edges.
-MapStatistics map_statistics(const std::vector<double>& h, std::size_t nx, std::size_t ny,
-                             double dx, double dy, bool periodic);
+/// Computes the statistics of a map from its bands. Collective. dx, dy: size of a pixel, Å;
+/// periodic: include differences across the edges.
+MapStatistics map_statistics(const std::vector<double>& h, const Bands& bands, double dx, double dy,
+                             bool periodic);
 
 /// Statistics of lines along x of a periodic map of n x n points, averaged over the lines.
 struct LineStatistics {

@@ -7,8 +7,10 @@
 #include <Random123/philox.h>
 #include <fftw3.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <limits>
@@ -24,8 +26,6 @@ constexpr double worst_seam = 2.0;
 
 using std::numbers::pi;
 using Complex = std::complex<double>;
-
-std::size_t cells(int n) { return static_cast<std::size_t>(n) * static_cast<std::size_t>(n); }
 
 /// Returns index k of a transform of n points as a signed wavenumber; n/2 stays positive.
 int signed_wave(int k, int n) { return 2 * k > n ? k - n : k; }
@@ -72,45 +72,67 @@ Complex random_factor(const SurfaceOptions& o, int kx, int ky, bool own_mirror) 
 /// Measures slope and spectrum of the roughness from its Fourier coefficients.
 void measure(const SurfaceOptions& o, Surface& s) {
     SurfaceStatistics& stat = s.statistics;
-    stat.rms = heights::rms_of(s.height);
+    const Bands bands = s.bands();
+    stat.rms = heights::rms_of(s.height, bands);
     const int n = s.sites;
     const double q_unit = 2.0 * pi / s.length;
-    std::vector<double> whole = s.height;
+    std::vector<Complex> wave(s.height.begin(), s.height.end());
     if (s.holes > 0) { // level with the mean of the rest
-        heights::remove_mean(whole);
-        for (double& v : whole)
-            if (std::isnan(v)) v = 0.0;
+        std::vector<double> whole = s.height;
+        heights::remove_mean(whole, bands);
+        for (std::size_t i = 0; i < wave.size(); ++i)
+            wave[i] = std::isnan(whole[i]) ? 0.0 : whole[i];
     }
-    std::vector<Complex> wave(whole.begin(), whole.end());
-    heights::transform(wave, n, n, FFTW_FORWARD);
-    stat.spectrum.assign(static_cast<std::size_t>(n / 2) + 1, {});
-    double slope2 = 0.0, curvature2 = 0.0;
-    for (int y = 0; y < n; ++y)
+    bands.transform(wave, FFTW_FORWARD);
+    const int first = bands.first(), end = first + bands.held();
+    const double points = static_cast<double>(n) * n;
+    // Power and wavenumber of each wave, and its power in the target: the sums of one rank
+    // after the other are left with additions.
+    std::vector<double> target(wave.size());
+#pragma omp parallel for schedule(static)
+    for (int y = first; y < end; ++y)
         for (int x = 0; x < n; ++x) {
             const double kx = signed_wave(x, n), ky = signed_wave(y, n);
-            const double power =
-                std::norm(wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
-                               static_cast<std::size_t>(x)]) /
-                (static_cast<double>(cells(n)) * static_cast<double>(cells(n)));
             const double k = std::sqrt(kx * kx + ky * ky);
+            Complex& w = wave[bands.at(x, y)];
+            w = {std::norm(w) / (points * points), k};
+            target[bands.at(x, y)] = target_spectrum(o, k * q_unit);
+        }
+    const auto bins = static_cast<std::size_t>(n / 2) + 1;
+    std::vector<double> sums(2 + 4 * bins, 0.0);
+    bands.in_order(sums, [&] {
+        double &slope2 = sums[0], &curvature2 = sums[1];
+        for (std::size_t i = 0; i < wave.size(); ++i) {
+            const double power = wave[i].real(), k = wave[i].imag();
             const double q2 = k * k * q_unit * q_unit;
             slope2 += power * q2;
             curvature2 += 0.25 * power * q2 * q2;
             const auto bin = static_cast<std::size_t>(std::lround(k));
-            if (bin == 0 || bin >= stat.spectrum.size()) continue;
-            stat.spectrum[bin].q += k * q_unit;
-            stat.spectrum[bin].realised += power / (q_unit * q_unit);
-            stat.spectrum[bin].target += target_spectrum(o, k * q_unit);
-            stat.spectrum[bin].modes += 1;
+            if (bin == 0 || bin >= bins) continue;
+            double* const sum = &sums[2 + 4 * bin];
+            sum[0] += k * q_unit;
+            sum[1] += power / (q_unit * q_unit);
+            sum[2] += target[i];
+            sum[3] += 1.0;
         }
-    stat.rms_slope = std::sqrt(slope2);
-    stat.rms_curvature = std::sqrt(curvature2);
-    std::erase_if(stat.spectrum, [](const SpectrumBin& b) { return b.modes == 0; });
-    for (SpectrumBin& b : stat.spectrum) {
-        b.q /= b.modes;
-        b.realised /= b.modes;
-        b.target /= b.modes;
+    });
+    stat.rms_slope = std::sqrt(sums[0]);
+    stat.rms_curvature = std::sqrt(sums[1]);
+    stat.spectrum.clear();
+    for (std::size_t bin = 1; bin < bins; ++bin) {
+        const double *const sum = &sums[2 + 4 * bin], modes = sum[3];
+        if (modes > 0.0)
+            stat.spectrum.push_back(
+                {sum[0] / modes, sum[1] / modes, sum[2] / modes, static_cast<int>(modes)});
     }
+}
+
+/// Returns the number of holes in the heights of all ranks.
+long long holes_of(const Surface& s) {
+    std::array<std::int64_t, 1> holes = {
+        std::count_if(s.height.begin(), s.height.end(), [](double h) { return std::isnan(h); })};
+    s.ranks.sum(holes);
+    return holes[0];
 }
 
 } // namespace
@@ -120,15 +142,13 @@ Surface finished(const SurfaceOptions& o, Surface s) {
     if (o.radius > 0.0) {
         s.radius = o.radius;
         const double spacing = o.length / o.sites, centre = 0.5 * o.length;
-        for (int y = 0; y < s.sites; ++y)
+        const Bands bands = s.bands();
+        for (int y = bands.first(); y < bands.first() + bands.held(); ++y)
             for (int x = 0; x < s.sites; ++x) {
                 const double dx = x * spacing - centre, dy = y * spacing - centre;
-                s.height[static_cast<std::size_t>(y) * static_cast<std::size_t>(s.sites) +
-                         static_cast<std::size_t>(x)] += cap_of(o.radius, dx, dy);
+                s.height[bands.at(x, y)] += cap_of(o.radius, dx, dy);
             }
-        // In a box with free edges the sphere ends at its equator.
-        s.holes =
-            std::count_if(s.height.begin(), s.height.end(), [](double h) { return std::isnan(h); });
+        s.holes = holes_of(s); // in a box with free edges the sphere ends at its equator
     }
     s.statistics.lowest = std::numeric_limits<double>::infinity();
     s.statistics.highest = -s.statistics.lowest;
@@ -136,6 +156,17 @@ Surface finished(const SurfaceOptions& o, Surface s) {
         if (h < s.statistics.lowest) s.statistics.lowest = h;
         if (h > s.statistics.highest) s.statistics.highest = h;
     }
+    s.statistics.lowest = -s.ranks.max(-s.statistics.lowest);
+    s.statistics.highest = s.ranks.max(s.statistics.highest);
+    return s;
+}
+
+Surface whole(Surface s) {
+    if (s.ranks.size() == 1) return s;
+    const Bands bands = s.bands();
+    s.height = bands.fetch(s.height, 0, s.sites);
+    if (s.pair) s.pair->counter_height = bands.fetch(s.pair->counter_height, 0, s.sites);
+    s.ranks = Communicator();
     return s;
 }
 
@@ -159,13 +190,15 @@ int substrate_sites(int block_sites, double lattice_ratio) {
     return std::max(1, static_cast<int>(std::lround(lattice_ratio * block_sites)));
 }
 
-Surface make_surface(const SurfaceOptions& o) {
+Surface make_surface(const SurfaceOptions& o, const Communicator& ranks) {
     require(o.kind != SurfaceKind::file,
             "a measured surface is made from its heights (surface_from_heights), not from options");
     Surface s;
     s.sites = o.sites;
     s.length = o.length;
-    s.height.assign(cells(o.sites), 0.0);
+    s.ranks = ranks;
+    const Bands bands = s.bands();
+    s.height.assign(bands.size(), 0.0);
     if (o.kind == SurfaceKind::flat || o.rms == 0.0) return finished(o, std::move(s));
 
     const int n = o.sites;
@@ -173,28 +206,30 @@ Surface make_surface(const SurfaceOptions& o) {
         s.notes.push_back(fmt::format("cutoff q1 = {:g} q_L lies above the Nyquist wavevector of "
                                       "{} sites; clipped to {:g} q_L",
                                       o.cutoff, n, 0.5 * n));
-    std::vector<Complex> wave(cells(n));
-    bool any = false;
-    for (int y = 0; y < n; ++y)
+    std::vector<Complex> wave(bands.size());
+    double any = 0.0; // waves
+#pragma omp parallel for schedule(static) reduction(max : any)
+    for (int y = bands.first(); y < bands.first() + bands.held(); ++y)
         for (int x = 0; x < n; ++x) {
             const int kx = signed_wave(x, n), ky = signed_wave(y, n);
             const double c =
                 shape(o, std::sqrt(static_cast<double>(kx) * kx + static_cast<double>(ky) * ky));
             if (c == 0.0) continue;
             const bool own_mirror = (2 * x) % n == 0 && (2 * y) % n == 0;
-            wave[static_cast<std::size_t>(y) * static_cast<std::size_t>(n) +
-                 static_cast<std::size_t>(x)] = std::sqrt(c) * random_factor(o, kx, ky, own_mirror);
-            any = true;
+            wave[bands.at(x, y)] = std::sqrt(c) * random_factor(o, kx, ky, own_mirror);
+            any = 1.0;
         }
-    require(any, fmt::format(
-                     "{} sites hold no wave between q_L and q1 = {:g} q_L, so rms = {} Å cannot be "
-                     "reached; use more sites or kind = \"flat\"",
-                     n, o.cutoff, o.rms));
-    heights::transform(wave, n, n, FFTW_BACKWARD);
+    require(
+        ranks.max(any) > 0.0,
+        fmt::format("{} sites hold no wave between q_L and q1 = {:g} q_L, so rms = {} Å cannot be "
+                    "reached; use more sites or kind = \"flat\"",
+                    n, o.cutoff, o.rms));
+    bands.transform(wave, FFTW_BACKWARD);
     for (std::size_t i = 0; i < wave.size(); ++i)
         s.height[i] = wave[i].real();
-    heights::remove_mean(s.height);
-    heights::scale_to_rms(s.height, o.rms);
+    wave = std::vector<Complex>();
+    heights::remove_mean(s.height, bands);
+    heights::scale_to_rms(s.height, bands, o.rms);
     return finished(o, std::move(s));
 }
 
@@ -210,7 +245,12 @@ int sites_of_map(const SurfaceOptions& o) {
     return static_cast<int>(std::lround(ratio * o.sites));
 }
 
-Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int nx, int ny) {
+namespace {
+
+/// Refuses a measured map whose values are no heights, and treats its line noise. Returns the
+/// number of holes. doubt: set to the note on line noise, if there is one.
+long long examine_heights(const SurfaceOptions& o, std::vector<double>& h, int nx, int ny,
+                          std::string& doubt) {
     require(nx >= 1 && ny >= 1 &&
                 h.size() == static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny),
             fmt::format("the height map has {} values, not {} x {}; give a full matrix", h.size(),
@@ -225,13 +265,10 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
                             "neighbouring heights before the run",
                             *bad, at / nx + 1, at % nx + 1));
     }
-    Surface s;
-    s.sites = o.sites;
-    s.length = o.length;
-    s.holes = std::count_if(h.begin(), h.end(), [](double v) { return std::isnan(v); });
-    if (s.holes > 0) {
-        require(s.holes < static_cast<long long>(h.size()),
-                "the height map holds no height at all");
+    const long long holes =
+        std::count_if(h.begin(), h.end(), [](double v) { return std::isnan(v); });
+    if (holes > 0) {
+        require(holes < static_cast<long long>(h.size()), "the height map holds no height at all");
         require(
             !o.detrend && o.line_noise == LineNoise::keep && nx == ny && nx == sites_of_map(o),
             fmt::format("a map with holes is taken as it is, and its {} x {} points cover {} x {} "
@@ -240,17 +277,35 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
                         nx, ny, sites_of_map(o), sites_of_map(o)));
     } else if (nx == ny) {
         const double edge = o.map_edge > 0.0 ? o.map_edge : o.length;
-        s.doubts = treat_line_noise(h, nx, edge / nx, std::min(nx, sites_of_map(o)), o.line_noise);
+        doubt = fmt::to_string(fmt::join(
+            treat_line_noise(h, nx, edge / nx, std::min(nx, sites_of_map(o)), o.line_noise), "; "));
     }
+    return holes;
+}
+
+} // namespace
+
+Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> on_root, int nx, int ny,
+                             const Communicator& ranks) {
+    Surface s;
+    s.sites = o.sites;
+    s.length = o.length;
+    s.ranks = ranks;
+    std::string doubt;
+    ranks.on_root([&] { s.holes = examine_heights(o, on_root, nx, ny, doubt); });
+    ranks.broadcast(doubt);
+    if (!doubt.empty()) s.doubts.push_back(doubt);
+    Bands bands(ranks, nx, ny);
+    std::vector<double> h = bands.spread(std::move(on_root));
     if (o.detrend) {
-        heights::remove_plane(h, nx, ny);
+        heights::remove_plane(h, bands);
         s.notes.push_back("mean plane removed from the height map");
     }
     if (o.periodic) {
-        const double before = heights::rms_of(h);
-        heights::remove_jumps(h, nx, ny);
+        const double before = heights::rms_of(h, bands);
+        heights::remove_jumps(h, bands);
         s.notes.push_back(fmt::format("the map made periodic: rms {:.4g} Å before, {:.4g} Å after",
-                                      before, heights::rms_of(h)));
+                                      before, heights::rms_of(h, bands)));
     }
     const int whole = sites_of_map(o);
     require(whole >= o.sites,
@@ -263,31 +318,34 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
                                       "box",
                                       o.map_edge, 100.0 * (o.length / o.map_edge - 1.0)));
     if (nx != whole || ny != whole) {
-        h = heights::resample(h, nx, ny, whole);
+        h = heights::resample(h, bands, whole);
+        bands = {ranks, whole};
         s.notes.push_back(
             fmt::format("height map of {} x {} points resampled (Fourier, periodic) to {} x {}", nx,
                         ny, whole, whole));
     }
     if (whole > o.sites) {
-        h = heights::middle(h, whole, o.sites);
-        if (o.periodic) heights::remove_jumps(h, o.sites, o.sites);
+        h = heights::middle(h, bands, o.sites);
+        bands = s.bands();
+        if (o.periodic) heights::remove_jumps(h, bands);
         s.notes.push_back(fmt::format("the middle {:.6g} Å of the map are taken", o.length));
     }
     if (o.rms > 0.0) {
-        const double own = heights::rms_of(h);
+        const double own = heights::rms_of(h, bands);
         double largest = 0.0;
         for (const double v : h) // a hole is no number, and no larger than any
             if (std::abs(v) > largest) largest = std::abs(v);
+        largest = ranks.max(largest);
         require(
             own > 1e-12 * largest && own > 0.0,
             fmt::format("the height map is flat (rms = {:g} Å), so it cannot be scaled to rms = {} "
                         "Å; leave rms out or give a rough map",
                         own, o.rms));
-        heights::remove_mean(h);
-        heights::scale_to_rms(h, o.rms);
+        heights::remove_mean(h, bands);
+        heights::scale_to_rms(h, bands, o.rms);
         s.notes.push_back(fmt::format("height map scaled from rms = {:g} Å to {:g} Å", own, o.rms));
     }
-    const auto [inside, seam] = heights::steps(h, o.sites);
+    const auto [inside, seam] = heights::steps(h, bands);
     if (o.repeats && seam > worst_seam * inside)
         s.notes.push_back(fmt::format(
             "the map does not repeat: over the box's edges heights jump by {:.3g} Å (rms), between "
@@ -296,9 +354,7 @@ Surface surface_from_heights(const SurfaceOptions& o, std::vector<double> h, int
             o.kind == SurfaceKind::atoms ? "a box of whole periods of the substrate has none"
                                          : "surface.detrend = \"periodic\" removes it"));
     s.height = std::move(h);
-    if (s.holes > 0)
-        s.holes =
-            std::count_if(s.height.begin(), s.height.end(), [](double v) { return std::isnan(v); });
+    s.holes = holes_of(s);
     return finished(o, std::move(s));
 }
 

@@ -6,8 +6,8 @@
 //
 // A self-affine surface is made by Fourier filtering: amplitude and phase of each integer
 // wavevector are drawn from a counter-based generator keyed by seed and wavevector, so that a seed
-// gives bitwise identical heights on every rank, and the same large-scale shape on a finer grid.
-// Every rank makes the whole map: it is one plane, small beside the block.
+// gives bitwise identical heights on any number of ranks, and the same large-scale shape on a finer
+// grid. Each rank makes and keeps its band of the rows (decomposition/bands.hpp).
 //
 // Conventions (Persson): h_rms^2 = 2 pi int q C(q) dq; on the grid C(q) = |h_q|^2 (L / 2 pi)^2 with
 // h(x) = sum_q h_q exp(i q x). q in 1/Å, C in Å^4. q_L = 2 pi / L.
@@ -55,29 +55,35 @@ struct SurfaceOptions {
     }
 };
 
-/// Makes the flat or self-affine surface of the options. Throws std::invalid_argument for
-/// impossible options.
-Surface make_surface(const SurfaceOptions& options);
+/// Makes the flat or self-affine surface of the options. Collective. Throws std::invalid_argument
+/// for impossible options.
+Surface make_surface(const SurfaceOptions& options, const Communicator& ranks = Communicator());
 
 /// Returns the number of lattice sites along the edge of a measured map: options.sites if the map's
 /// edge is that of the box within 0.5 %.
 int sites_of_map(const SurfaceOptions& options);
 
-/// Makes a surface from a measured map heights[y * nx + x], Å. A map with as many values as sites
-/// is not resampled; other maps are resampled band-limited (exactly, for waves on both grids). A
-/// map wider than the box is cut to its middle. Throws std::invalid_argument if the map is narrower
-/// than the box.
+/// Makes a surface from a measured map heights[y * nx + x], Å, which the root alone holds: line
+/// noise is a matter of whole lines, and the root treats it. A map with as many values as sites is
+/// not resampled; other maps are resampled band-limited (exactly, for waves on both grids). A map
+/// wider than the box is cut to its middle. Collective. Throws std::invalid_argument if the map is
+/// narrower than the box, or if its heights are no numbers (RootFailure on the other ranks).
 Surface surface_from_heights(const SurfaceOptions& options, std::vector<double> heights, int nx,
-                             int ny);
+                             int ny, const Communicator& ranks = Communicator());
 
 /// Computes the statistics of the roughness of the heights, adds the cap of the options, and finds
-/// the extremes.
+/// the extremes. Collective.
 Surface finished(const SurfaceOptions& options, Surface surface);
 
 /// Makes a surface from atoms in the box of the options. The height of a site is that of the
 /// topmost atom nearest to the site; sites without an atom are filled by Laplace's equation; the
-/// mean height is shifted to z = 0. Throws std::invalid_argument if atoms coincide.
-Surface surface_from_atoms(const SurfaceOptions& options, AtomPositions atoms);
+/// mean height is shifted to z = 0. Every rank has all atoms. Collective. Throws
+/// std::invalid_argument if atoms coincide.
+Surface surface_from_atoms(const SurfaceOptions& options, AtomPositions atoms,
+                           const Communicator& ranks = Communicator());
+
+/// Returns the surface with all its heights on every rank of it, as on a single one. Collective.
+Surface whole(Surface surface);
 
 /// Returns Persson's C(q) of the options, Å^4 (q in 1/Å), with the spectrum clipped at the grid's
 /// Nyquist wavevector.

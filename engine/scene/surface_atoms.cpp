@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -70,15 +71,19 @@ void refuse_coinciding(const AtomPositions& atoms, double edge) {
     }
 }
 
-} // namespace
+/// Heights of the topmost atoms.
+struct Topmost {
+    std::vector<double> height; ///< heights over their mean, Å
+    double mean = 0.0;          ///< Å
+    double empty = 0.0;         ///< number of sites without an atom, which are filled
+};
 
-Surface surface_from_atoms(const SurfaceOptions& o, AtomPositions atoms) {
-    if (atoms.size() == 0) throw std::invalid_argument("the substrate has no atoms");
-    refuse_coinciding(atoms, o.length);
-    const auto n = static_cast<std::size_t>(o.sites);
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    std::vector<double> height(n * n, none);
-    const double spacing = o.length / o.sites;
+/// Finds the heights of the topmost atoms nearest to n x n points.
+Topmost topmost_of(const AtomPositions& atoms, int sites, double spacing) {
+    const auto n = static_cast<std::size_t>(sites);
+    Topmost top;
+    std::vector<double>& height = top.height;
+    height.assign(n * n, std::numeric_limits<double>::quiet_NaN());
     // The points of the map are at (i, j) times the spacing, as the atoms of a lattice. An atom
     // half way between some of them (files have three digits and more) is nearest to each.
     constexpr double half_way = 0.5 + 1e-3;
@@ -87,33 +92,48 @@ Surface surface_from_atoms(const SurfaceOptions& o, AtomPositions atoms) {
         for (double j = std::ceil(y - half_way); j <= y + half_way; ++j)
             for (double i = std::ceil(x - half_way); i <= x + half_way; ++i) {
                 const auto periodic = [&](double at) {
-                    return static_cast<std::size_t>(at + o.sites) % n;
+                    return static_cast<std::size_t>(at + sites) % n;
                 };
-                double& top = height[periodic(j) * n + periodic(i)];
-                if (!(top >= atoms.z[k])) top = atoms.z[k];
+                double& highest = height[periodic(j) * n + periodic(i)];
+                if (!(highest >= atoms.z[k])) highest = atoms.z[k];
             }
     }
-    const auto empty = static_cast<std::size_t>(
+    top.empty = static_cast<double>(
         std::count_if(height.begin(), height.end(), [](double h) { return std::isnan(h); }));
-    if (empty > 0) io::fill_missing(height, n, n);
-    const double mean =
+    if (top.empty > 0.0) io::fill_missing(height, n, n);
+    top.mean =
         std::accumulate(height.begin(), height.end(), 0.0) / static_cast<double>(height.size());
     for (double& h : height)
-        h -= mean;
+        h -= top.mean;
+    return top;
+}
+
+} // namespace
+
+Surface surface_from_atoms(const SurfaceOptions& o, AtomPositions atoms,
+                           const Communicator& ranks) {
+    if (atoms.size() == 0) throw std::invalid_argument("the substrate has no atoms");
+    Topmost top;
+    ranks.on_root([&] {
+        refuse_coinciding(atoms, o.length);
+        top = topmost_of(atoms, o.sites, o.length / o.sites);
+    });
+    std::array<double, 2> numbers = {top.mean, top.empty};
+    ranks.broadcast(numbers);
     for (double& z : atoms.z)
-        z -= mean;
+        z -= numbers[0];
     SurfaceOptions as_they_are = o;
     as_they_are.rms = 0.0;
-    Surface s = surface_from_heights(as_they_are, std::move(height), o.sites, o.sites);
+    Surface s = surface_from_heights(as_they_are, std::move(top.height), o.sites, o.sites, ranks);
     s.atoms = std::move(atoms);
     s.notes.push_back(fmt::format("heights are those of the topmost atom nearest to each of {0} x "
                                   "{0} points (i a, j a), from their mean (z = {1:.6g} Å in the "
                                   "file)",
-                                  o.sites, mean));
-    if (empty > 0)
+                                  o.sites, numbers[0]));
+    if (numbers[1] > 0.0)
         s.notes.push_back(fmt::format("{} of {} sites have no atom nearest to them: filled by "
                                       "Laplace's equation (in maps and statistics alone)",
-                                      empty, n * n));
+                                      static_cast<long long>(numbers[1]), 1ll * o.sites * o.sites));
     return s;
 }
 

@@ -39,7 +39,7 @@ Surface checked_surface(const Case& c, const Communicator& ranks) {
                "take asperity.Statics, or drive.mode = \"dynamic\" and drive.path = "
                "[\"approach\", \"pull-off\"]");
     require_memory(c, ranks);
-    return surface_of(c, ranks);
+    return whole(surface_of(c, ranks)); // each rank shows the heights
 }
 
 /// Returns the same case without states of force balance at the ends of its segments.

@@ -43,12 +43,13 @@ std::vector<double> moved(const std::vector<double>& h, int n, const From& from)
 template <class Factor>
 void multiply_waves(std::vector<double>& h, int n, const Factor& factor) {
     std::vector<Complex> waves(h.begin(), h.end());
-    heights::transform(waves, n, n, FFTW_FORWARD);
+    const Bands map({}, n);
+    map.transform(waves, FFTW_FORWARD);
     const auto both = [n](int k) { return 2 * k > n ? k - n : k; };
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x)
             waves[at(x, y, n)] *= factor(both(x), both(y));
-    heights::transform(waves, n, n, FFTW_BACKWARD);
+    map.transform(waves, FFTW_BACKWARD);
     for (std::size_t i = 0; i < h.size(); ++i)
         h[i] = waves[i].real() / static_cast<double>(h.size());
 }
@@ -76,7 +77,7 @@ std::vector<double> turned(std::vector<double> h, int n, double angle, double sh
         return 4.0 * (1.0 * kx * kx + 1.0 * ky * ky) > 1.0 * n * n ? 0.0 : 1.0;
     });
     const int m = finer * n;
-    const std::vector<double> fine = heights::resample(h, n, n, m);
+    const std::vector<double> fine = heights::resample(h, Bands({}, n), m);
     const double cosine = std::cos(angle), sine = std::sin(angle), middle = 0.5 * (n - 1);
 #pragma omp parallel for schedule(static)
     for (int y = 0; y < n; ++y)
@@ -98,20 +99,25 @@ std::vector<double> turned(std::vector<double> h, int n, double angle, double sh
     return h;
 }
 
-/// Returns the correlation of two maps; 0 if one is flat.
-double correlation(const std::vector<double>& one, const std::vector<double>& other) {
-    double sum = 0.0, of_one = 0.0, of_other = 0.0, mean_one = 0.0, mean_other = 0.0;
-    std::size_t count = 0;
+/// Returns the correlation of two maps; 0 if one is flat. Collective.
+double correlation(const std::vector<double>& one, const std::vector<double>& other,
+                   const Bands& bands) {
     const auto each = [&](const auto& add) {
         for (std::size_t i = 0; i < one.size(); ++i)
             if (!std::isnan(one[i]) && !std::isnan(other[i])) add(one[i], other[i]);
     };
-    each([&](double a, double b) { mean_one += a, mean_other += b, ++count; });
-    mean_one /= static_cast<double>(count), mean_other /= static_cast<double>(count);
-    each([&](double a, double b) {
-        sum += (a - mean_one) * (b - mean_other);
-        of_one += (a - mean_one) * (a - mean_one);
-        of_other += (b - mean_other) * (b - mean_other);
+    std::array<double, 3> means{}, sums{};
+    double &mean_one = means[0], &mean_other = means[1], &count = means[2];
+    bands.in_order(
+        means, [&] { each([&](double a, double b) { mean_one += a, mean_other += b, ++count; }); });
+    mean_one /= count, mean_other /= count;
+    double &sum = sums[0], &of_one = sums[1], &of_other = sums[2];
+    bands.in_order(sums, [&] {
+        each([&](double a, double b) {
+            sum += (a - mean_one) * (b - mean_other);
+            of_one += (a - mean_one) * (a - mean_one);
+            of_other += (b - mean_other) * (b - mean_other);
+        });
     });
     return of_one > 0.0 && of_other > 0.0 ? sum / std::sqrt(of_one * of_other) : 0.0;
 }
@@ -190,8 +196,12 @@ Surface counter_in_box(const SurfaceOptions& box, const Surface& whole, const Co
     options.line_noise = LineNoise::keep;
     options.periodic = box.periodic && !repeats;
     options.map_edge = whole.length;
-    Surface counter = surface_from_heights(
-        options, in_place(whole.height, whole.sites, spacing, place), whole.sites, whole.sites);
+    // A turn takes rows to columns, or anywhere: the root moves the map.
+    const Bands bands = whole.bands();
+    std::vector<double> moved = bands.fetch(whole.height, 0, whole.ranks.root() ? whole.sites : 0);
+    whole.ranks.on_root([&] { moved = in_place(std::move(moved), whole.sites, spacing, place); });
+    Surface counter =
+        surface_from_heights(options, std::move(moved), whole.sites, whole.sites, whole.ranks);
     counter.file_digest = whole.file_digest;
     counter.doubts = whole.doubts; // doubts belong to the file
     counter.notes.insert(counter.notes.begin(), whole.notes.begin(), whole.notes.end());
@@ -204,7 +214,7 @@ Surface counter_in_box(const SurfaceOptions& box, const Surface& whole, const Co
 
 Surface pair_of(const SurfaceOptions& box, Surface own, Surface counter) {
     SurfacePair pair;
-    pair.correlation = correlation(own.height, counter.height);
+    pair.correlation = correlation(own.height, counter.height, own.bands());
     pair.band_overlap = overlap(own.statistics, counter.statistics);
     pair.own = std::move(own.statistics);
     pair.counter = std::move(counter.statistics);

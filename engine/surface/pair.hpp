@@ -36,12 +36,13 @@ std::vector<double> in_place(std::vector<double> heights, int n, double spacing,
                              const CounterPlace& place);
 
 /// Returns the surface of the second solid in the box of the options. whole: surface of its whole
-/// map, of the spacing of the box. Throws std::invalid_argument if the map in its place does not
+/// map, of the spacing of the box. The root moves the map, which it holds whole meanwhile.
+/// Collective. Throws std::invalid_argument if the map in its place does not
 /// cover the box.
 Surface counter_in_box(const SurfaceOptions& box, const Surface& whole, const CounterPlace& place);
 
 /// Returns the sum of two surfaces, with the cap of the options and the statistics of both. own,
-/// counter: surfaces without a cap.
+/// counter: surfaces without a cap. Collective.
 Surface pair_of(const SurfaceOptions& box, Surface own, Surface counter);
 
 } // namespace asperity

@@ -234,7 +234,7 @@ int sites_in_reach(const Surface& surface, const State& state, double z) {
     const int n = state.n;
     const Tile tile{0, 0, n, n, n};
     const double cutoff = LennardJones{}.cutoff, margin = sideways_margin(a);
-    const HeightMap map(surface, n, a);
+    const HeightMap map(surface, tile, n, a, {});
     const ReachTable table(map, tile, a, cutoff + margin, margin, true);
     const VectorField<double> u = state.on(tile);
     InterfaceSites sites{};

@@ -35,7 +35,7 @@ Map self_affine(int n, double hurst, double rolloff, double cutoff, std::uint64_
     o.rolloff = 2.0 * rolloff;
     o.cutoff = 2.0 * cutoff;
     o.seed = seed;
-    return heights::middle(make_surface(o).height, 2 * n, n);
+    return heights::middle(make_surface(o).height, Bands({}, 2 * n), n);
 }
 
 /// A ground surface: self-affine with wavelengths `ratio` times as long along x (or y).
@@ -45,14 +45,14 @@ Map ground(int n, double hurst, double ratio, bool along_x, unsigned seed) {
     std::vector<std::complex<double>> wave(cells(n));
     for (auto& w : wave)
         w = normal(random);
-    heights::transform(wave, n, n, FFTW_FORWARD);
+    Bands({}, n).transform(wave, FFTW_FORWARD);
     for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x) {
             const double kx = std::min(x, n - x), ky = std::min(y, n - y);
             const double q = along_x ? std::hypot(kx * ratio, ky) : std::hypot(kx, ky * ratio);
             wave[static_cast<std::size_t>(y * n + x)] *= q > 0.0 ? std::pow(q, -1.0 - hurst) : 0.0;
         }
-    heights::transform(wave, n, n, FFTW_BACKWARD);
+    Bands({}, n).transform(wave, FFTW_BACKWARD);
     Map h;
     for (const auto& w : wave)
         h.push_back(w.real());
@@ -85,8 +85,7 @@ Map transposed(const Map& h, int n) {
 }
 
 double slope(const Map& h, int n) {
-    const auto m = static_cast<std::size_t>(n);
-    return map_statistics(h, m, m, 1.0, 1.0, false).rms_slope;
+    return map_statistics(h, Bands({}, n), 1.0, 1.0, false).rms_slope;
 }
 
 /// What flattens the map, up to a factor.

@@ -3,9 +3,11 @@
 //
 // What a plan says of a run follows the scene, and is what runs take: their time here, their memory
 // in tests/python/test_result.py.
+#include "engine/interface/interface.hpp"
 #include "engine/path/expected_path.hpp"
 #include "engine/plan/plan.hpp"
 #include "engine/script/stepped_path.hpp"
+#include "io/hdf5_file.hpp"
 #include "io/terminal.hpp"
 #include "support/cases.hpp"
 #include "support/message.hpp"
@@ -15,9 +17,11 @@
 #include <nlohmann/json.hpp>
 #include <omp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <numeric>
+#include <utility>
 
 using namespace asperity;
 
@@ -49,10 +53,11 @@ TEST(Plan, MemoryGrowsWithTheSitesAndTheNodes) {
     EXPECT_NEAR(block("block.thickness=200") / block("block.thickness=100"), 2.0, 0.05);
 }
 
-TEST(Plan, RanksShareTheBlockAndTheMapsAndHaveTheSurfaceEach) {
+TEST(Plan, RanksShareTheSurfaceTheBlockAndTheMaps) {
     const Plan alone = make_plan(case_with({"surface.sites=96"}), 0),
                shared = make_plan(case_with({"surface.sites=96"}, 4), 0);
-    EXPECT_NEAR(shared.bytes[Piece::surface] / alone.bytes[Piece::surface], 4.0, 0.1);
+    EXPECT_NEAR(shared.bytes[Piece::surface] / alone.bytes[Piece::surface], 1.0, 1e-9);
+    EXPECT_EQ(alone.bytes[Piece::surface], 8.0 * 96 * 96);
     EXPECT_NEAR(shared.bytes[Piece::maps] / alone.bytes[Piece::maps], 1.0, 0.1);
     for (const Piece::Part part : {Piece::block, Piece::rest}) {
         EXPECT_GT(shared.bytes[part], alone.bytes[part]) << "halos; waves that ranks exchange";
@@ -68,9 +73,79 @@ TEST(Plan, ARankAndTheFilesAreThere) {
     const double rank = json["bytes"]["rank"], all = json["bytes"]["altogether"];
     EXPECT_GE(rank, 0.249 * all);
     EXPECT_LT(rank, 0.5 * all);
-    EXPECT_EQ(json["bytes"]["state"], 57.0 * 96 * 96);
+    EXPECT_EQ(json["bytes"]["state"], 49.0 * 96 * 96);
     EXPECT_EQ(json["bytes"]["frame"], 12.0 * 96 * 96);
     EXPECT_EQ(make_plan(case_with({"surface.sites=96"}), 0).frame_bytes, 0.0);
+}
+
+/// The bytes of a state are those of its maps in run.h5.
+TEST(Plan, AStateTakesWhatIsWritten) {
+    const std::vector<std::string> rest = {"drive.path=relax"},
+                                   wall = {"interface.kind=wall", "drive.mode=quasistatic"};
+    std::vector<std::string> path = wall;
+    path.insert(path.end(), {"drive.control=mean-height", "drive.path=[\"approach\"]",
+                             "output.fields=[\"segments\"]"});
+    using Keys = std::vector<std::string>;
+    const std::vector<std::pair<Keys, Keys>> scenes = {
+        {rest, {}},
+        {rest, wall},
+        {path, {"interface.hardness=5"}},
+        {path, {"interface.hardness=rings 5 0.5 20 Å", "interface.adhesion=stripes 10 50 20 Å"}}};
+    for (const auto& [first, more] : scenes) {
+        Keys keys = {"block.thickness=16"};
+        keys.insert(keys.end(), first.begin(), first.end());
+        keys.insert(keys.end(), more.begin(), more.end());
+        const Case c = case_with(keys);
+        const io::Scratch scratch;
+        test::run_scene(c, scratch / "out");
+        const io::Hdf5File file(scratch / "out/run.h5", io::Hdf5File::Mode::read);
+        const std::string state = "/fields/" + file.members("/fields").front() + "/";
+        double bytes = 0.0;
+        for (const std::string& name : file.members(state))
+            if (file.shape(state + name).size() == 2)
+                bytes += (name == "contact" ? 1.0 : 8.0) * 32 * 32;
+        EXPECT_EQ(make_plan(c, 0).state_bytes, bytes) << keys.back();
+    }
+}
+
+/// The plan's heights of a rank are those that the rank holds.
+TEST(Plan, HeightsOfARankAreThoseHeld) {
+    for (const std::vector<std::string>& keys : std::vector<std::vector<std::string>>{
+             {"drive.path=relax"},
+             {"drive.path=relax", "interface.kind=wall"},
+             {"drive.mode=quasistatic", "drive.path=[\"approach\", \"slide x 2 Å\"]"}}) {
+        std::vector<std::string> wide = keys;
+        wide.insert(wide.end(), {"surface.sites=512", "block.thickness=16"});
+        const Case c = case_with(wide, 8);
+        const Plan plan = make_plan(c, 0);
+        const Surface surface = surface_of(c);
+        double held = 0.0;
+        for (int rank = 0; rank < 8; ++rank)
+            held +=
+                static_cast<double>(Interface(surface, c.grid(rank).tile(0),
+                                              c.simulation.block.spacing, c.simulation.interface)
+                                        .bytes());
+        EXPECT_NEAR(plan.bytes[Piece::interface] / held, 1.0, 0.1) << keys.back();
+        EXPECT_EQ(plan.bytes[Piece::surface], 8.0 * 512 * 512);
+        EXPECT_EQ(plan.whole.size(), keys[0] != "drive.path=relax" ? 1u : 0u);
+    }
+}
+
+TEST(Plan, NodesHoldSoManyRanks) {
+    const Case c = case_with({"surface.sites=96"}, 4);
+    const Plan plan = make_plan(c, 0);
+    const double largest = *std::max_element(plan.bytes_of_rank.begin(), plan.bytes_of_rank.end());
+    const auto ranks_of = [&](double node) {
+        return plan_json(c, 1, plan, node)["ranks_of_node"].get<int>();
+    };
+    EXPECT_EQ(ranks_of(0.99 * largest), 0);
+    EXPECT_EQ(ranks_of(2.01 * largest), 2);
+    EXPECT_EQ(ranks_of(100.0 * largest), 4);
+    EXPECT_FALSE(plan_json(c, 1, plan).contains("ranks_of_node"));
+    EXPECT_EQ(io::parse_memory("64GB"), 64e9);
+    EXPECT_EQ(io::parse_memory("0.5 TiB"), 0x1p39);
+    for (const char* none : {"", "64", "GB", "-1GB", "64 GBs", "64gb", "0GB"})
+        EXPECT_FALSE(io::parse_memory(none)) << none;
 }
 
 TEST(Plan, WhatTheSceneDoesNotCallForTakesNothing) {

@@ -385,7 +385,7 @@ TEST(MapStatistics, OfOneWave) {
     const auto differences = [&](double q) { return 2.0 / pixel * std::sin(0.5 * q * pixel); };
     const double dx = differences(qx), dy = differences(qy);
     const auto size = static_cast<std::size_t>(n);
-    const MapStatistics s = map_statistics(h, size, size, pixel, pixel, true);
+    const MapStatistics s = map_statistics(h, Bands({}, n), pixel, pixel, true);
     EXPECT_NEAR(s.rms_height, rms, 1e-12);
     EXPECT_NEAR(s.rms_slope, rms * std::sqrt(dx * dx + dy * dy), 1e-12);
     EXPECT_NEAR(s.rms_curvature, 0.5 * rms * (dx * dx + dy * dy), 1e-12);
@@ -418,11 +418,12 @@ TEST(MapStatistics, OfOneWave) {
 
 TEST(MapStatistics, OfAPlaneThatDoesNotRepeat) {
     std::vector<double> h = map_of(7, 4, [](int x, int y) { return 3.0 * x + 8.0 * y; });
-    MapStatistics s = map_statistics(h, 7, 4, 1.0, 2.0, false);
+    const Bands bands({}, 7, 4);
+    MapStatistics s = map_statistics(h, bands, 1.0, 2.0, false);
     EXPECT_NEAR(s.rms_slope, 5.0, 1e-12);
     EXPECT_NEAR(s.rms_curvature, 0.0, 1e-12);
     h[9] = std::nan(""); // its neighbours' differences are left out
-    s = map_statistics(h, 7, 4, 1.0, 2.0, false);
+    s = map_statistics(h, bands, 1.0, 2.0, false);
     EXPECT_NEAR(s.rms_slope, 5.0, 1e-12);
     EXPECT_EQ(s.highest, 42.0);
 }

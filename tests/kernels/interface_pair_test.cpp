@@ -15,7 +15,7 @@ namespace {
 
 const LennardJones gold; // 100 meV, 3.28 Å, cutoff 13.12 Å
 const double ground = 0.0;
-const SubstrateMap lone_atom{&ground, 1, 1000.0};
+const SubstrateMap lone_atom{&ground, 1, 1000.0, 0, 1};
 
 TEST(InterfacePair, AtTheZeroCrossing) {
     // V(r0) - V(r_c): V(4 r0) = 0.4 (4^-12 - 4^-6) = -9.76324e-5 eV.
@@ -48,7 +48,7 @@ TEST(InterfacePair, EndsAtTheCutoff) {
 TEST(InterfacePair, SeesPeriodicImages) {
     // A box of 20 Å with one atom at its corner: at (19, 1, 3) the nearest image is the one at (20,
     // 0).
-    const SubstrateMap box{&ground, 1, 20.0};
+    const SubstrateMap box{&ground, 1, 20.0, 0, 1};
     const PairSum p = pair_sum(box, gold, 19.0, 1.0, 3.0);
     EXPECT_NEAR(p.energy, Pair(gold).energy(11.0), 1e-15);
     EXPECT_NEAR(p.force[0], -Pair(gold).force_over_distance(11.0), 1e-14);

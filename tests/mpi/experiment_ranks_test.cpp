@@ -155,18 +155,17 @@ void expect_same_bits(const char* scene, const std::vector<std::string>& overrid
                       const std::string& checkpoint) {
     const Case alone = read_case_text(scene, "experiment.toml", overrides);
     const Case shared = read_case_text(scene, "experiment.toml", overrides, world().size());
-    const Surface surface = surface_of(alone);
     std::vector<std::uint64_t> whole;
     {
         const test::Threads one(1);
-        whole = traces(alone, surface, Communicator());
+        whole = traces(alone, surface_of(alone), Communicator());
         EXPECT_GT(whole.size(), 20u);
     }
     const test::Threads two(2);
     if (world().size() == 1) {
-        EXPECT_EQ(traces(alone, surface, Communicator()), whole) << "two threads";
+        EXPECT_EQ(traces(alone, surface_of(alone), Communicator()), whole) << "two threads";
     }
-    expect_parts(shared, surface, checkpoint, whole, 4);
+    expect_parts(shared, surface_of(shared, world()), checkpoint, whole, 4);
 }
 
 } // namespace

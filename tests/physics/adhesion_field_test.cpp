@@ -37,9 +37,8 @@ InterfaceOptions with_field(const WallLaw& wall, const std::vector<double>& part
     field->values = part;
     o.adhesion = field;
     double sum = 0.0;
-    for (int y = 0; y < field->sites; ++y)
-        for (int x = 0; x < field->sites; ++x)
-            sum += o.adhesion_factor(x, y);
+    for (const double of_site : part)
+        sum += o.adhesion_factor(of_site);
     o.mean_adhesion_factor = sum / static_cast<double>(part.size());
     return o;
 }

@@ -76,7 +76,7 @@ std::vector<double> three_octaves(int n) {
                 std::polar(amplitude, 2.0 * pi * (turns - std::floor(turns)));
             slope2 += 0.5 * std::pow(2.0 * pi * k * amplitude, 2);
         }
-    heights::transform(wave, n, n, FFTW_BACKWARD);
+    Bands({}, n).transform(wave, FFTW_BACKWARD);
     std::vector<double> h;
     for (const std::complex<double>& value : wave)
         h.push_back(-value.real() * 0.08 / std::sqrt(slope2));

@@ -79,6 +79,7 @@ def test_processes_that_mpi_does_not_connect(place):
       for option in ("--resume", "--wall-limit", "--progress")),
     (["run", "plain.toml", "--resume", "gone.h5"], "there is no such file"),
     (["check", "plain.toml", "--set"], "--set"), (["plan", "plain.toml", "--ranks", "0"], "--ranks"),
+    (["plan", "plain.toml", "--memory-per-node", "16"], "--memory-per-node 16: is no size of memory"),
     (["plan", "plain.toml", "--set", "drive.timestep=1000"], "stability limit")])
 def test_mistakes(place, words, says):
     command(*words, expect=2, says=says)
@@ -93,7 +94,8 @@ def test_overrides(place):
 
 def test_a_plan_runs_nothing_and_writes_nothing(place):
     command("plan", "--set", "surface.sites=32", "block.thickness=32", "surface.rms=1", "drive.temperature=10",
-            "plain.toml", "--ranks", "4", says=["4 ranks", "drive.temperature = 10 K", "wall time"])
+            "plain.toml", "--ranks", "4", "--memory-per-node", "1GB",
+            says=["4 ranks", "drive.temperature = 10 K", "wall time", "hold 4 of these ranks"])
     assert os.listdir() == ["plain.toml"]
 
 
