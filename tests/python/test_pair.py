@@ -387,7 +387,7 @@ def test_plan_knows_the_bytes_of_the_stresses(path_scene):
     stresses = sum(values.nbytes for name, values in written.items() if name.startswith("stress/relaxed/") and values.ndim > 2)
     assert planned["stress"] == pytest.approx(stresses, rel=0.01) and planned["stress"] > 24 * 4 * 16**2
     state = sum(values.nbytes for name, values in written.items() if name.startswith("fields/relaxed/") and values.shape == (16, 16))
-    assert planned["state"] == state and planned["maps"] > 2 * planned["stress"]
+    assert planned["state"] == state and planned["maps"] > planned["stress"]  # the root holds them whole
     assert program.plan(str(path_scene / "pair.toml"), ["output.stress=none"])["bytes"]["stress"] == 0
 
 
