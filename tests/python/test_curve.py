@@ -15,7 +15,7 @@ import pytest
 
 import asperity
 from asperity.maps.force_curves import read_force_curves
-from asperity.studies.curve_fit import Unfit, compared, correlated, regions
+from asperity.studies.curve_fit import Unfit, compared, correlated, fit, regions
 from asperity.studies.curves import Question, curves_of, missed, question_of
 from asperity.theories.indentation import Indenter, maugis_parameter, path, range_of
 from conftest import command
@@ -38,11 +38,11 @@ def by_jkr(stiffness=STIFFNESS):
 
 
 @functools.cache
-def measured(model, noise=0.01, count=1000, seed=1, most=10.0):
+def measured(model, noise=0.01, count=1000, seed=1, most=10.0, lam=1.0):
     """Height, force and direction of a synthetic curve with offset and tilt; noise over the pull-off force."""
     draw, parts = np.random.default_rng(seed), []
     for retracting in (False, True):
-        at, held = by_jkr() if model == "jkr" else path(TIP, model, MODULUS, WORK, 2 * most, 1.0).on_drive(STIFFNESS)
+        at, held = by_jkr() if model == "jkr" else path(TIP, model, MODULUS, WORK, 2 * most, lam).on_drive(STIFFNESS)
         height = np.linspace(30, np.interp(-most, -held, at), count)
         force = np.where(height < (at[-1] if retracting else 0.0), np.interp(height, at, held), 0.0)
         force = force + 0.3 + 0.004 * height + noise * 1.5 * math.pi * WORK * RADIUS * draw.normal(size=count)
@@ -124,6 +124,31 @@ def test_an_unknown_range_is_in_the_error():
     assert free.of_model[0] > 0.05 > known.of_model[0] == 0.0
     assert abs(math.log(free.work / WORK)) < 2 * math.hypot(free.of_fit[0], free.of_model[0])
     assert free.parameter[1] < 0.1 and free.parameter[2] > 3
+
+
+@pytest.mark.parametrize("model, lam, wrong, right", [("jkr", 1.0, {"dmt", "maugis 0.05", "maugis 0.1"}, {"jkr", "maugis 6.4"}),
+                                                      ("maugis", 0.1, {"jkr", "maugis 0.8", "maugis 3.2"}, {"maugis 0.1"}),
+                                                      ("dmt", 1.0, {"jkr", "maugis 0.4", "maugis 6.4"}, {"dmt"})])
+def test_a_wrong_model_is_recognised(model, lam, wrong, right):
+    """With a noise of 0.2 % the data exclude models whose λ is far from that of the curve, and none that is near; with 5 % they exclude none."""
+    height, force, way = measured(model, noise=0.002, count=2000, lam=lam)
+    told = compared(TIP, regions(height[way == 1][::-1], force[way == 1][::-1]), STIFFNESS)
+    assert set(told.excluded) >= wrong and not set(told.excluded) & right, told.worse_by
+    assert abs(math.log(told.work / WORK)) < 2 * math.hypot(told.of_fit[0], told.of_model[0]) and told.modulus == pytest.approx(MODULUS, rel=0.03)
+    height, force, way = measured(model, noise=0.05, lam=lam)
+    assert not compared(TIP, regions(height[way == 1][::-1], force[way == 1][::-1]), STIFFNESS).excluded
+
+
+def test_the_jump_off_contact_is_a_datum():
+    """With a noise of 5 % the height at which the tip jumps off contact tells the work to 3 %; into contact, the tip may jump later."""
+    height, force, way = measured("jkr", noise=0.05)
+    found = [regions(height[way == 1][::-1], force[way == 1][::-1], retracting) for retracting in (True, False)]
+    out = fit(TIP, "jkr", found[0], STIFFNESS)
+    assert found[0].jump.seen and not found[1].jump.seen and found[1].jump.missed(np.inf) == 0 > found[1].jump.missed(0)
+    place, error, _ = found[0].jump
+    step = (height[way == 1].max() - height[way == 1].min()) / 999
+    assert error == pytest.approx(0.34 * step, rel=0.01) and abs(place - CONTACT - by_jkr()[0][-1]) < 0.51 * step
+    assert out.errors["work"] < 0.03 * WORK and abs(out.values["work"] - WORK) < 3 * out.errors["work"] and abs(out.jump) < 3
 
 
 def test_hertz_and_the_point_of_contact():
@@ -303,7 +328,7 @@ def test_the_command(tmp_path, monkeypatch):
         asperity.load_curve("nowhere")
     followed(str(error.value))
     said = command("curve", "force.csv", "--radius", "20nm", "--stiffness", "2N/m", "-o", "again")
-    assert "The data allow JKR, DMT, Maugis and Dugdale" in said and "errors of radius and stiffness" in said
+    assert "The data allow JKR, Maugis and Dugdale, and exclude DMT" in said and "errors of radius and stiffness" in said
 
 
 def good_and_bad():

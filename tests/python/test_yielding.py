@@ -140,4 +140,14 @@ def test_a_map_yields_under_its_attraction(tmp_path):
     assert largest.value == run.number("yielding.largest_set") > 0 and plastic.value == run.number("dissipated_in_surface.cycle") > 0
     assert all(number.parts and number.error > 0 for number in (share, largest, plastic)) and "pull_off_stress" in soft.estimate.numbers
     assert "A_H/A₀" in report_estimate.text_of(soft.estimate)
+    # A preload leaves a larger set, and a contact that sticks more strongly; its numbers say after which load.
+    pressed = asperity.adhesion(tmp_path / "map.npy", **given, hardness="0.5 GPa", load="0.2 GPa", out=tmp_path / "pressed")
+    assert max(one["pressure"] for one in pressed.result["segments"]) == pytest.approx(200, rel=1e-3)
+    for name in ("yielding.largest_set", "dissipated_in_surface.cycle", "pull_off_stress"):
+        assert pressed.estimate.number(name).value > 1.05 * soft.estimate.number(name).value, name
+    assert pressed.estimate.number("pull_off_stress").condition == "for a range of 0.3 nm, after a load of 200 MPa"
+    for load, words in (("0.6 GPa", "hardness"), ("3", "has no unit"), ("-1 MPa", "no pressure above zero"), ("5 nN", "no pressure above zero")):
+        with pytest.raises(asperity.SceneError) as refused:
+            asperity.adhesion(tmp_path / "map.npy", **given, hardness="0.5 GPa", load=load, out=tmp_path / "none")
+        assert words in str(refused.value) and "drive." not in str(refused.value) and "interface." not in str(refused.value)
     assert any("more than the hardness" in note for note in soft.notes)  # 200 mJ/m² over 3 Å

@@ -37,6 +37,7 @@ class Options(Base):
     poisson: float = option("0.25", "its Poisson's ratio")
     adhesion: str = option("200mJ/m2", "work of adhesion of flat surfaces")
     hardness: str | None = option("1GPa", "of the half-space, which then yields (default: it is elastic)", None)
+    load: str | None = option("100MPa", "mean pressure on the map before the pull-off (default: the approach ends without load)", None)
     range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
     size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
@@ -95,9 +96,9 @@ class Adhesion(Named):
 def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | None = None, adhesion: str | None = None,
              out: str | os.PathLike | None = None, range: str | None = None, size: str | None = None, unit: str | None = None,
              channel: str | None = None, sites: int | None = None, jobs: int = 1, line_noise: str | None = None,
-             hardness: str | None = None, *, E: str | None = None, nu: float | None = None, work: str | None = None, w: str | None = None,
-             file_size: str | None = None, file_unit: str | None = None, counter: str | os.PathLike | None = None,
-             counter_young: str | None = None, counter_poisson: float | None = None) -> Adhesion:
+             hardness: str | None = None, load: str | None = None, *, E: str | None = None, nu: float | None = None,
+             work: str | None = None, w: str | None = None, file_size: str | None = None, file_unit: str | None = None,
+             counter: str | os.PathLike | None = None, counter_young: str | None = None, counter_poisson: float | None = None) -> Adhesion:
     """Computes the adhesion of a half-space, elastic or one that yields, on a measured, rigid map, or of two rough solids, with its
     error.
 
@@ -130,6 +131,8 @@ def adhesion(map: str | os.PathLike, young: str | None = None, poisson: float | 
         Treatment of a scan's noise from line to line: "align-rows" or "isotropic" (surface.line_noise).
     hardness : str, optional
         Hardness of the half-space with its unit, the largest pressure that it bears; None: it is elastic.
+    load : str, optional
+        Mean pressure on the map at the end of the approach, with its unit; None: it ends without load.
     E, nu, work, w, file_size, file_unit : optional
         Other names of young, poisson, adhesion (work and w), size and unit.
     counter : str or os.PathLike, optional
@@ -185,7 +188,7 @@ def _estimating(given: Options, options: PoolOptions, say: Callable[[str], None]
                         place / "maps": MAP_FILES, place / "scene": page}, inputs=[given.map, *filter(None, [given.counter])])
     made = scene_of(given.map, given.young, given.poisson, given.adhesion, place, reach=given.range, size=given.size, unit=given.unit,
                     channel=given.channel, sites=given.sites, line_noise=given.line_noise, hardness=given.hardness,
-                    second=SecondSolid.given(given.counter, given.counter_young, given.counter_poisson))
+                    load=given.load, second=SecondSolid.given(given.counter, given.counter_young, given.counter_poisson))
     for line in (f"{given.map}: a scene of it is {made.file}", *(f"note: {note}" for note in made.notes)):
         say(line)
     return made, Estimating(str(made.file), [], str(place), options, None, (), made.also, made.notes, say, made.withheld, made.condition,

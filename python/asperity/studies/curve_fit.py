@@ -5,7 +5,8 @@
 The model is the force that the cantilever shows at a height of the drive: the tip is at the height plus F/k, and the states are followed up to
 the jump off contact. Only forces are noisy, so that the deflection biases nothing. Baseline (offset, tilt, maybe interference), contact point,
 E*, w and Maugis' λ are parameters of one fit to the points beyond the range of the attraction and to those in contact. Points between, where
-the tip jumps or the attraction acts across a gap, are left out.
+the tip jumps or the attraction acts across a gap, are left out, and so are those beside a jump, where derivatives of the force by the
+parameters have no bound. The height at which the tip jumps off contact, known to the distance of two points, is one more datum.
 
 Errors are those of least squares with the noise of the residuals, times the length over which residuals are correlated.
 
@@ -28,14 +29,18 @@ SEEN = 6.0
 """Standard errors of a smoothed force from which it differs from the baseline."""
 WIDE = 5.0
 """Logarithm of the factor by which E*, w and a period differ from where a fit begins at most."""
-STEEP = 3.0
-"""Derivative of a force by ln w over its median, from which points are left out: beside the jump off contact it has no bound."""
 FAR = 0.3
 """Part of a curve that is far from the sample for certain."""
 MARGIN = 0.005
-"""Part of the points in contact that is left out beside a jump."""
+"""Part of the points in contact that is left out beside the end of the baseline."""
+STEEP = 0.05
+"""Part of the points in contact that is left out beside a jump: derivatives of their forces by the parameters have no bound."""
 BESIDE = 3
 """Points beside a jump that are left out at least: one step of the drive moves their force by more than its noise."""
+JUMP = 0.5
+"""Part of the largest attraction by which the force of two neighbouring points differs across a jump off contact."""
+ACROSS = 0.34
+"""Standard error of the place of a jump, in steps of the drive: two thirds of a uniform distribution lie within."""
 MOST_POINTS = 3000
 """Points of a fit; more are averaged in groups."""
 EXCLUDED = 6.0
@@ -44,9 +49,23 @@ PARAMETERS = (0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4)
 """Maugis' λ at which a curve is fitted if λ is not known, equally likely beforehand; below and above are DMT and JKR."""
 
 
+class Jump(NamedTuple):
+    """Height at which the tip jumps off contact and its standard error, nm, if it is seen; otherwise the largest height in contact."""
+
+    height: float
+    error: float
+    seen: bool
+
+    def missed(self, by_model: float) -> float:
+        """Returns by how many errors a model's jump misses the data."""
+        off = (by_model - self.height) / self.error
+        return off if self.seen else min(0.0, off)
+
+
 class Regions(NamedTuple):
     """A direction of a curve, from far to near: points beyond the attraction, points in contact, noise of a force (nN), forces less the line
-    through the far part, that line's offset and tilt, depth of the dip by attraction (nN; 0: none is seen)."""
+    through the far part, that line's offset and tilt, depth of the dip by attraction (nN; 0: none is seen), jump off contact (None: no dip is
+    seen)."""
 
     height: np.ndarray
     force: np.ndarray
@@ -55,6 +74,7 @@ class Regions(NamedTuple):
     noise: float
     line: tuple[float, float]
     dip: float
+    jump: Jump | None
 
 
 @dataclass
@@ -65,6 +85,7 @@ class Fit:
     covariance       of ln work and ln modulus
     noise, slack     noise of a force, nN, and the number of points over which residuals are correlated
     misfit           sum of squares of the residuals over noise² and slack, of `points` points
+    jump             errors by which the jump off contact is missed
     height, force, model, used   the curve less its baseline, the model (NaN where it has no force), and the points of the fit
     """
 
@@ -82,6 +103,7 @@ class Fit:
     fitted: np.ndarray
     used: np.ndarray
     baseline: Callable[[np.ndarray], np.ndarray]
+    jump: float = 0.0
     notes: list[str] = field(default_factory=list)
 
     @property
@@ -101,7 +123,7 @@ def _grouped(height: np.ndarray, force: np.ndarray) -> tuple[np.ndarray, np.ndar
     return height[:length].reshape(-1, group).mean(1), force[:length].reshape(-1, group).mean(1)
 
 
-def regions(height: np.ndarray, force: np.ndarray) -> Regions:
+def regions(height: np.ndarray, force: np.ndarray, retracting: bool = True) -> Regions:
     """Tells what is baseline and what contact in a direction of a curve, from far to near. Raises Unfit."""
     if len(height) < 20:
         raise Unfit(f"it has {len(height)} points")
@@ -134,10 +156,17 @@ def regions(height: np.ndarray, force: np.ndarray) -> Regions:
     begin = least if dip else onset
     if count - begin < 8 or left[begin:].max() < SEEN * noise:
         raise Unfit("the tip does not press: no force above the baseline is seen")
-    margin = max(BESIDE, math.ceil(MARGIN * (count - begin)), width // 2)
+    margin, beside = (max(BESIDE, math.ceil(part * (count - begin)), width // 2) for part in (MARGIN, STEEP))
     at = np.arange(count)
-    free, contact = at < onset - margin, at >= begin + (margin if dip else -margin)
-    return Regions(height, force, free, contact, noise, (float(offset - tilt * middle), float(tilt)), dip)
+    free, contact = at < onset - margin, at >= begin + (beside if dip else -margin)
+    jump = None
+    if dip:
+        about = slice(max(0, onset - 2 * width), least + width)
+        rises = left[about][:-1] - left[about][1:]
+        edge, seen = about.start + int(np.argmax(rises)), retracting and rises.max() > JUMP * dip
+        place = float(0.5 * (height[edge] + height[edge + 1]) if seen else height[contact].max())
+        jump = Jump(place, ACROSS * float(np.ptp(height)) / count, bool(seen))
+    return Regions(height, force, free, contact, noise, (float(offset - tilt * middle), float(tilt)), dip, jump)
 
 
 def _start(indenter: Indenter, model: str, found: Regions, stiffness: float) -> tuple[float, float, float]:
@@ -159,7 +188,10 @@ def _start(indenter: Indenter, model: str, found: Regions, stiffness: float) -> 
             pulls = [-float(path(indenter, model, E, one, 0.0, 1.0).force.min()) for one in works]
             w = float(np.exp(np.interp(math.log(max(found.dip, 1e-9)), np.log(np.maximum(pulls, 1e-300)), np.log(works))))
         place, force = path(indenter, model, E, w, 1.2 * most, 1.0).on_drive(stiffness)
-        contact = float(found.height[top] - np.interp(-most, -force[np.isfinite(force)], place))
+        if found.jump and found.jump.seen and w:
+            contact = found.jump.height - float(place[-1])
+        else:
+            contact = float(found.height[top] - np.interp(-most, -force[np.isfinite(force)], place))
         misses = np.interp(found.height[near] - contact, place, force) - left[near]
         if (now := float(np.sum(misses**2))) < cost:
             best, cost = (E, w, contact), now
@@ -170,12 +202,11 @@ class _Problem:
     """Residuals of a model over its parameters: ln E*, contact point, offset, tilt, ln w, ln λ, and interference, each scaled."""
 
     def __init__(self, indenter: Indenter, model: str, found: Regions, stiffness: float, start: tuple[float, float, float],
-                 period: float | None, used: np.ndarray | None, range: float | None, parameter: float | None):
+                 period: float | None, range: float | None, parameter: float | None):
         self.indenter, self.model, self.found, self.stiffness, self.range = indenter, model, found, stiffness, range
         self.adhesive, self.period, self.parameter = model != "hertz", period, parameter
-        self.used = (found.free | found.contact) if used is None else used
-        if not self.adhesive and not found.dip:
-            self.used = np.ones(len(found.height), bool) if used is None else used
+        self.jump = found.jump if self.adhesive else None
+        self.used = found.free | found.contact if self.adhesive or found.dip else np.ones(len(found.height), bool)
         self.middle, self.span = float(found.height.mean()), float(np.ptp(found.height))
         line = found.line[0] + found.line[1] * self.middle, found.line[1]
         left = found.force - found.line[0] - found.line[1] * found.height
@@ -224,13 +255,13 @@ class _Problem:
         return found, v["contact"] + float(place[-1])
 
     def residuals(self, x: np.ndarray) -> np.ndarray:
-        """Returns the residuals over the noise and, last, the length by which points in contact lie beyond the jump, in steps of the drive."""
+        """Returns the residuals over the noise and, with adhesion, last that of the jump off contact over its error."""
         v, one = self.values(x), self.found
         at = self.used & (one.contact | (not self.adhesive))
         model = np.zeros(len(one.height))
         model[at], jump = self.contact(v, one.height[at])
-        beyond = max(0.0, float(one.height[at].max()) - jump) / (self.span / len(one.height)) if self.adhesive else 0.0
-        return np.append((one.force - self.baseline(v)(one.height) - model)[self.used] / one.noise, beyond)
+        left = (one.force - self.baseline(v)(one.height) - model)[self.used] / one.noise
+        return left if self.jump is None else np.append(left, self.jump.missed(jump))
 
     def jacobian(self, x: np.ndarray) -> np.ndarray:
         """Returns the derivatives of the residuals by central differences."""
@@ -252,7 +283,7 @@ def correlated(residuals: np.ndarray) -> float:
 
 
 def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period: float | None = None, range: float | None = None,
-        parameter: float | None = None, used: np.ndarray | None = None, near: Fit | None = None) -> Fit:
+        parameter: float | None = None, near: Fit | None = None) -> Fit:
     """Fits a model to a direction of a curve.
 
     Parameters
@@ -269,8 +300,6 @@ def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period
         Period of an interference of the laser in the baseline near which it is looked for, nm.
     range, parameter : float, optional
         Range of the attraction for "maugis", nm, or Maugis' λ.
-    used : np.ndarray, optional
-        Points of the fit; None: those of the regions but steep ones.
     near : Fit, optional
         Fit of another model, from which this one begins.
 
@@ -291,29 +320,18 @@ def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period
         for kind, lam in ((near.model, at.get("parameter", 1.0)), (model, parameter or 1.0)):
             pulls.append(float(path(indenter, kind, at["modulus"], at["work"], 0.0, lam).force.min()))
         begin = at["modulus"], at["work"] * pulls[0] / pulls[1], at["contact"]
-    best, problem = None, None
-    for factor in (1.0, 0.9, 1.1) if model != "hertz" else (1.0,):
-        one = _Problem(indenter, model, found, stiffness, (begin[0], factor * begin[1], begin[2]), period, used, range, parameter)
-        solved = least_squares(one.residuals, np.zeros(len(one.names)), jac=one.jacobian, method="lm", max_nfev=60)
-        for _ in [0] * 5 if used is None and found.dip and one.adhesive else ():
-            moved = np.abs(one.jacobian(solved.x)[:-1, one.names.index("work")])
-            steep = moved > STEEP * np.median(moved[moved > 0] if moved.any() else moved)
-            if not steep.any():
-                break
-            one.used = one.used.copy()
-            one.used[np.flatnonzero(one.used)[steep]] = False
-            solved = least_squares(one.residuals, solved.x, jac=one.jacobian, method="lm", max_nfev=60)
-        if np.isfinite(solved.cost) and (best is None or solved.cost < best.cost):
-            best, problem = solved, one
-    if best is None or problem is None or not np.isfinite(best.x).all():
+    problem = _Problem(indenter, model, found, stiffness, begin, period, range, parameter)
+    best = least_squares(problem.residuals, np.zeros(len(problem.names)), jac=problem.jacobian, method="lm", max_nfev=60)
+    if not np.isfinite(best.x).all():
         raise Unfit("the fit does not converge")
     count, parameters = int(problem.used.sum()), len(problem.names)
     left = best.fun[:count]
     size = float(np.sum(left**2)) / max(1, count - parameters)
     slack = correlated(left)
     try:
-        told = problem.jacobian(best.x)[:-1]
-        spread = np.linalg.inv(told.T @ told) * size * slack
+        told = problem.jacobian(best.x)
+        told[:count] /= math.sqrt(size * slack)
+        spread = np.linalg.inv(told.T @ told)
     except np.linalg.LinAlgError:
         raise Unfit("the curve does not determine all parameters") from None
     values = problem.values(best.x)
@@ -326,7 +344,8 @@ def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period
     height, base = found.height, problem.baseline(values)
     model_force = np.where(found.contact | (not problem.adhesive), problem.contact(values, height)[0], np.where(found.free, 0.0, np.nan))
     return Fit(model, values, {k: float(e) for k, e in errors.items()}, spread[np.ix_(at, at)], found.noise * math.sqrt(size), slack,
-               float(np.sum(left**2)), parameters, count, height, found.force - base(height), model_force, problem.used, base)
+               float(np.sum(left**2)), parameters, count, height, found.force - base(height), model_force, problem.used, base,
+               float(best.fun[-1]) if problem.jump else 0.0)
 
 
 @dataclass
@@ -387,12 +406,11 @@ def compared(indenter: Indenter, found: Regions, stiffness: float, model: str = 
     known = SHAPES[indenter.shape][1]
     if model == "auto":
         model = "hertz" if not found.dip else "maugis" if "maugis" in known else "jkr" if "jkr" in known else "hertz"
-    used: np.ndarray | None = None
     fits: dict[str, Fit] = {}
 
     def add(kind: str, lam: float | None = None, near: Fit | None = None) -> None:
         try:
-            fits[f"{kind} {lam:g}" if lam else kind] = fit(indenter, kind, found, stiffness, period, range, lam, used, near)
+            fits[f"{kind} {lam:g}" if lam else kind] = fit(indenter, kind, found, stiffness, period, range, lam, near)
         except Unfit:
             if kind == model and lam is None:
                 raise
@@ -400,7 +418,6 @@ def compared(indenter: Indenter, found: Regions, stiffness: float, model: str = 
     for kind in ("jkr", "dmt") if found.dip else ():
         if kind in known:
             add(kind, near=fits.get("jkr"))
-            used = fits[kind].used if kind in fits else used
     averaged = model == "maugis" and range is None and parameter is None
     for lam in reversed(PARAMETERS) if averaged else ():
         add("maugis", lam, next(reversed(fits.values()), None) if len(fits) > 2 else fits.get("jkr"))
@@ -410,7 +427,8 @@ def compared(indenter: Indenter, found: Regions, stiffness: float, model: str = 
         raise Unfit("no model can be fitted")
     best = min(fits.values(), key=lambda one: one.misfit)
     size = best.slack * best.misfit / max(1, best.points - best.free_parameters)
-    worse = {name: (one.misfit - best.misfit) / size for name, one in fits.items()}
+    unlikely = {name: one.misfit / size + one.jump**2 for name, one in fits.items()}
+    worse = {name: one - min(unlikely.values()) for name, one in unlikely.items()}
     names = list(fits) if averaged else [name for name in fits if name.partition(" ")[0] == model]
     weights = np.array([math.exp(-0.5 * (worse[name] - min(worse[one] for one in names))) for name in names])
     weights /= weights.sum()

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 WAYS = {False: "approach", True: "retraction"}
 OF_LAW = 0.05
 """Share of w that depends on the law of the attraction: of an exponential law, fitted by Dugdale's of the same range, 4 % at λ = 0.6."""
+OF_LAW_MODULUS, LONG_RANGED = 0.06, 0.5
+"""Share of E* that depends on it, and λ below which it does: of an exponential law 6 % at λ = 0.2, 4 % at 0.13, and 0.4 % at 0.6 and 1.2."""
 POINTS = {"height": "nm", "force": "nN", "model": "nN", "residual": "nN", "in the fit": "", "retraction": ""}
 """Columns of the points of a curve, with their units."""
 RESULT, FIT = "curve.json", "fit.csv"
@@ -212,7 +214,7 @@ def fitted(question: Question, measured: ForceCurve) -> FittedCurve:
     found: dict[str, Regions] = {}
     for retracting, way in WAYS.items():
         try:
-            found[way] = regions(*measured.direction(retracting))
+            found[way] = regions(*measured.direction(retracting), retracting)
             model = question.model
             if model != "auto" and model != "hertz" and not found[way].dip:
                 raise Unfit("no attraction is seen")
@@ -227,6 +229,7 @@ def fitted(question: Question, measured: ForceCurve) -> FittedCurve:
 def _numbers(question: Question, one: FittedCurve) -> list[Number]:
     """Returns the numbers of a curve with the parts of their errors."""
     main, numbers = one.main, []
+    law = question.model == "auto" or question.range is not None
     given = "" if question.model == "auto" else f"if the model of the contact is {question.model}: its error is not included"
     if main is not None:
         others = [found for found in one.fits.values() if found is not main]
@@ -236,11 +239,13 @@ def _numbers(question: Question, one: FittedCurve) -> list[Number]:
             between["direction"] = Found(0.0, 0.5 * main.modulus * math.sqrt(max(0.0, math.log(others[0].modulus / main.modulus) ** 2 - scatter)))
         if "work" in main.stated.values:
             parts = {"fit": Found(0.0, 1e3 * main.work * main.of_fit[0]), "model": Found(0.0, 1e3 * main.work * main.of_model[0])}
-            if question.range is not None:
+            if law:
                 parts["law of the attraction"] = Found(0.0, OF_LAW * 1e3 * main.work)
             numbers.append(Number("work", "w", "work of adhesion", "mJ/m²", 1e3 * main.work, parts, least=0.0, condition=given))
         unit = _modulus_unit(main.modulus)
         parts = {"fit": Found(0.0, main.modulus * main.of_fit[1]), "model": Found(0.0, main.modulus * main.of_model[1]), **between}
+        if law and "work" in main.stated.values and main.parameter[1] < LONG_RANGED:
+            parts["law of the attraction"] = Found(0.0, OF_LAW_MODULUS * main.modulus)
         for path, symbol, name, factor in (("modulus", "E*", "contact modulus E/(1-ν²)", 1.0),
                                            ("young", "E", "Young's modulus", 1 - question.poisson**2)):
             if factor == factor:

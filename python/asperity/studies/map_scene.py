@@ -61,13 +61,13 @@ class Units(NamedTuple):
 
 MODULUS = Units(("GPa", "MPa"), "Pa", 1e3, 3e12)
 UNITS = {"young": MODULUS, "counter_young": MODULUS, "hardness": Units(("GPa", "MPa"), "Pa", 1e3, 3e11),
-         "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
+         "load": Units(("MPa", "GPa"), "Pa", 1.0, 3e11), "adhesion": Units(("J/m^2", "mJ/m^2"), "J/m^2", 1e-4, 30.0),
          "range": Units(("Å", "nm"), "m", 1e-12, 1e-5), "size": Units(("nm", "µm"), "m", 1e-9, 1e-2),
          "radius": Units(("nm", "µm"), "m", 1e-10, 1e-3), "stiffness": Units(("N/m", "mN/m"), "N/m", 1e-5, 1e5)}
 
 
 ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhesion": "adhesion", "interface.range": "range",
-             "interface.hardness": "hardness",
+             "interface.hardness": "hardness", "drive.load": "load",
              "surface.radius": "radius", "drive.stiffness": "stiffness",
              "surface.file_size": "size", "surface.line_noise": "line_noise"}
 """What a scene's keys are called here."""
@@ -146,6 +146,17 @@ def hardness_of(keys: Values, value: object) -> float | None:
         raise SceneError(f"hardness = {value}", "is no hardness above zero", "it is the largest pressure that the solid bears",
                          'for example "1 GPa", or leave it out for an elastic solid')
     return found
+
+
+def with_load(value: object) -> dict[str, str]:
+    """Returns the keys of [drive] of a mean pressure; none if it is not given. Raises SceneError if it is not one above zero."""
+    if value is None:
+        return {}
+    pressure = quantity(with_unit("load", value), "MPa")
+    if pressure is None or not 0 < pressure < math.inf:
+        raise SceneError(f"load = {value}", "is no pressure above zero", "it is the mean pressure on the map at the end of the approach",
+                         'for example "100 MPa", or leave it out for an approach without load')
+    return {"load": f"{pressure:.10g} MPa"}
 
 
 def read_square(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
@@ -306,7 +317,7 @@ class MapScene(NamedTuple):
 
 def scene_of(file: str, young: object, poisson: float, adhesion: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
-             line_noise: str | None = None, hardness: object = None, second: SecondSolid | None = None) -> MapScene:
+             line_noise: str | None = None, hardness: object = None, load: object = None, second: SecondSolid | None = None) -> MapScene:
     """Writes the scene of a map and the map beside it, after all checks.
 
     Parameters
@@ -335,6 +346,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         Treatment of noise from line to line (surface.line_noise).
     hardness : object
         Hardness of the half-space with its unit; None: it is elastic.
+    load : object
+        Mean pressure at the end of the approach with its unit; None: none.
     second : SecondSolid, optional
         A second rough solid; None: the map is that of a rigid one.
 
@@ -352,7 +365,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
                 "surface": {"kind": "flat", "sites": 32},
                 "interface": {"kind": "wall", "adhesion": with_unit("adhesion", adhesion),
                               "range": with_unit("range", reach or RANGE), **with_hardness(hardness)},
-                "drive": {"path": ["approach"], "mode": "quasistatic"}}
+                "drive": {"path": ["approach"], "mode": "quasistatic", **with_load(load)}}
     asked = None if size is None else edge_of(size)
     choices = [None, *program.schema()["surface.line_noise"]["choices"]]
     if line_noise not in choices:
@@ -361,8 +374,11 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         with scene_file(sections) as checked:  # the program reads the units
             keys = Values(program.check(checked)["scene"])
     except SceneError as error:
-        raise SceneError.of([{**one, "where": "", "what": named(one["what"])} for one in error.listed]) from None
+        raise SceneError.of([{**one, "where": "", **{part: named(one[part]) for part in ("what", "why", "fix")}} for one in error.listed]) from None
     hard = hardness_of(keys, hardness)
+    if hard is not None and load is not None and keys.needed("drive.load") >= 1e3 * hard:
+        raise SceneError(f"load = {load}", f"is not below the hardness of {hard:g} GPa", "the whole surface would yield, and nothing would bear the "
+                         "load", f'press less, for example load "{500 * hard:.3g} MPa", or take a larger hardness')
     if not keys.needed("interface.adhesion") > 0.0:
         raise SceneError(f"adhesion = {adhesion}", "is no adhesion", "the work of flat surfaces is above zero", 'for example "50 mJ/m^2"')
     heights, edge, notes = read_square(file, unit, asked, channel)
@@ -422,7 +438,7 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
         withheld = (f"the range of the attraction decides, and is {0.1 * used:.3g} nm, which the spacing resolves, in place of "
                     f"{0.1 * asked:.3g} nm; {longer} states what holds for that range")
     else:
-        condition = f"for a range of {0.1 * used:.3g} nm"
+        condition = f"for a range of {0.1 * used:.3g} nm" + (f", after a load of {keys.number('drive.load'):.4g} MPa" if load is not None else "")
     periodic = all(height_map.jump(height_map.without_tilt(one)) < height_map.PERIODIC for one in rough)
     if periodic:
         heights, other = flat, None if other is None else height_map.without_tilt(other)
@@ -436,7 +452,8 @@ def scene_of(file: str, young: object, poisson: float, adhesion: object, place: 
              "block": {"young": keys.number("block.young"), "poisson": poisson, "thickness": n},
              "interface": {"kind": "wall", "adhesion": keys.number("interface.adhesion"), "range": used,
                            "frictionless": True, **({} if hard is None else {"hardness": hard})},
-             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used}}
+             "drive": {"mode": "quasistatic", "control": "mean-height", "path": ["approach", "pull-off"], "displacement_step": 0.25 * used,
+                       **with_load(load)}}
     stem = stem_of(file)
     names = map_files(second and second.file)
     with store.outputs(place, (*names, f"{stem}.toml"), inputs=[file, *([second.file] if second else [])]) as out:

@@ -22,7 +22,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .sphere import Openings, maugis, openings
+from .sphere import Openings, jkr, maugis, openings
 
 POINTS = 1500
 """Points of a path."""
@@ -90,6 +90,20 @@ def _openings() -> tuple[Openings, Openings]:
     return at, Openings(*(one[::COARSE] for one in at))
 
 
+@functools.lru_cache(maxsize=64)
+def _reduced(model: str, parameter: float, most: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Returns force, contact radius and approach of an adhesive paraboloid in Maugis' units, at least up to a force."""
+    if model == "jkr":
+        a = 2 * np.cbrt(most + 3) * np.linspace(0, 1, 2 * POINTS) ** 2
+        force, a, approach = jkr(a)
+    else:
+        at, coarse = _openings()
+        force, a, _ = maugis(parameter, coarse)
+        first, last = max(0, int(np.searchsorted(a, 0.01)) - 1), int(np.searchsorted(force, most)) + 1
+        force, a, approach = maugis(parameter, Openings(*(one[COARSE * first:COARSE * last] for one in at)))
+    return force, a, approach
+
+
 def maugis_parameter(radius: float, modulus: float, work: float, range: float) -> float:
     """Returns Maugis' λ of a sphere whose attraction has the constant stress work/range."""
     return 2 * work / range * float(np.cbrt(radius / (math.pi * work * (4 * modulus / 3) ** 2)))
@@ -123,15 +137,11 @@ def path(indenter: Indenter, model: str, modulus: float, work: float, most: floa
     Path
         The states.
     """
-    if model == "maugis":
-        radius, stiffness = indenter.size, 4 * modulus / 3
-        unit = math.pi * work * radius
-        length = float(np.cbrt(unit * radius / stiffness))
-        at, coarse = _openings()
-        force, a, _ = maugis(parameter, coarse)
-        first, last = max(0, int(np.searchsorted(a, 0.01)) - 1), int(np.searchsorted(force, most / unit + 0.1)) + 1
-        force, a, approach = maugis(parameter, Openings(*(one[COARSE * first:COARSE * last] for one in at)))
-        return Path(approach * length**2 / radius, force * unit, a * length)
+    if indenter.shape == "paraboloid" and work > 0 and model in ("jkr", "maugis"):
+        stiffness, unit = 4 * modulus / 3, math.pi * work * indenter.size
+        length = float(np.cbrt(unit * indenter.size / stiffness))
+        force, a, approach = _reduced(model, parameter, 2.0 ** math.ceil(math.log2(max(most / unit, 0.0) + 0.1)))
+        return Path(approach * (length**2 / indenter.size), force * unit, a * length)
     if indenter.shape == "punch":
         held = math.sqrt(8 * math.pi * work * modulus * indenter.size**3) if model == "jkr" else 0.0
         force = np.linspace(-held, 1.05 * max(most, 0.0) + held + 1e-9, POINTS)
