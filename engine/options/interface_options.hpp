@@ -40,6 +40,8 @@ struct SiteMap {
 
     /// Returns the division of the values among the ranks.
     Bands bands() const { return {ranks, sites}; }
+    /// Returns the value of site (x, y) of the box, which lies in this rank's band.
+    double at(int x, int y) const { return values[bands().at(x, y)]; }
     /// Returns the mean value of the whole box.
     double mean() const { return sum / (static_cast<double>(sites) * sites); }
     /// Returns the values of a tile's sites, [y * nx + x]; 0 outside the box. Collective.
