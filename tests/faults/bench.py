@@ -518,10 +518,10 @@ class Bench:
             if self.resumes(out, kind, f"a rank of {ranks} killed ({kind})", others):
                 found.append(f"killed on {ranks}, resumed on {others}")
             shutil.rmtree(out, ignore_errors=True)
-        done = self.run(out, "quasistatic", ranks=4, fault=(20, "slow"))
+        done = self.run(out, "wall", ranks=4, fault=(20, "slow"))
         if self.ended_well(done, [0], "a slow directory"):
             data, result, _ = self.outcome(out)
-            if (data, result) != self.reference("quasistatic")[:2]:
+            if (data, result) != self.reference("wall")[:2]:
                 self.fail("other bits in a slow directory")
             found.append("20 ms for each call of the directory")
         shutil.rmtree(out, ignore_errors=True)
