@@ -358,7 +358,7 @@ void Recorder::append_rows() {
 void Recorder::fields(const std::string& state, const VectorPlane<const double>& layer,
                       const ProcessGrid& grid, const Interface& interface,
                       const BlockOptions& block) {
-    const InterfaceMaps maps = interface.maps(layer);
+    InterfaceMaps maps = interface.maps(layer);
     const Tile tile = grid.tile(0);
     const auto n = static_cast<std::size_t>(interface.sites_across());
     communicator_.on_root([&] { append_group(*journal_, "/fields/" + state, true); });
@@ -372,6 +372,7 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
                          const auto width = static_cast<std::size_t>(tile.sites);
                          const auto row = static_cast<std::size_t>(first);
                          std::vector<T> values;
+                         values.reserve(band.size());
                          for (std::size_t y = 0; y < band.size() / width && row + y < n; ++y) {
                              const auto line = band.subspan(y * width, n);
                              if (density) density->add(line);
@@ -409,8 +410,8 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
     put("u_x", layer.x, grid, same);
     put("u_y", layer.y, grid, same);
     put("u_z", layer.z, grid, same);
-    const std::vector<double> contact(maps.contact.begin(), maps.contact.end());
-    put("contact", view_of(contact, tile), grid,
+    maps.gap.assign(maps.contact.begin(), maps.contact.end()); // the gaps have been written
+    put("contact", view_of(maps.gap, tile), grid,
         std::function<std::uint8_t(double)>(
             [](double touches) { return static_cast<std::uint8_t>(touches); }));
     communicator_.on_root([&] {
