@@ -193,8 +193,8 @@ void check_series(const Case& c, io::Problems& problems) {
                         "which has the same E*, or leave counter_young and counter_poisson out, or "
                         "leave prony out",
                         block.poisson,
-                        block.counter->contact_modulus() * (1.0 - block.poisson * block.poisson) /
-                            units::gigapascal));
+                        block.young * block.counter->contact_modulus() /
+                            block.Solid::contact_modulus() / units::gigapascal));
 }
 
 /// Checks the layers and the surface stress of the block.

@@ -30,18 +30,7 @@ CAPTIONS = {
 
 
 def conditions(found: Stress) -> str:
-    """Returns the sentence on what the numbers hold for.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    str
-        The lateral condition of the mean pressure, and the tractions.
-    """
+    """Returns the sentence on what the numbers hold for."""
     sides = ("The sides are free, and the mean pressure is that of a box without images: the change by images of "
              "the contact is a part of the error." if found.free_edges else "The sides are held: the mean pressure strains the block along z alone.")
     if found.solid == "counter":
@@ -69,52 +58,19 @@ def _heads(found: Stress) -> list[str]:
 
 
 def reasons(found: Stress) -> list[str]:
-    """Returns a sentence for each number that is not stated.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    list[str]
-        Number and reason.
-    """
+    """Returns a sentence for each number that is not stated."""
     several = len(found.layers) > 1
     return [f"{MEASURES[one.measure]}{f' of layer {one.layer + 1}' * several} is not stated: {one.reason}" for one in found.largest if one.reason]
 
 
 def text_of(found: Stress) -> str:
-    """Returns what the terminal shows.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    str
-        The table, the conditions, and the reasons of what is not stated.
-    """
+    """Returns what the terminal shows."""
     table = terminal.table(_heads(found), _rows(found))
     return "\n".join([f"Below the state {found.state}:", table, "", conditions(found), *reasons(found)])
 
 
 def answer_of(found: Stress) -> dict[str, Any]:
-    """Returns what stress.json and --json have.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    dict
-        The largest stresses of each layer (GPa) with places (Å) and errors.
-    """
+    """Returns what stress.json and --json have."""
     layers = []
     for number, (top, end) in enumerate(found.layers):
         of_layer = {one.measure: {"value": one.value, "error": one.error, "x": one.x, "y": one.y, "depth": one.depth, "reason": one.reason,
@@ -125,18 +81,7 @@ def answer_of(found: Stress) -> dict[str, Any]:
 
 
 def image_of(found: Stress) -> str:
-    """Returns the stresses as VTK's image: the volume, or the section; z leads into the block.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-
-    Returns
-    -------
-    str
-        The text of the file.
-    """
+    """Returns the stresses as VTK's image: the volume, or the section; z leads into the block."""
     volume = found.volume or {name: values[:, None, :] for name, values in found.section.items()}
     spacing = found.edge / found.section["xx"].shape[1]
     fields = {f"stress {name} (GPa)": volume[name] for name in COMPONENTS}
@@ -147,54 +92,21 @@ def image_of(found: Stress) -> str:
 
 
 def figures(page: Page, found: Stress, name: str = "") -> None:
-    """Adds the figures to a page.
-
-    Parameters
-    ----------
-    page : Page
-        Page.
-    found : Stress
-        Stresses.
-    name : str
-        End of the names of the figures.
-    """
+    """Adds the figures to a page."""
     draw = {"section": plots.section, "tension": partial(plots.section, measure="tension"), "level": plots.level, "profile": plots.profile}
     for figure, (heading, caption) in CAPTIONS.items():
         page.figure(figure + name, heading, caption, partial(draw[figure], found))
 
 
 def add_table(page: Page, found: Stress) -> None:
-    """Adds the largest stresses, the conditions, and the reasons of what is not stated to a page.
-
-    Parameters
-    ----------
-    page : Page
-        Page.
-    found : Stress
-        Stresses.
-    """
+    """Adds the largest stresses, the conditions, and the reasons of what is not stated to a page."""
     page.table(_heads(found), _rows(found))
     for sentence in (conditions(found), *(f"{reason[0].upper()}{reason[1:]}." for reason in reasons(found))):
         page.add("paragraph", sentence)
 
 
 def write(found: Stress, place: Path, out: store.Outputs) -> Path:
-    """Writes stress.json, stress.vti and the page.
-
-    Parameters
-    ----------
-    found : Stress
-        Stresses.
-    place : Path
-        Directory.
-    out : store.Outputs
-        The open directory, which has claimed stress.json and stress.vti.
-
-    Returns
-    -------
-    Path
-        The page.
-    """
+    """Writes stress.json, stress.vti and the page."""
     out.write(NUMBERS, store.sealed_json(answer_of(found)))
     out.write(IMAGE, image_of(found))
     page = Page(place, "asperity stress", f"Stresses below {found.directory.resolve().name}, state {found.state}", "")

@@ -91,18 +91,7 @@ def _theory(found: Tip) -> str:
 
 
 def text_of(found: Tip) -> str:
-    """Returns what the terminal shows.
-
-    Parameters
-    ----------
-    found : Tip
-        Contact of a tip.
-
-    Returns
-    -------
-    str
-        Tables and lines to quote.
-    """
+    """Returns what the terminal shows."""
     rows = [[cells[0], cells[1], cells[2], cells[3]] for cells in map(_cells, found.numbers)]
     head, *compared = _compared(found)
     return "\n".join([terminal.table(["tip", "value", "error", "unit"], rows), "", *lines_of(found.numbers), "",
@@ -110,18 +99,7 @@ def text_of(found: Tip) -> str:
 
 
 def answer_of(found: Tip) -> dict[str, Any]:
-    """Returns what tip.json and --json have.
-
-    Parameters
-    ----------
-    found : Tip
-        Contact of a tip.
-
-    Returns
-    -------
-    dict
-        Numbers with errors, the fit, the contact and the notes.
-    """
+    """Returns what tip.json and --json have."""
     contact = {"radius": found.contact.radius, "modulus": found.contact.modulus, "work": found.contact.work, "range": found.contact.range,
                "stiffness": found.contact.stiffness, "maugis": found.contact.parameter, "tabor": found.contact.tabor,
                "model": found.contact.model, "tip": found.contact.words, "shape": found.contact.shape and found.contact.shape.saved(),
@@ -147,18 +125,7 @@ def _material(found: Tip) -> list[list[str]]:
 
 
 def write(found: Tip) -> Path:
-    """Writes tip.json, curve.csv and the page into the directory of the study.
-
-    Parameters
-    ----------
-    found : Tip
-        Contact of a tip.
-
-    Returns
-    -------
-    Path
-        The page.
-    """
+    """Writes tip.json, curve.csv and the page into the directory of the study."""
     rows = store.rows_of(found.columns(), found.units)
     with store.outputs(found.directory, [RESULT, CURVE]) as out:
         out.write(RESULT, store.sealed_json(answer_of(found)))

@@ -70,20 +70,7 @@ def told(line: str) -> dict[str, Any]:
 
 
 def error_of(text: str, code: int) -> Error | None:
-    """Returns the error that the program has printed as JSON.
-
-    Parameters
-    ----------
-    text : str
-        Standard error of the program.
-    code : int
-        Exit code of the program.
-
-    Returns
-    -------
-    Error | None
-        The error; None if the text contains none.
-    """
+    """Returns the error that the program has printed as JSON."""
     kind = BY_CODE.get(code, InternalError)
     for line in text.splitlines():
         error = told(line).get("error")
@@ -93,21 +80,8 @@ def error_of(text: str, code: int) -> Error | None:
 
 
 def raise_for(code: int, text: str) -> None:
-    """Raises the exception of an exit code, with the program's message, or with the launcher's message if the program has printed
-    none.
-
-    Parameters
-    ----------
-    code : int
-        Exit code; negative: the number of a signal.
-    text : str
-        Standard error of the program.
-
-    Raises
-    ------
-    Error
-        The exit code is not 0.
-    """
+    """Raises the exception of an exit code, with the program's message, or with the launcher's message if the program has printed none. Raises
+    Error."""
     if code == 0:
         return
     error = error_of(text, code)
@@ -128,31 +102,7 @@ def refuse_ranks() -> None:
 
 
 def call(arguments: Iterable[str], *, text: str | None = None, given: socket.socket | None = None, refusal: bool = False) -> str:
-    """Runs the program and waits for its end.
-
-    Parameters
-    ----------
-    arguments : Iterable[str]
-        Arguments of the command line.
-    text : str, optional
-        Standard input of the program.
-    given : socket.socket, optional
-        Socket as its standard input.
-    refusal : bool
-        True: returns the output of the program also if the scene is refused (exit code 2).
-
-    Returns
-    -------
-    str
-        Standard output of the program.
-
-    Raises
-    ------
-    InputOutputError
-        The program cannot be started.
-    Error
-        The program failed: the exception of its exit code.
-    """
+    """Runs the program and waits for its end. Raises InputOutputError, Error."""
     words = [path(), *arguments]
     try:
         source: dict[str, Any] = {"input": text} if given is None else {"stdin": given}
@@ -205,103 +155,22 @@ def quantity(path: str) -> dict[str, str]:
 
 
 def check(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Checks a scene without running it.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    overrides : Iterable[str]
-        Overrides, each "section.key=value".
-
-    Returns
-    -------
-    dict[str, Any]
-        The resolved scene: name, scene, sweep, effects, notes, problems, longest_timestep (fs), edge_pinning (the factor by which a
-        coarse spacing increases the pull-off force of a sphere), box_softness (if above 1, works of the path are those of the box).
-
-    Raises
-    ------
-    Error
-        The file cannot be read.
-    """
+    """Checks a scene without running it. Raises Error."""
     return json.loads(call(["check", scene, *sets(overrides), "--json"], refusal=True))
 
 
 def plan(scene: str, overrides: Iterable[str] = ()) -> dict[str, Any]:
-    """Estimates memory and time of a run.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    overrides : Iterable[str]
-        Overrides, each "section.key=value".
-
-    Returns
-    -------
-    dict[str, Any]
-        Memory ("bytes") and time ("seconds", s) by part, and effects.
-
-    Raises
-    ------
-    Error
-        The scene is refused.
-    """
+    """Estimates memory and time of a run. Raises Error."""
     return json.loads(call(["plan", scene, *sets(overrides), "--json"]))
 
 
 def surface(scene: str, overrides: Iterable[str] = (), out: str = "") -> dict[str, Any]:
-    """Makes the surface of a scene.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    overrides : Iterable[str]
-        Overrides, each "section.key=value".
-    out : str
-        Directory for heights.h5; "": writes no file.
-
-    Returns
-    -------
-    dict[str, Any]
-        rms (Å), slope_of_neighbours, notes, and doubts (possible mistakes in the file of a map).
-
-    Raises
-    ------
-    Error
-        The scene is refused.
-    """
+    """Makes the surface of a scene. Raises Error."""
     return json.loads(call(["surface", scene, *sets(overrides), "--json", *(["--out", out] if out else [])]))
 
 
 def theory_points(scene: str, points: list[list[str]], runnable: bool = False, profile: bool = False) -> list[dict]:
-    """Computes Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`).
-
-    Parameters
-    ----------
-    scene : str
-        Scene file.
-    points : list[list[str]]
-        Overrides of each variation.
-    runnable : bool
-        True: includes the problems that would prevent a run.
-    profile : bool
-        True: includes the theory at all magnifications, and theory.persson.critical_rms.
-
-    Returns
-    -------
-    list[dict]
-        An object for each variation; `problems` has the mistakes of the variation.
-
-    Raises
-    ------
-    Error
-        The scene file cannot be read.
-    InternalError
-        The program returned a wrong number of objects.
-    """
+    """Computes Persson's theory of many variations of a scene, and the input of the other theories (`rough`, `flat`). Raises Error, InternalError."""
     text = "".join(json.dumps(point) + "\n" for point in points)
     words = ["theory-points", scene, "--points", "-"] + ["--runnable"] * runnable + ["--profile"] * profile
     lines = call(words, text=text).splitlines()
@@ -311,33 +180,7 @@ def theory_points(scene: str, points: list[list[str]], runnable: bool = False, p
 
 
 def stress_below(scene: str, overrides: Iterable[str], file: str, state: str, slid: bool, out: str) -> dict[str, Any]:
-    """Computes the stresses below a state.
-
-    Parameters
-    ----------
-    scene : str
-        Scene file of the block.
-    overrides : Iterable[str]
-        Overrides: output.stress and the keys beside it.
-    file : str
-        File run.h5 with the maps of the state.
-    state : str
-        Name of the state.
-    slid : bool
-        True: the friction of a slide acts as pressure times slope.
-    out : str
-        HDF5 file to write.
-
-    Returns
-    -------
-    dict[str, Any]
-        The largest stresses of each layer.
-
-    Raises
-    ------
-    Error
-        The scene is refused, or the maps cannot be read.
-    """
+    """Computes the stresses below a state. Raises Error."""
     with tempfile.NamedTemporaryFile("w", suffix=".json", encoding="utf-8") as points:
         json.dump({"file": file, "state": state, "slid": slid}, points)
         points.flush()
@@ -345,20 +188,7 @@ def stress_below(scene: str, overrides: Iterable[str], file: str, state: str, sl
 
 
 def complaints(points: list[dict[str, Any]], where: dict[str, str] | None = None) -> None:
-    """Raises SceneError for points with problems, with each problem once.
-
-    Parameters
-    ----------
-    points : list[dict[str, Any]]
-        Answers of theory_points().
-    where : dict[str, str], optional
-        Places of swept keys, for the messages.
-
-    Raises
-    ------
-    SceneError
-        A point has a problem.
-    """
+    """Raises SceneError for points with problems, with each problem once."""
     found: dict[tuple[str, str], dict] = {}
     for point in points:
         for problem in point.get("problems", []):

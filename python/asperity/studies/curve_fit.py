@@ -284,35 +284,7 @@ def correlated(residuals: np.ndarray) -> float:
 
 def fit(indenter: Indenter, model: str, found: Regions, stiffness: float, period: float | None = None, range: float | None = None,
         parameter: float | None = None, near: Fit | None = None) -> Fit:
-    """Fits a model to a direction of a curve.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The tip.
-    model : str
-        A model of SHAPES.
-    found : Regions
-        The direction of the curve.
-    stiffness : float
-        Stiffness of the cantilever, N/m.
-    period : float, optional
-        Period of an interference of the laser in the baseline near which it is looked for, nm.
-    range, parameter : float, optional
-        Range of the attraction for "maugis", nm, or Maugis' λ.
-    near : Fit, optional
-        Fit of another model, from which this one begins.
-
-    Returns
-    -------
-    Fit
-        The fit.
-
-    Raises
-    ------
-    Unfit
-        The fit does not converge.
-    """
+    """Fits a model to a direction of a curve. Raises Unfit."""
     if near is None or model == "hertz":
         begin = _start(indenter, model, found, stiffness)
     else:  # with a work that gives the same pull-off
@@ -374,35 +346,7 @@ class Compared:
 
 def compared(indenter: Indenter, found: Regions, stiffness: float, model: str = "auto", range: float | None = None,
              period: float | None = None, parameter: float | None = None) -> Compared:
-    """Fits the models that have a closed form for a tip to a direction of a curve.
-
-    Parameters
-    ----------
-    indenter : Indenter
-        The tip.
-    found : Regions
-        The direction of the curve.
-    stiffness : float
-        Stiffness of the cantilever, N/m.
-    model : str
-        The model whose numbers are stated; "auto": Hertz if no attraction is seen, else Maugis' and Dugdale's, and JKR's where that has no
-        closed form.
-    range, parameter : float, optional
-        Range of the attraction, nm, or λ for "maugis". If neither is given, λ has the values of PARAMETERS: the numbers are averaged
-        over them and over JKR and DMT with the likelihoods, and their errors contain the spread.
-    period : float, optional
-        Period of an interference, nm.
-
-    Returns
-    -------
-    Compared
-        The fits.
-
-    Raises
-    ------
-    Unfit
-        The curve cannot be fitted.
-    """
+    """Fits the models that have a closed form for a tip to a direction of a curve. Raises Unfit."""
     known = SHAPES[indenter.shape][1]
     if model == "auto":
         model = "hertz" if not found.dip else "maugis" if "maugis" in known else "jkr" if "jkr" in known else "hertz"

@@ -167,23 +167,7 @@ def _modulus_unit(value: float) -> str:
 
 
 def question_of(given: Mapping[str, Any]) -> Question:
-    """Returns the question of a call.
-
-    Parameters
-    ----------
-    given : Mapping[str, Any]
-        Arguments of curve(): shape, radius, angle, poisson, model, range, interference.
-
-    Returns
-    -------
-    Question
-        Tip and model.
-
-    Raises
-    ------
-    SceneError
-        An argument is missing, impossible, or does not go with the shape.
-    """
+    """Returns the question of a call. Raises SceneError."""
     shape, poisson = given["shape"], given["poisson"]
     size, models = SHAPES[shape]
     other = "angle" if size == "radius" else "radius"
@@ -292,29 +276,7 @@ def _means(curves: list[FittedCurve]) -> list[Number]:
 
 
 def curves_of(file: str, question: Question, stiffness: str | None, sensitivity: str | None, jobs: int = 1) -> Curves:
-    """Reads and fits the force curves of a file.
-
-    Parameters
-    ----------
-    file : str
-        The file.
-    question : Question
-        Tip and model.
-    stiffness, sensitivity : str, optional
-        Stiffness and sensitivity of the cantilever with their units, which hold over what the file says.
-    jobs : int
-        Number of curves that are fitted at the same time.
-
-    Returns
-    -------
-    Curves
-        The curves with their fits and numbers.
-
-    Raises
-    ------
-    InputOutputError
-        The file cannot be read, or none of its curves can be fitted.
-    """
+    """Reads and fits the force curves of a file. Raises InputOutputError."""
     measured, refused = read_force_curves(file, stiffness, sensitivity)
     if jobs > 1 and len(measured) > 1:
         with ProcessPoolExecutor(jobs) as pool:

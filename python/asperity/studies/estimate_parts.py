@@ -31,24 +31,7 @@ def stated(q: Quantity, unit: str, value: float, result: Values) -> Number:
     """Returns the number of a result with its possible range, without parts of its error.
 
     A state at zero load that no load has pressed together before is bound, and the drive has pulled all the way: works
-    have one sign. No more than Δγ can be gained over a wall, where each site has one height.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity to state.
-    unit : str
-        Unit of the value.
-    value : float
-        Number of the result.
-    result : Values
-        Contents of result.json.
-
-    Returns
-    -------
-    Number
-        The number.
-    """
+    have one sign. No more than Δγ can be gained over a wall, where each site has one height."""
     flat, keys = result.number("delta_gamma", 0.0), result.part("scene")
     sites, spacing = keys.number("surface.sites", 1.0), keys.number("surface.spacing", NAN)
     unpressed = keys.number("drive.load", 0.0) == 0.0 and not any(
@@ -82,21 +65,8 @@ Rule = Callable[[Quantity, float, np.ndarray, list[Values]], Found]
 
 
 def finer(ratio: float, order: float | None = None) -> Rule:
-    """Makes the rule of one row, finer by a ratio. A number that would change its sign on the way to the limit is not at its
-    order yet: its value in the row is taken.
-
-    Parameters
-    ----------
-    ratio : float
-        Setting of the base over that of the row.
-    order : float, optional
-        Order of the error in the setting; None: that of the quantity.
-
-    Returns
-    -------
-    Rule
-        The rule.
-    """
+    """Makes the rule of one row, finer by a ratio. A number that would change its sign on the way to the limit is not at its order yet: its value in
+    the row is taken."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (rows[0] - base) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(rows[0] - base + (beyond if (rows[0] + beyond) * rows[0] >= 0.0 else 0.0), abs(beyond))
@@ -104,20 +74,7 @@ def finer(ratio: float, order: float | None = None) -> Rule:
 
 
 def coarser(ratio: float, order: float | None = None) -> Rule:
-    """Makes the rule of one row, coarser by a ratio and so cheaper than the base; otherwise as finer().
-
-    Parameters
-    ----------
-    ratio : float
-        Setting of the row over that of the base.
-    order : float, optional
-        Order of the error in the setting; None: that of the quantity.
-
-    Returns
-    -------
-    Rule
-        The rule.
-    """
+    """Makes the rule of one row, coarser by a ratio and so cheaper than the base; otherwise as finer()."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         beyond = (base - rows[0]) / (ratio ** (q.order if order is None else order) - 1.0)
         return Found(beyond if (base + beyond) * base >= 0.0 else 0.0, abs(beyond))
@@ -125,46 +82,12 @@ def coarser(ratio: float, order: float | None = None) -> Rule:
 
 
 def limit(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Takes the number of the last row; its last change is the standard error.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Numbers of the rows.
-    _ : list[Values]
-        Results of the rows, not used.
-
-    Returns
-    -------
-    Found
-        Shift and standard error, in the unit of the number.
-    """
+    """Takes the number of the last row; its last change is the standard error."""
     return Found(rows[-1] - base, abs(rows[-1] - (rows[-2] if len(rows) > 1 else base)))
 
 
 def solved(q: Quantity, base: float, rows: np.ndarray, results: list[Values]) -> Found:
-    """Takes the row of a better solution; the error is the bound that the row states, or its change.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Numbers of the rows.
-    results : list[Values]
-        Results of the rows.
-
-    Returns
-    -------
-    Found
-        Shift and standard error, in the unit of the number.
-    """
+    """Takes the row of a better solution; the error is the bound that the row states, or its change."""
     stated = convergence_of(results[0], q.path)
     return Found(rows[0] - base, max(abs(rows[0] - base), stated if stated == stated else 0.0))
 
@@ -177,44 +100,14 @@ def standard_error(values: np.ndarray) -> float:
 
 
 def mean(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Averages over rows of other surfaces of the same statistics.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Numbers of the rows.
-    _ : list[Values]
-        Results of the rows, not used.
-
-    Returns
-    -------
-    Found
-        Shift and standard error, in the unit of the number.
-    """
+    """Averages over rows of other surfaces of the same statistics."""
     values = np.array([base, *rows])
     return Found(float(values.mean()) - base, standard_error(values))
 
 
 def widened(count: int, wider: bool) -> Rule:
-    """Makes the rule of rows of other surfaces of the base's width, then some of half or twice the width. The error falls
-    between the inverse of the width (waves that are missing) and of the area (means over a finite one).
-
-    Parameters
-    ----------
-    count : int
-        Rows of the base's width.
-    wider : bool
-        True: the others are twice as wide.
-
-    Returns
-    -------
-    Rule
-        The rule.
-    """
+    """Makes the rule of rows of other surfaces of the base's width, then some of half or twice the width. The error falls between the inverse of the
+    width (waves that are missing) and of the area (means over a finite one)."""
     def rule(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
         here, there = np.array([base, *rows[:count]]), rows[count:]
         difference = float(there.mean() - here.mean()) if wider else float(here.mean() - there.mean())
@@ -226,68 +119,17 @@ def widened(count: int, wider: bool) -> Rule:
 
 
 def places(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Numbers of the quarters.
-    _ : list[Values]
-        Results of the rows, not used.
-
-    Returns
-    -------
-    Found
-        No shift, and the standard error in the unit of the number.
-    """
+    """Estimates from the quarters of a map the scatter that other places on the sample would have, for the area of the map."""
     return Found(0.0, standard_error(rows))
 
 
 def positions(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Takes the scatter over places of one solid on the other as the error of any of them; the number is not corrected.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Numbers of the other places.
-    _ : list[Values]
-        Results of the rows, not used.
-
-    Returns
-    -------
-    Found
-        No shift, and the standard deviation in the unit of the number.
-    """
+    """Takes the scatter over places of one solid on the other as the error of any of them; the number is not corrected."""
     return Found(0.0, float(np.std([base, *rows], ddof=1)))
 
 
 def edges(q: Quantity, base: float, rows: np.ndarray, _: list[Values]) -> Found:
-    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected.
-
-    Parameters
-    ----------
-    q : Quantity
-        Quantity.
-    base : float
-        Number of the base.
-    rows : np.ndarray
-        Number of the mirrored map.
-    _ : list[Values]
-        Results of the rows, not used.
-
-    Returns
-    -------
-    Found
-        No shift, and the standard error in the unit of the number.
-    """
+    """Compares with the map in its mirror images: neither of the two treatments is right, and the number is not corrected."""
     return Found(0.0, 0.5 * abs(rows[0] - base))
 
 
@@ -372,24 +214,7 @@ def is_coarse(scene: Variations) -> bool:
 
 
 def plan_of(scene: Variations, seeds: int, spacing_also: SpacingAlso = lambda _: [], maps: tuple[Part, ...] = ()) -> Plan:
-    """Plans the parts of a scene's errors.
-
-    Parameters
-    ----------
-    scene : Variations
-        Settings of the scene.
-    seeds : int
-        Surfaces of a self-affine scene, itself included.
-    spacing_also : SpacingAlso
-        Makes what is set too with another spacing.
-    maps : tuple[Part, ...]
-        Parts of a measured surface, which take the base of the others.
-
-    Returns
-    -------
-    Plan
-        The plan, its parts in the order of GROUPS.
-    """
+    """Plans the parts of a scene's errors."""
     own, rest = scene.own, None
     start = Variation("scene", "the scene", [])
     if scene.dynamic and not scene.finite:

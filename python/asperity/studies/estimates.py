@@ -290,20 +290,7 @@ class SurfaceMade(NamedTuple):
 
 
 def surface_made(file: str, overrides: Iterable[str] = ()) -> SurfaceMade:
-    """Makes the surface of a scene.
-
-    Parameters
-    ----------
-    file : str
-        Scene file.
-    overrides : Iterable[str]
-        Overrides.
-
-    Returns
-    -------
-    SurfaceMade
-        Heights (Å) and their statistics.
-    """
+    """Makes the surface of a scene."""
     with tempfile.TemporaryDirectory(prefix="asperity-") as place:
         made = program.surface(file, overrides, out=str(Path(place) / "surface"))
         heights = height_map.read_map(str(Path(place) / "surface/heights.h5")).heights
@@ -432,13 +419,7 @@ class Estimating(Study):
         return missing_waves.verdict(self.law, modulus, adhesion, f"{self.of_sites} {more}" * (more > 0))
 
     def carry_out(self) -> tuple[Estimate | None, bool]:
-        """Carries out the runs and writes estimate.json.
-
-        Returns
-        -------
-        tuple[Estimate | None, bool]
-            The estimate, None if the scene itself has no result; and False if stopped early.
-        """
+        """Carries out the runs and writes estimate.json."""
         complete = self.runs.run(self.rows)
         if self.plan.scene.outcome.status != DONE:
             return None, complete

@@ -74,18 +74,7 @@ ARGUMENTS = {"block.young": "young", "block.poisson": "poisson", "interface.adhe
 
 
 def named(text: str) -> str:
-    """Returns a text in which the keys of the scene, which nobody has seen, have the names of arguments.
-
-    Parameters
-    ----------
-    text : str
-        Message of the program.
-
-    Returns
-    -------
-    str
-        Message of a study.
-    """
+    """Returns a text in which the keys of the scene, which nobody has seen, have the names of arguments."""
     for key, name in ARGUMENTS.items():
         text = text.replace(key, name)
     return text
@@ -108,25 +97,7 @@ def length(name: str, text: object) -> float:
 
 
 def with_unit(name: str, value: object) -> str:
-    """Returns the text of a quantity with its unit, as scenes have it.
-
-    Parameters
-    ----------
-    name : str
-        Name of the argument.
-    value : object
-        Value of the quantity, with its unit.
-
-    Returns
-    -------
-    str
-        The text.
-
-    Raises
-    ------
-    SceneError
-        The value has no unit.
-    """
+    """Returns the text of a quantity with its unit, as scenes have it. Raises SceneError."""
     text = str(value).strip()
     if re.fullmatch(r"[-+\d.eE]*", text):
         raise SceneError(f"{name} = {value!r}", "has no unit", "a bare number may be meant in several",
@@ -160,29 +131,7 @@ def with_load(value: object) -> dict[str, str]:
 
 
 def read_square(file: str, unit: str | None, size: float | None, channel: str | None) -> tuple[np.ndarray, float, list[str]]:
-    """Reads a square map of which a contact can be computed.
-
-    Parameters
-    ----------
-    file : str
-        Map of heights.
-    unit : str, optional
-        Unit of the heights; None: as the file says.
-    size : float, optional
-        Shorter edge, Å; None: as the file says.
-    channel : str, optional
-        Name or number of the map in a file with several.
-
-    Returns
-    -------
-    tuple[numpy.ndarray, float, list[str]]
-        Heights (Å, NaN at missing points), edge (Å), and notes on what was made of the map.
-
-    Raises
-    ------
-    SceneError
-        The map is refused.
-    """
+    """Reads a square map of which a contact can be computed. Raises SceneError."""
     found = height_map.read_map(file, unit, size or None, channel)
     heights, notes = found.heights, list(found.notes)
 
@@ -246,27 +195,7 @@ class SecondSolid(NamedTuple):
 
     @classmethod
     def given(cls, file: str | None, young: object, poisson: float | None) -> SecondSolid | None:
-        """Returns the solid of these arguments; None without a map.
-
-        Parameters
-        ----------
-        file : str, optional
-            File of the map.
-        young : object
-            Young's modulus with its unit.
-        poisson : float, optional
-            Poisson's ratio.
-
-        Returns
-        -------
-        SecondSolid or None
-            The solid.
-
-        Raises
-        ------
-        SceneError
-            A modulus is given without a map, or a Poisson's ratio without a modulus.
-        """
+        """Returns the solid of these arguments; None without a map. Raises SceneError."""
         if file is None and (young is not None or poisson is not None):
             raise SceneError(f"counter_young = {young}" if young is not None else f"counter_poisson = {poisson}", "has no effect",
                              "there is no second solid", "name its map: --counter map2.npy")
@@ -289,18 +218,7 @@ class SecondSolid(NamedTuple):
 
 
 def map_files(counter: str | None) -> list[str]:
-    """Returns the names of the files of the maps beside a scene.
-
-    Parameters
-    ----------
-    counter : str, optional
-        File of the map of a second solid.
-
-    Returns
-    -------
-    list[str]
-        Names of files.
-    """
+    """Returns the names of the files of the maps beside a scene."""
     return ["map.npy", *["counter.npy"] * (counter is not None)]
 
 
@@ -318,49 +236,7 @@ class MapScene(NamedTuple):
 def scene_of(file: str, young: object, poisson: float, adhesion: object, place: Path, *, reach: object = None,
              size: object = None, unit: str | None = None, channel: str | None = None, sites: int | None = None,
              line_noise: str | None = None, hardness: object = None, load: object = None, second: SecondSolid | None = None) -> MapScene:
-    """Writes the scene of a map and the map beside it, after all checks.
-
-    Parameters
-    ----------
-    file : str
-        Map of heights.
-    young : object
-        Young's modulus of the half-space with its unit, "100 GPa".
-    poisson : float
-        Poisson's ratio of the half-space.
-    adhesion : object
-        Work of adhesion of flat surfaces with its unit, "200 mJ/m2".
-    place : Path
-        Directory to write to.
-    reach : object
-        Range of the attraction with its unit; None: 3 Å, or what the spacing resolves.
-    size : object
-        Shorter edge of the map with its unit; None: as the file says.
-    unit : str, optional
-        Unit of the heights; None: as the file says.
-    channel : str, optional
-        Name or number of the map in a file with several.
-    sites : int, optional
-        Sites along an edge; None: as many as the map has points, 256 at most.
-    line_noise : str, optional
-        Treatment of noise from line to line (surface.line_noise).
-    hardness : object
-        Hardness of the half-space with its unit; None: it is elastic.
-    load : object
-        Mean pressure at the end of the approach with its unit; None: none.
-    second : SecondSolid, optional
-        A second rough solid; None: the map is that of a rigid one.
-
-    Returns
-    -------
-    MapScene
-        The scene's file, and what its estimate must know.
-
-    Raises
-    ------
-    SceneError
-        No scene can be made of the map or an argument; nothing is written.
-    """
+    """Writes the scene of a map and the map beside it, after all checks. Raises SceneError."""
     sections: dict[str, dict[str, Any]] = {"block": {"young": with_unit("young", young), "poisson": poisson},
                 "surface": {"kind": "flat", "sites": 32},
                 "interface": {"kind": "wall", "adhesion": with_unit("adhesion", adhesion),

@@ -96,53 +96,20 @@ class Stress(Named):
 
 
 def von_mises(stress: dict[str, np.ndarray]) -> np.ndarray:
-    """Returns the stress of von Mises.
-
-    Parameters
-    ----------
-    stress : dict[str, np.ndarray]
-        Components by name.
-
-    Returns
-    -------
-    np.ndarray
-        An array of the same shape.
-    """
+    """Returns the stress of von Mises."""
     xx, yy, zz, xy, xz, yz = (stress[name] for name in COMPONENTS)
     return np.sqrt(0.5 * ((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) + 3 * (xy**2 + xz**2 + yz**2))
 
 
 def largest_tension(stress: dict[str, np.ndarray]) -> np.ndarray:
-    """Returns the largest principal stress.
-
-    Parameters
-    ----------
-    stress : dict[str, np.ndarray]
-        Components by name.
-
-    Returns
-    -------
-    np.ndarray
-        An array of the same shape.
-    """
+    """Returns the largest principal stress."""
     xx, yy, zz, xy, xz, yz = (np.asarray(stress[name], float) for name in COMPONENTS)
     rows = [np.stack(row, -1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))]
     return np.linalg.eigvalsh(np.stack(rows, -2))[..., -1]
 
 
 def stresses_in(run: Result) -> list[Stress]:
-    """Returns the stresses that a run has recorded (output.stress).
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-
-    Returns
-    -------
-    list[Stress]
-        Stresses below each state.
-    """
+    """Returns the stresses that a run has recorded (output.stress)."""
     return [_read(run.file, run, state) for state in run.file.members("/stress")]
 
 
@@ -191,20 +158,7 @@ def _state_of(run: Result, name: str | None) -> State:
 
 
 def refuse(run: Result, solid: str = "block") -> None:
-    """Checks that the stresses of a run have a meaning.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    solid : str
-        "block", or "counter": the second solid.
-
-    Raises
-    ------
-    SceneError
-        The substrate consists of atoms, the block is a lattice, or there is no elastic second solid.
-    """
+    """Checks that the stresses of a run have a meaning. Raises SceneError."""
     place = str(run.directory)
     if solid == "counter" and not run.number("scene.surface.counter_young"):
         raise SceneError(place, "has no stresses in a second solid", "the second solid is rigid (surface.counter_young)" if
@@ -235,35 +189,7 @@ def _scene_of(run: Result, solid: str) -> dict[str, Any]:
 
 def compute(run: Result, state: str | None, friction: float | None, depth: str | None, volume: bool, out: store.Outputs,
             solid: str = "block") -> Stress:
-    """Computes the stresses below a state by the program, and writes stress.h5.
-
-    Parameters
-    ----------
-    run : Result
-        Result of the run.
-    state : str | None
-        Name of the state; None: the relaxed one, or the last one.
-    friction : float | None
-        Friction coefficient of a traction in phase with the pressure; None: that of a slide, none otherwise.
-    depth : str | None
-        Largest depth of the section with its unit; None: chosen by the program.
-    volume : bool
-        True: all points at all depths.
-    out : store.Outputs
-        Open directory, which has claimed stress.h5.
-    solid : str
-        "block", or "counter": the second solid.
-
-    Returns
-    -------
-    Stress
-        The stresses.
-
-    Raises
-    ------
-    SceneError
-        The stresses have no meaning, or an argument is refused.
-    """
+    """Computes the stresses below a state by the program, and writes stress.h5. Raises SceneError."""
     refuse(run, solid)
     of = _state_of(run, state)
     slid = friction is None and of.slide != (0.0, 0.0)

@@ -382,28 +382,7 @@ def files_of(with_map: bool) -> list[str]:
 
 
 def plan_of(file: str | None, place: Path, given: dict[str, Any]) -> Plan:
-    """Writes the scenes of a tip on a sample, after all checks.
-
-    Parameters
-    ----------
-    file : str | None
-        Map of heights; None: a smooth sample.
-    place : Path
-        Directory to write to.
-    given : dict
-        Arguments of tip(): shape, angle, tip_map, radius, young, poisson, adhesion, stiffness, load, range, size, unit, channel, sites, error,
-        hardness.
-
-    Returns
-    -------
-    Plan
-        The planned runs.
-
-    Raises
-    ------
-    SceneError
-        An argument or the map is refused; nothing is written.
-    """
+    """Writes the scenes of a tip on a sample, after all checks. Raises SceneError."""
     size = None if given["size"] is None else edge_of(given["size"])
     shape, notes = _shape(given)
     keys = _checked(given, with_unit("radius", given["radius"]) if shape is None else f"{shape.radius:.10g} nm")
@@ -597,22 +576,7 @@ def fold(tip: np.ndarray, force: np.ndarray, stiffness: float, degree: int) -> f
     """Finds the place at which the tip jumps in, from an approach.
 
     The place z of the tip is a smooth function of the attraction F, which is exponential far away: z is a polynomial of ln F through
-    the last points. The drive, z + F/k, comes no further than to the fold, where dz/dF = -1/k.
-
-    Parameters
-    ----------
-    tip, force : numpy.ndarray
-        Places of the tip, nm, and forces, nN, negative, of the points before the jump.
-    stiffness : float
-        Stiffness k of the cantilever, N/m.
-    degree : int
-        Degree of the polynomial.
-
-    Returns
-    -------
-    float
-        Place of the tip at the fold, nm; NaN if there is none.
-    """
+    the last points. The drive, z + F/k, comes no further than to the fold, where dz/dF = -1/k."""
     if len(tip) <= degree or not (force[-degree - 1:] < 0).all():
         return NAN
     x = np.log(-force[-degree - 1:] / stiffness)
@@ -764,22 +728,7 @@ OF_YIELDING = {"largest_depth": ("h_max", "depth under the largest force", "nm")
 
 
 def tip_of(plan: Plan, results: dict[str, Result], place: Path) -> Tip:
-    """Returns the numbers of a tip from its runs.
-
-    Parameters
-    ----------
-    plan : Plan
-        The planned runs.
-    results : dict
-        Results by part; "" is the scene itself.
-    place : Path
-        Directory of the study.
-
-    Returns
-    -------
-    Tip
-        The numbers with their errors, the curve and the fit.
-    """
+    """Returns the numbers of a tip from its runs."""
     own = _measured(results[""], plan.contact)
     others = {part: _measured(result, plan.contact) for part, result in results.items() if part}
     used = bool(plan.not_stated)
