@@ -43,6 +43,16 @@ namespace asperity {
 /// Returns the counts over all tiles from the sums of this rank's tile. Collective.
 ContactCount count_contacts(const InterfaceSums& sums, const Communicator& ranks);
 
+/// Cuts a map of across x across sites to its first n x n sites, in place.
+template <class T>
+void crop_map(std::vector<T>& map, int across, int n) {
+    if (n == across) return;
+    const auto width = static_cast<std::ptrdiff_t>(across);
+    for (std::ptrdiff_t y = 1; y < n; ++y)
+        std::copy_n(map.begin() + y * width, n, map.begin() + y * n);
+    map.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
+}
+
 /// Maps over the tile's sites, [y * nx + x].
 struct InterfaceMaps {
     int nx = 0, ny = 0;
@@ -59,17 +69,17 @@ struct InterfaceMaps {
     std::vector<double> yielded_heights;
     /// Values of each map of the sites (InterfaceOptions::site_maps()), by its name.
     std::vector<std::pair<std::string, std::vector<double>>> of_sites;
-};
 
-/// Cuts a map of across x across sites to its first n x n sites, in place.
-template <class T>
-void crop_map(std::vector<T>& map, int across, int n) {
-    if (n == across) return;
-    const auto width = static_cast<std::ptrdiff_t>(across);
-    for (std::ptrdiff_t y = 1; y < n; ++y)
-        std::copy_n(map.begin() + y * width, n, map.begin() + y * n);
-    map.resize(static_cast<std::size_t>(n) * static_cast<std::size_t>(n));
-}
+    /// Cuts all maps to their first n x n sites.
+    void crop(int n) {
+        crop_map(contact, nx, n);
+        for (std::vector<double>* map : {&distance, &gap, &pressure, &set, &yielded_heights})
+            if (!map->empty()) crop_map(*map, nx, n);
+        for (auto& [name, map] : of_sites)
+            crop_map(map, nx, n);
+        nx = ny = n;
+    }
+};
 
 /// The interface of one tile of sites with the substrate.
 class Interface {

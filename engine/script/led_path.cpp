@@ -176,11 +176,7 @@ LedPath::Point LedPath::now() const {
 InterfaceMaps LedPath::maps() const {
     block_.workspace()->free_kept();
     InterfaceMaps maps = interface_.maps(block_.lowest_layer());
-    const int across = maps.nx, n = interface_.sites_across();
-    maps.nx = maps.ny = n;
-    crop_map(maps.contact, across, n);
-    for (std::vector<double>* map : {&maps.distance, &maps.gap, &maps.pressure})
-        crop_map(*map, across, n);
+    maps.crop(interface_.sites_across());
     return maps;
 }
 

@@ -384,6 +384,17 @@ def test_points_over_another_content_of_a_file_are_refused(place):
         asperity.sweep(scene, {**keys, "drive.load": [0, 20]}, out="other")
 
 
+@pytest.mark.parametrize("key", ["interface.adhesion", "interface.hardness", "surface.counter"])
+def test_points_over_another_content_of_any_file_are_refused(place, key):
+    np.savetxt("field.txt", 1.0 + np.random.default_rng(1).random((16, 16)))
+    keys = {"surface.sites": 16, "surface.rms": 0.5, "interface.kind": "wall", "interface.range": 3, "drive.mode": "quasistatic",
+            "drive.path": ["approach"], "drive.load": [1, 2], key: "field.txt"}
+    asperity.sweep({"name": "over a field"}, keys, out="field")
+    np.savetxt("field.txt", 1.5 + np.random.default_rng(1).random((16, 16)))
+    with pytest.raises(asperity.SceneError, match="holds the result of another content of field.txt"):
+        asperity.sweep({"name": "over a field"}, keys, out="field")
+
+
 def test_a_map_may_be_given_beside_the_scene(place):
     """A scene that is none without it; as run takes it."""
     (place / "mapped.toml").write_text('[surface]\nkind = "file"\nsites = 24\n[block]\nthickness = 12\n'

@@ -38,9 +38,6 @@ from .scene import inputs_of
 WAITING, DONE, FAILED = "waiting", "done", "failed"
 PHYSICS, STOPPED = 3, 75
 RESULT, LOG = "result.json", "log.txt"
-FILE_DIGESTS = {"surface.file_digest": "scene.surface.file", "surface.counter.file_digest": "scene.surface.counter",
-                "interface.table_digest": "scene.interface.table",
-                "interface.adhesion_digest": "scene.interface.adhesion"}
 _libc = ctypes.CDLL(None, use_errno=True)
 _PR_SET_PDEATHSIG = 1
 
@@ -96,6 +93,11 @@ def refuse_jobs(jobs: object) -> None:
                          "leave it out for one after the other")
 
 
+def digests_of_inputs() -> list[str]:
+    """Returns the digests in a result of the files that its scene names: "surface.file_digest", "surface.counter.file_digest", ..."""
+    return [name for name in program.quantities() if name.endswith("_digest") and not name.startswith("run.")]
+
+
 def look_at(job: Job) -> Outcome:
     """Returns the outcome of a job. A physics error counts as an outcome; a run with another error, or with an unreadable result,
     is repeated.
@@ -113,10 +115,12 @@ def look_at(job: Job) -> Outcome:
     if result.find("scene") != job.answer["scene"]:
         raise SceneError(str(job.directory), "holds the result of another scene",
                          "results that are there are used again, and this one does not belong here", remedy)
-    for key, file in FILE_DIGESTS.items():
+    for key in digests_of_inputs():
         digest, now = result.text(key), Values(job.answer).text(key)
         if digest != now:
-            raise SceneError(str(job.directory), f"holds the result of another content of {result.text(file)}",
+            key = "scene." + key.removesuffix("_digest")
+            file = result.text(key) or result.text(key.rpartition(".")[0])  # surface.counter.file is the file of surface.counter
+            raise SceneError(str(job.directory), f"holds the result of another content of {file}",
                              f"the file's digest is {now} now, and was {digest} then" if digest else
                              "it does not tell the file's digest, as results of earlier versions do not", remedy)
     outcome = Outcome(result=result)
