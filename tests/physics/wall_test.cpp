@@ -99,7 +99,7 @@ TEST(WallLaw, SmearedLayerIsTheLimitOfManyAtoms) {
     const double level = 0.0, fine = 0.1, fraction = fine * fine / (a * a);
     const SmearedWall law(pair, 1.0 / (a * a), false);
     for (double g : {2.5, 3.28, 4.0, 7.0, 12.0}) {
-        const PairSum sum = pair_sum({&level, 1, fine}, pair, 0.5 * fine, 0.5 * fine, g);
+        const PairSum sum = pair_sum({&level, 1, fine, 0, 1}, pair, 0.5 * fine, 0.5 * fine, g);
         EXPECT_NEAR(law.energy(g), fraction * sum.energy, 2e-4 * std::abs(law.energy(g))) << g;
         EXPECT_NEAR(law.force(g), fraction * sum.force[2], 2e-3 * std::abs(law.force(g)) + 1e-5)
             << g;

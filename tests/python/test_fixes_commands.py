@@ -255,6 +255,7 @@ COMMANDS = [
     ("asperity (theory-points) SCENE --points FILE", lambda: bad("theory", "t.toml", "--points", "p"), lambda word: (Path("p").write_text("[]\n"), good(word, "t.toml", "--points", "p"))),
     ("for example --target 1%, or --target 0.01", lambda: bad("cost", "t.toml", "--target", "200%"), None),
     ("name some of these, or leave", lambda: bad("cost", "t.toml", "--parameters", "colour"), None),
+    ("for example (256GB) or (62.5GiB)", lambda: bad("plan", "t.toml", "--memory-per-node", "256"), lambda *words: [good("plan", "t.toml", "--memory-per-node", word) for word in words]),
     ("name some of these", lambda: bad("estimate", "t.toml", "--parts", "colour"), lambda: good("estimate", "t.toml", "--parts", "convergence", "--seeds", "2", "--out", "o", "--plan")),
     ("--set (drive.path=relax)", lambda: bad("estimate", "t.toml", "--set", "drive.path=height 5", "drive.mode=quasistatic", "--plan"), lambda word: good("estimate", "t.toml", "--set", word, "--plan")),
     ("name the directory of a run that got past its start", lambda: (without("still/run.h5", "substrate"), bad("export", "still", "--to", "vtk"))[1], lambda: (good("run", "t.toml", "--out", "o"), good("export", "o", "--to", "vtk"))),
