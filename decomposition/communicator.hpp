@@ -71,10 +71,6 @@ public:
     /// r.
     void all_gather(std::span<const double> mine, std::span<const int> counts,
                     std::span<double> all) const;
-    /// Gathers every rank's values on the root, in rank order. counts[r]: number of values of rank
-    /// r.
-    void gather(std::span<const double> mine, std::span<const int> counts,
-                std::span<double> all) const;
     /// Exchanges all messages at once and returns when all have arrived. A message to oneself is a
     /// copy.
     void exchange(std::span<const Message> messages) const;
@@ -98,8 +94,6 @@ private:
     /// MPI communicators of all ranks, of the ranks of this machine, and of all_arrive().
     struct Mpi;
     explicit Communicator(std::shared_ptr<const Mpi> mpi);
-    void gather(std::span<const double> mine, std::span<const int> counts, std::span<double> all,
-                bool everywhere) const;
 
     std::shared_ptr<const Mpi> mpi_; ///< MPI communicators; nullptr: one rank without MPI
     int rank_ = 0, size_ = 1, local_rank_ = 0;

@@ -105,16 +105,6 @@ void Communicator::broadcast(std::span<std::byte> bytes) const {
 
 void Communicator::all_gather(std::span<const double> mine, std::span<const int> counts,
                               std::span<double> all) const {
-    gather(mine, counts, all, true);
-}
-
-void Communicator::gather(std::span<const double> mine, std::span<const int> counts,
-                          std::span<double> all) const {
-    gather(mine, counts, all, false);
-}
-
-void Communicator::gather(std::span<const double> mine, std::span<const int> counts,
-                          std::span<double> all, bool everywhere) const {
     if (!mpi_) {
         std::copy(mine.begin(), mine.end(), all.begin());
         return;
@@ -122,12 +112,8 @@ void Communicator::gather(std::span<const double> mine, std::span<const int> cou
     std::vector<int> offsets(counts.size(), 0);
     for (std::size_t r = 1; r < counts.size(); ++r)
         offsets[r] = offsets[r - 1] + counts[r - 1];
-    if (everywhere)
-        MPI_Allgatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
-                       offsets.data(), MPI_DOUBLE, mpi_->all);
-    else
-        MPI_Gatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
-                    offsets.data(), MPI_DOUBLE, 0, mpi_->all);
+    MPI_Allgatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
+                   offsets.data(), MPI_DOUBLE, mpi_->all);
 }
 
 void Communicator::exchange(std::span<const Message> messages) const {

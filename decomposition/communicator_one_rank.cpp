@@ -44,11 +44,6 @@ void Communicator::all_gather(std::span<const double> mine, std::span<const int>
     std::copy(mine.begin(), mine.end(), all.begin());
 }
 
-void Communicator::gather(std::span<const double> mine, std::span<const int>,
-                          std::span<double> all) const {
-    std::copy(mine.begin(), mine.end(), all.begin());
-}
-
 void Communicator::exchange(std::span<const Message> messages) const {
     for (const Message& m : messages)
         std::copy(m.send.begin(), m.send.end(), m.receive.begin());

@@ -27,6 +27,8 @@ MARK = "<!-- What follows is written by docs/reference.py. -->\n"
 def commands() -> str:
     """The help of every command of the program."""
     program = os.environ["ASPERITY_PROGRAM"]
+    if not Path(program).is_file():
+        raise SystemExit(f"{program}: there is no such program; build it (./asperity), or name one with ASPERITY_PROGRAM")
     general = say(program, "--help")
     pages = [("asperity", general), *((name, say(program, name, "--help")) for name, _ in commands_of(general))]
     return "".join(f"\n## {title}\n\n```text\n{text.strip()}\n```\n" for title, text in pages)

@@ -3,6 +3,7 @@
 //
 // The surface of a case: made from its spectrum, or from the map or the atoms of its file.
 #include "engine/case/case.hpp"
+#include "engine/case/memory.hpp"
 #include "engine/case/site_field.hpp"
 #include "engine/case/spacing_limits.hpp"
 #include "engine/surface/pair.hpp"
@@ -12,7 +13,6 @@
 #include "io/files.hpp"
 #include "io/height_map.hpp"
 #include "io/json.hpp"
-#include "io/machine.hpp"
 #include "io/scene_file.hpp"
 
 #include <fmt/format.h>
@@ -108,21 +108,17 @@ Surface atoms_of_file(const Case& c, const SurfaceOptions& options, const Commun
     return surface;
 }
 
-/// Checks the memory of a rank before anything is allocated: for its band of the heights, and of
-/// the waves that make_surface() and measure() need. Throws io::SceneError.
+/// Checks the memory of the ranks before anything is allocated: for their bands of the heights, and
+/// of the waves that make_surface() and measure() need. Throws io::SceneError. Collective.
 void require_memory_for_heights(const Case& c, const Communicator& world) {
     const double n = c.substrate();
-    const double needed =
-        n * n * (8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 48.0)) / world.size();
-    const io::AvailableMemory there = io::available_memory();
-    if (needed <= there.bytes) return;
+    const double for_site = 8.0 + (c.surface.kind == SurfaceKind::flat ? 16.0 : 48.0);
+    const auto lacks = memory_shortage(world, for_site * n * n / world.size());
+    if (!lacks) return;
     io::Problems problems = c.scene.problems();
-    problems.add(
-        "surface.sites",
-        fmt::format("= {}: its surface does not fit into memory", c.scene.surface.sites),
-        fmt::format("{:.3g} GB are needed on this machine, and {:.3g} GB are available ({})",
-                    needed / 1e9, there.bytes / 1e9, there.because),
-        "take fewer sites, or more ranks");
+    problems.add("surface.sites",
+                 fmt::format("= {}: its surface does not fit into memory", c.scene.surface.sites),
+                 lacks->text(), "take fewer sites, or more machines");
     problems.throw_if_any();
 }
 
@@ -143,6 +139,15 @@ Surface with_key(const Case& c, const char* key, const Make& make) {
     }
 }
 
+/// Checks the memory of the ranks for what is made of a map of a file. bytes: those of this rank.
+/// Throws io::SceneError. Collective.
+void require_memory_for(const FieldFile& field, const char* what, double bytes,
+                        const Communicator& world) {
+    if (const auto lacks = memory_shortage(world, bytes))
+        throw io::SceneError({field.name, fmt::format("{} is larger than the memory", what),
+                              lacks->text(), "cut a piece out of it before"});
+}
+
 /// Returns the surface of a map in the box. whole: true returns that of the whole map, with the
 /// spacing of the box.
 Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions options, bool whole,
@@ -161,8 +166,8 @@ Surface surface_of_map(const Case& c, const FieldFile& field, SurfaceOptions opt
             c.surface.counter ? "sites" : "atoms of the substrate", points));
     // The resampled map and its waves, before the box is cut out of it.
     if (points != covered)
-        io::require_memory(field.name, "the resampled map",
-                           32.0 * covered * static_cast<double>(covered) / world.size());
+        require_memory_for(field, "the resampled map",
+                           32.0 * covered * static_cast<double>(covered) / world.size(), world);
     const double edge = options.map_edge > 0.0 ? options.map_edge : options.length;
     if (options.map_edge <= 0.0)
         map.notes.push_back(fmt::format("the file does not say how wide the map is: taken as wide "
@@ -210,8 +215,9 @@ Surface counter_of(const Case& c, const Communicator& world) {
             "map on purpose with surface.counter_size = {:.6g}",
             whole.length, box.length, box.length));
     if (!place.is_quarter())
-        io::require_memory(field.name, "the turned map",
-                           400.0 * whole.sites * static_cast<double>(whole.sites));
+        require_memory_for(
+            field, "the turned map",
+            world.root() ? 400.0 * whole.sites * static_cast<double>(whole.sites) : 0.0, world);
     return counter_in_box(box, whole, place);
 }
 

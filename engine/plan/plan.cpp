@@ -3,6 +3,7 @@
 #include "engine/plan/plan.hpp"
 
 #include "decomposition/plane_bands.hpp"
+#include "engine/case/memory.hpp"
 #include "engine/device/device_block.hpp"
 #include "engine/path/expected_path.hpp"
 #include "engine/run/stress_record.hpp"
@@ -352,9 +353,9 @@ nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan, d
     bytes["state"] = plan.state_bytes;
     bytes["stress"] = plan.stress_bytes;
     bytes["frame"] = plan.frame_bytes;
-    io::Json whole = io::Json::object();
+    io::Json whole = io::Json::array();
     for (const auto& [what, size] : plan.whole)
-        whole[what] = size;
+        whole.push_back({{"what", what}, {"bytes", size}});
     const Tile tile = c.grid(0).tile(0);
     seconds["surface"] = plan.making;
     seconds["steps"] = plan.moving;
@@ -385,22 +386,14 @@ void require_memory(const Case& c, const Communicator& ranks) {
     const double fields = 4096.0 * sites + 512.0 * nodes_of(c.levels);
     if (!c.surface.reads_file() && ranks.max(fields / io::available_memory().bytes) < 0.5) return;
     const double mine = make_plan(c, 0).bytes_of_rank[static_cast<std::size_t>(ranks.rank())];
-    const double needed = ranks.sum_on_machine(mine);
-    const io::AvailableMemory machine = io::memory_of_machine(), own = io::memory_of_process();
-    // All ranks refuse alike, with the numbers of the machine or the rank that is worst off.
-    const double of_machine = ranks.max(needed / machine.bytes),
-                 of_rank = ranks.max(mine / own.bytes), worst = std::max(of_machine, of_rank);
-    if (worst <= 1.0) return;
-    const io::AvailableMemory& there = of_rank > of_machine ? own : machine;
+    const std::optional<MemoryShortage> lacks = memory_shortage(ranks, mine);
+    if (!lacks) return;
     const bool coarser = c.effects.dynamic && !c.simulation.block.multiscale;
     io::Problems problems = c.scene.problems();
     problems.add(
         "surface.sites",
         fmt::format("= {}: the run does not fit into memory", c.simulation.block.sites),
-        fmt::format("{:.3g} GB are needed {}, and {:.3g} GB are available ({})",
-                    worst * there.bytes / 1e9,
-                    of_rank > of_machine ? "by a process" : "on this machine", there.bytes / 1e9,
-                    there.because),
+        lacks->text(),
         fmt::format("take fewer sites{}, more machines (`asperity plan --ranks N` counts), or "
                     "close what else runs here",
                     coarser ? ", block.model = \"multiscale\"" : ""));

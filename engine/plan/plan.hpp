@@ -50,12 +50,12 @@ void print_plan(std::FILE* to, const Case& c, int threads, const Plan& plan, dou
 nlohmann::ordered_json effects_json(const Effects& effects);
 /// Returns the plan as JSON: {"name", "effects": {name: {"on", "because"}}, "ranks", "threads",
 /// "sites_of_rank", "steps", "bytes": {"surface", "interface", "block", "kept", "rest", "maps",
-/// "altogether", "rank", "available", "state", "stress", "frame"}, "whole", "seconds": {"surface",
-/// "steps", "rest", "altogether", "factor"}, "ended"}, named as the members of Plan and parts of
-/// Piece. bytes.altogether: peak memory; seconds.altogether: time of the whole run; bytes.rank:
-/// peak memory of a rank; bytes.state, bytes.stress, bytes.frame: size in run.h5 before
-/// compression. node: memory of a node, bytes; if it is above 0, "ranks_of_node" is the number of
-/// ranks that fit into it.
+/// "altogether", "rank", "available", "state", "stress", "frame"}, "whole": [{"what", "bytes"}],
+/// "seconds": {"surface", "steps", "rest", "altogether", "factor"}, "ended"}, named as the members
+/// of Plan and parts of Piece. bytes.altogether: peak memory; seconds.altogether: time of the whole
+/// run; bytes.rank: peak memory of a rank; bytes.state, bytes.stress, bytes.frame: size in run.h5
+/// before compression. node: memory of a node, bytes; if it is above 0, "ranks_of_node" is the
+/// number of ranks that fit into it.
 nlohmann::ordered_json plan_json(const Case& c, int threads, const Plan& plan, double node = 0.0);
 
 /// Throws io::SceneError if a run of this case is refused (Case::require_runnable()) or does not

@@ -219,13 +219,14 @@ double Response::mean_height_of_box() const {
     if (options_.grid() == options_.sites) return mean_height();
     const PlaneView<const double> z = layer_.z.plane(0);
     const int n = options_.sites;
+    const double mean = mean_height(); // keeps the terms of the sum small in any box
     ExactSum sum;
     for (int y = 0; y < z.ny && slab_.first + y < n; ++y) {
         for (int x = 0; x < n; ++x)
-            sum.add(z(x, y));
+            sum.add(z(x, y) - mean);
         sum.carry();
     }
-    return global_sum(slab_.ranks, sum) / (static_cast<double>(n) * n);
+    return mean + global_sum(slab_.ranks, sum) / (static_cast<double>(n) * n);
 }
 
 double Response::top_force() const {

@@ -51,7 +51,7 @@ def of_rings(contact: Contact, load: float) -> dict[str, float]:
     """The numbers by rings; load: nN."""
     R, E, w, rho = contact.radius, contact.modulus, contact.work, contact.range
     largest = contact.radius_at(load)
-    finest = max(min(E * rho**2 / w / 8, largest / 80), largest / 400)
+    finest = max(min(E * rho**2 / w / 8, largest / 160), largest / 800)
     edges = list(np.arange(0, 1.12 * largest + 4 * finest, finest))
     wide, end = finest, min(0.98 * R, max(1.3 * largest + 2 * rho, math.sqrt(40 * R * rho) + largest))
     while edges[-1] < end:
@@ -62,7 +62,7 @@ def of_rings(contact: Contact, load: float) -> dict[str, float]:
     shape = body.r**2 / (R + np.sqrt(R**2 - body.r**2))
     stiffness = max(50 * math.pi * E / largest * 20, 50 * w / rho**2)
     pressure = 3 * (load + 2 * contact.unit) / (math.pi * largest**2) + w / rho
-    middle = np.concatenate([np.geomspace(9 * rho, 0.02 * rho, 300), np.linspace(0.018 * rho, 0, 8), -np.linspace(0, pressure / stiffness, 240)[1:]])
+    middle = np.concatenate([np.geomspace(9 * rho, 0.02 * rho, 600), np.linspace(0.018 * rho, 0, 8), -np.linspace(0, pressure / stiffness, 480)[1:]])
     height, force, radius = rings.whole(body, shape, rings.Exponential(w, rho, stiffness), middle)
     drive = height - force / contact.stiffness
     found = dict.fromkeys(COLUMNS, math.nan)

@@ -24,6 +24,7 @@ EXCUSED = {
     "make the file anew by `asperity prony`": "followed in test_fixes_rubber.py",
     "the attraction did not reach the pull": "followed in test_fixes_commands.py",
     "its surface does not fit into memory": "a machine's memory",
+    "is larger than the memory": "a machine's memory",
     "has what is no number": "the reader of tables refuses it before",
     "the substrate has no atoms": "the reader of atoms refuses it before",
     "the scene's keys lead there": "the checks of the keys come before",
