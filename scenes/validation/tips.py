@@ -24,7 +24,7 @@ from asperity.studies.tip import Contact  # noqa: E402
 
 TIPS = {
     "stiff": {"radius": "30 nm", "young": "100 GPa", "poisson": 0.3, "adhesion": "100 mJ/m2", "stiffness": "40 N/m"},
-    "diamond": {"radius": "8 nm", "young": "300 GPa", "poisson": 0.2, "adhesion": "200 mJ/m2", "stiffness": "100 N/m"},
+    "diamond": {"radius": "8 nm", "young": "300 GPa", "poisson": 0.2, "adhesion": "200 mJ/m2", "stiffness": "100 N/m", "sites": 80},
     "colloid": {"radius": "1 um", "young": "70 GPa", "poisson": 0.2, "adhesion": "40 mJ/m2", "stiffness": "10 N/m"},
     "silica": {"radius": "50 nm", "young": "70 GPa", "poisson": 0.17, "adhesion": "80 mJ/m2", "stiffness": "20 N/m"},
     "long-ranged": {"radius": "50 nm", "young": "20 GPa", "poisson": 0.3, "adhesion": "60 mJ/m2", "stiffness": "5 N/m", "range": "1 nm"},
@@ -65,7 +65,7 @@ def of_rings(contact: Contact, load: float) -> dict[str, float]:
     middle = np.concatenate([np.geomspace(9 * rho, 0.02 * rho, 600), np.linspace(0.018 * rho, 0, 8), -np.linspace(0, pressure / stiffness, 480)[1:]])
     height, force, radius = rings.whole(body, shape, rings.Exponential(w, rho, stiffness), middle)
     drive = height - force / contact.stiffness
-    found = dict.fromkeys(COLUMNS, math.nan)
+    found = dict.fromkeys(COLUMNS, math.nan) | {"lost": 0.0}
     folds = np.flatnonzero(np.diff(drive) > 0)
     out = slice(None, None, -1)
     stays = np.flatnonzero((np.diff(drive[out]) < 0) & (np.arange(len(drive) - 1) > 0))
@@ -87,7 +87,7 @@ def of_rings(contact: Contact, load: float) -> dict[str, float]:
 
 def compared(name: str, out: pathlib.Path, **options: object) -> dict[str, object]:
     """The row of a tip."""
-    found = asperity.tip(**TIPS[name], out=out / name, **options)
+    found = asperity.tip(**{**TIPS[name], **{key: value for key, value in options.items() if value is not None}}, out=out / name)
     truth = of_rings(found.contact, float(found.result.find("scene.drive.load")) * 1e-3 * (0.1 * found.result.edge) ** 2)
     row: dict[str, object] = {"tip": name, "Maugis": found.contact.parameter}
     for path in COLUMNS:
@@ -106,7 +106,7 @@ def main() -> None:
     rows = [compared(name, args.out, sites=args.sites, jobs=args.jobs) for name in args.tips or TIPS]
     print(",".join(rows[0]))
     for row in rows:
-        print(",".join(f"{v:.5g}" if isinstance(v, float) else str(v) for v in row.values()))
+        print(",".join(("no jump" if math.isnan(v) else f"{v:.5g}") if isinstance(v, float) else str(v) for v in row.values()))
 
 
 if __name__ == "__main__":
