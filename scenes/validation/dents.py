@@ -67,7 +67,7 @@ def of_rings(om: float, length: float) -> float:
     if om > PULLED:
         force = rings.pulled(body, shape, law, -1.1 * float(top[0]), 0.1 * reach, 3.0)[1]
     else:
-        pressed = -np.linspace(0, 2 / math.pi * math.asin(min(1.0, 1.5 * held)), 240)[1:] / law.stiffness
+        pressed = -np.linspace(0, 2 / math.pi * math.asin(min(1.0, 2.2 * held)), 240)[1:] / law.stiffness
         force = rings.whole(body, shape, law, np.concatenate([np.geomspace(9 * reach, 0.02 * reach, 300), pressed]))[1]
     return float(-force.min() / math.pi) if force.argmin() < len(force) - 1 else math.nan  # nan: no solution was found so far out
 
