@@ -8,8 +8,9 @@
 Unloaded, a half-space that bore the hardness H on a circle of radius A is a body whose height falls from its middle as the displacement
 of this pressure does, whatever the sphere was. Its pull-off depends on om = w E*/(H² A) and on l/A, l = E* range²/w. Rings (rings.py)
 find it for any range; the closed form (Mesarovic and Johnson 2000) is that of no range. The program presses the sphere and pulls it
-off, with a contact of a third of the box, at a range of l = 1.5 spacings or w/H. --rings leaves the program's runs out.
-Prints pull-offs over the largest load; nan where rings find no solution as far out as the contact comes off. Runs take 6 to 80 s of a
+off, with a contact whose radius is a third of the box, at a range of l = 1.5 spacings or w/H. --rings leaves the program's runs out.
+Prints pull-offs over the largest load; nan where rings find no solution as far out as
+the contact comes off, which is so for om = 0.001 and, at the shorter range, 0.03. Runs take 6 to 80 s of a
 core at 64 sites, rings up to some minutes for each om.
 """
 import argparse
@@ -34,8 +35,6 @@ RATIO, HARDNESS, SPACING = 0.02, 2.0, 10.0
 """Hardness over E*; hardness, GPa; spacing, Å."""
 ROUND = 12.83
 """A E*/(R H) at a hundred times the load of the first yield."""
-
-
 PULLED = 0.02
 """Parameter above which the middle of the contact is in tension before it comes off; rings are then pulled from contact outwards."""
 
@@ -51,7 +50,7 @@ def of_rings(om: float, length: float) -> float:
     """Returns the pull-off over the largest load by rings. length: l/A. Units: A, H, and heights of HA/E*."""
     reach = math.sqrt(om * length)
     held = closed(om)[1]
-    finest = max(min(length / 10, held / 60), held / 500)
+    finest = min(max(length / 10, held / 500), held / 60)
     edges = list(np.arange(0, min(1.1, 1.6 * held + 4 * length), finest))
     wide = finest
     while edges[-1] < 1.6:
@@ -86,8 +85,7 @@ def run(om: float, sites: int, out: str) -> tuple[float, float, float]:
         "interface.edge_pinning": "allow", "drive.mode": "quasistatic", "drive.path": ["approach", f"load {1000 * load:.10g} MPa", "pull-off"],
         "drive.displacement_step": 0.5 * reach, "output.fields": [], "output.checkpoint": "none"},
         out=out, progress=False)
-    series = found.series
-    force = np.asarray(series["force"])
+    force = np.asarray(found.series["force"])
     return float(-force[int(np.argmax(force)):].min() / force.max()), modulus * reach**2 / work / contact, found["run"]["processor_seconds"]
 
 
