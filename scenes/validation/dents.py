@@ -64,12 +64,15 @@ def of_rings(om: float, length: float) -> float:
     shape = np.where(body.r < 1, top - rings.disc(one, inside), top - at_edge + ROUND / 2 * (body.r**2 - 1))
     shape[0] = 0.0
     law = rings.Exponential(om, reach, max(400 * om / reach**2, 400 * math.pi / max(held, 0.1)))
-    if om > PULLED:
-        force = rings.pulled(body, shape, law, -1.1 * float(top[0]), 0.1 * reach, 3.0)[1]
-    else:
-        pressed = -np.linspace(0, 2 / math.pi * math.asin(min(1.0, 1.5 * held)), 240)[1:] / law.stiffness
-        force = rings.whole(body, shape, law, np.concatenate([np.geomspace(9 * reach, 0.02 * reach, 300), pressed]))[1]
-    return float(-force.min() / math.pi) if force.argmin() < len(force) - 1 else math.nan  # nan: no solution was found so far out
+    try:
+        if om > PULLED:
+            force = rings.pulled(body, shape, law, -1.1 * float(top[0]), 0.1 * reach, 3.0)[1]
+        else:
+            pressed = -np.linspace(0, 1.0, 240)[1:] / law.stiffness
+            force = rings.whole(body, shape, law, np.concatenate([np.geomspace(9 * reach, 0.02 * reach, 300), pressed]))[1]
+    except ArithmeticError:  # no solution at a place on the way
+        return math.nan
+    return float(-force.min() / math.pi) if force.argmin() < len(force) - 1 else math.nan  # nan: the way ends before the contact comes off
 
 
 def run(om: float, sites: int, out: str) -> tuple[float, float, float]:
