@@ -10,7 +10,7 @@ of this pressure does, whatever the sphere was. Its pull-off depends on om = w E
 find it for any range; the closed form (Mesarovic and Johnson 2000) is that of no range. The program presses the sphere and pulls it
 off, with a contact whose radius is a third of the box, at a range of l = 1.5 spacings or w/H. --rings leaves the program's runs out.
 Prints pull-offs over the largest load; nan where rings find no solution as far out as
-the contact comes off, which is so for om = 0.001 and, at the shorter range, 0.03. Runs take 6 to 80 s of a
+the contact comes off, which is so at the shorter range for om = 0.001 and 0.03. Runs take 6 to 80 s of a
 core at 64 sites, rings up to some minutes for each om.
 """
 import argparse
