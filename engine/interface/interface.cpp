@@ -270,11 +270,17 @@ double Interface::attraction_grows_down_to() const {
     return wall() ? map_.highest() + contact_gap() : start_height();
 }
 
+std::function<bool(int, int)>
+Interface::contact_test(const VectorPlane<const double>& displacement) const {
+    return [this, u = displacement.z, limit = contact_gap() - reference_height_](int x, int y) {
+        return u(x, y) - wall()->below(x, y) < limit;
+    };
+}
+
 std::int64_t Interface::contact_edges(const VectorPlane<const double>& displacement,
                                       const Communicator& ranks) const {
     const PlaneView<const double> u = displacement.z;
-    const double limit = contact_gap() - reference_height_;
-    const auto in_contact = [&](int x, int y) { return u(x, y) - wall()->below(x, y) < limit; };
+    const auto in_contact = contact_test(displacement);
     // The first row of the next rank is above the last one of this rank.
     const int size = ranks.size(), rank = ranks.rank();
     std::vector<double> first(static_cast<std::size_t>(u.nx)), above(first.size());

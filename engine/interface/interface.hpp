@@ -117,6 +117,9 @@ public:
     /// Returns the permanent set of the wall, Å, for writing. Requires yielding_wall().
     Field<double>& set() { return std::get<OverWall>(substrate_).set(); }
 
+    /// Returns a test of whether the site (x, y) of this tile is in contact with the wall at these
+    /// displacements, Å, which it refers to. Requires a wall.
+    std::function<bool(int, int)> contact_test(const VectorPlane<const double>& displacement) const;
     /// Returns the number of pairs of neighbouring sites of which one is in contact with the wall:
     /// the perimeter of the contact over the spacing. displacement: Å. Requires a wall, and whole
     /// rows of sites on each rank. Collective.

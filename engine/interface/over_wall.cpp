@@ -95,6 +95,10 @@ double OverWall::stiffness_at(int x, int y, double gap) const {
     return with_law(x, y, [&](const auto& law) { return law.stiffness_at(gap); });
 }
 
+bool OverWall::attracts() const {
+    return std::visit([](const auto& law) { return law.softest() < 0.0; }, law_);
+}
+
 double OverWall::yield_force(int x, int y) const {
     return with_law(x, y, [&](const auto& law) { return law.force(yield_gap_.plane(0)(x, y)); });
 }

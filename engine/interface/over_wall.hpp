@@ -77,6 +77,8 @@ public:
     }
     /// Returns the stiffness -dF/dg of the law of a site of the tile at this gap, Å, in eV/Å^2.
     double stiffness_at(int x, int y, double gap) const;
+    /// Returns true if the wall attracts sites.
+    bool attracts() const;
 
     /// Returns the height of the wall below a site, Å, with its set; NaN over a hole.
     double below(int x, int y) const {

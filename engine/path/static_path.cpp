@@ -81,13 +81,12 @@ void StaticPath::record_slide() {
 
 void StaticPath::look_at_edges() {
     if (interface_.sites_across() == interface_.tile().sites) return; // the substrate has no edges
-    const InterfaceMaps maps = interface_.maps(layer());
+    const auto in_contact = interface_.contact_test(layer());
     const int n = interface_.sites_across(), first = interface_.tile().y0;
     int nearest = n;
-    for (int y = 0; y < maps.ny && first + y < n; ++y)
+    for (int y = 0; y < interface_.tile().ny && first + y < n; ++y)
         for (int x = 0; x < n; ++x)
-            if (maps.contact[static_cast<std::size_t>(y) * static_cast<std::size_t>(maps.nx) +
-                             static_cast<std::size_t>(x)])
+            if (in_contact(x, y))
                 nearest = std::min({nearest, x, n - 1 - x, first + y, n - 1 - first - y});
     const double all = -communicator().max(-static_cast<double>(nearest));
     if (!(all < n)) return;

@@ -6,7 +6,7 @@
 #include "engine/statics/heavy_ball.hpp"
 #include "engine/statics/newton.hpp"
 #include "engine/statics/wall_minimiser.hpp"
-#include "engine/statics/wall_tangent.hpp"
+#include "engine/statics/wall_newton.hpp"
 
 #include <fmt/format.h>
 
@@ -26,17 +26,19 @@ using Constants = RelaxationConstants;
 /// Test for a relaxation that has stagnated.
 class StagnationTest {
 public:
+    explicit StagnationTest(long long period) : period_(period) {}
     bool operator()(long long iteration, double residual) {
         if (residual < 0.5 * smallest_) {
             smallest_ = residual;
             found_at_ = iteration;
         }
-        return iteration > found_at_ + Constants::stagnation_period;
+        return iteration >= found_at_ + period_;
     }
 
 private:
     double smallest_ = std::numeric_limits<double>::infinity();
     long long found_at_ = 0;
+    long long period_;
 };
 
 /// Returns the length of the longest vector of a field. Collective.
@@ -212,13 +214,12 @@ bool balanced(Response& block, double force, const RelaxOptions& options, double
     return std::abs(force - load) <= std::max(load_accuracy * of, least);
 }
 
-/// Runs the loop of both minimisers.
-template <class Minimiser>
+/// Runs the loop of a method until it stagnates: stagnates(iteration, residual).
+template <class Minimiser, class Stagnates>
 RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& options,
-                    double rounding) {
+                    double rounding, Stagnates stagnates) {
     RelaxedState state;
     state.rounding = rounding;
-    StagnationTest stagnates;
     // The first moves take the force out of its window too, but not for long.
     const ForceWindow& window = options.force_window;
     bool outside = false;
@@ -260,6 +261,30 @@ RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& o
     return state;
 }
 
+/// Relaxes a block over a wall. Collective.
+RelaxedState relax_over_wall(SpectralBlock& block, const Interface& interface,
+                             const Constraint& constraint, RelaxOptions options, Phases& phases,
+                             double rounding) {
+    options.force_window = {}; // the steps over a wall do not add up the force
+    long long products = 0;
+    if (options.start == Start::near) {
+        WallNewton newton(block, interface, constraint, options, phases);
+        StagnationTest stagnates(Constants::wall_stagnation_period);
+        RelaxedState state =
+            follow(newton, block, options, rounding, [&](long long iteration, double residual) {
+                return newton.unstable() || stagnates(iteration, residual);
+            });
+        products = state.iterations = newton.products();
+        if (state.converged || state.interrupted) return state;
+        newton.put_back();
+    }
+    WallMinimiser minimiser(block, interface, options, phases);
+    RelaxedState state =
+        follow(minimiser, block, options, rounding, StagnationTest(Constants::stagnation_period));
+    state.iterations += products;
+    return state;
+}
+
 } // namespace
 
 double rounding_of_forces(const Scales& scales, const BlockOptions& block, double height) {
@@ -286,25 +311,15 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, const Const
                    const RelaxOptions& options, Phases& phases) {
     if (!(options.scales.length > 0.0 && options.scales.stiffness > 0.0))
         throw std::invalid_argument("relax: a relaxation needs the scales of its interface");
-    long long products = 0;
-    if (interface.options().wall && options.start == Start::near)
-        products = follow_tangent(block, interface, constraint,
-                                  Constants::move_max * options.scales.length);
-    else
-        block.hold(constraint);
+    const bool wall = interface.options().wall.has_value(), near = options.start == Start::near;
+    if (!(wall && near)) block.hold(constraint);
     const double height = std::abs(interface.reference_height()) + std::abs(block.mean_height()) +
                           interface.start_height();
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
-    if (interface.options().wall) {
-        RelaxOptions whole = options;
-        whole.force_window = {}; // the steps over a wall do not add up the force
-        WallMinimiser minimiser(block, interface, whole, phases);
-        RelaxedState state = follow(minimiser, block, whole, rounding);
-        state.iterations += products;
-        return state;
-    }
+    if (wall) return relax_over_wall(block, interface, constraint, options, phases, rounding);
     Minimiser minimiser(block, interface, options, phases);
-    return follow(minimiser, block, options, rounding);
+    return follow(minimiser, block, options, rounding,
+                  StagnationTest(Constants::stagnation_period));
 }
 
 } // namespace asperity

@@ -24,7 +24,9 @@
 // Over a lattice, sweeps are in mixed precision (SweepOptions) until the forces are near the error
 // of mixed precision; the last sweeps, and the reported state, are in double precision.
 //
-// Over a wall another method solves each site's own law exactly (wall_minimiser.hpp).
+// Over a wall another method solves each site's own law exactly (wall_minimiser.hpp). Near an
+// equilibrium Newton's method (wall_newton.hpp) comes first; if it does not converge, as where the
+// equilibrium has just become unstable, the other method continues.
 //
 // The relaxation ends in the minimum downhill of its start: no site moves further than move_max in
 // an iteration, and a site that has passed its target stops. A state is reported as not converged
@@ -117,6 +119,12 @@ struct RelaxationConstants {
     static constexpr double mixed_precision_above = 2.6e-6;
     /// Displacement over which the interface's stiffness is measured.
     static constexpr double stiffness_displacement = 6e-4;
+
+    // Newton's method over a wall (wall_newton.hpp).
+    /// Share of the residual, measured by the preconditioner, that conjugate gradients leave.
+    static constexpr double wall_forcing = 1e-2;
+    /// Newton's method gives up if the residual has not halved in this many steps.
+    static constexpr long long wall_stagnation_period = 3;
 
     // The minimiser over a wall (wall_minimiser.hpp).
     /// Largest residual mean force, divided by the tolerance. The secant converges faster than

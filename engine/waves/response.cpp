@@ -149,6 +149,10 @@ void Response::stiffen(SiteField<T>& displacement) const {
 }
 template void Response::stiffen(SiteField<float>&) const;
 
+void Response::respond(const Preconditioner& preconditioner, SiteField<float>& forces) const {
+    change_waves(forces, [&](int b, float* waves) { preconditioner.apply(b, waves, 0.0, waves); });
+}
+
 template <class T>
 void Response::shape_forces(SiteField<T>& displacement) const {
     const double sites = slab_.sites;

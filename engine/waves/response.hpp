@@ -123,6 +123,8 @@ public:
     /// Replaces a displacement, Å, by N^2 S u, eV/Å. Collective.
     template <class T>
     void stiffen(SiteField<T>& displacement) const;
+    /// Replaces forces on the sites, eV/Å, by N^2 (S + k)^-1 of them, Å. Collective.
+    void respond(const Preconditioner& preconditioner, SiteField<float>& forces) const;
     /// Replaces a displacement, Å, by N^2 times the elastic forces that resist it, eV/Å, including
     /// the known forces of branches, without the uniform normal wave. Collective.
     template <class T>

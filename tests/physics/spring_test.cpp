@@ -98,7 +98,7 @@ TEST(Spring, LosesMoreTheSofterItIs) {
     double last = 0.0;
     for (const double share : {1e9, 0.1}) {
         Flat held(share * Flat().spring());
-        test::KeptPath path = held.path(1e-5, 1.0);
+        test::KeptPath path = held.path(2e-6, 1.0);
         path.start();
         const auto in = test::follow(path, Segment::approach);
         const auto out = test::follow(path, Segment::pull_off);
