@@ -25,6 +25,20 @@ double Solid::stiffest_modulus() const {
     return modulus;
 }
 
+int BlockOptions::grid() const {
+    if (!free_edges) return sites;
+    const auto is_fast = [](int n) {
+        for (const int factor : {2, 3, 5, 7})
+            while (n % factor == 0)
+                n /= factor;
+        return n == 1;
+    };
+    int grid = 2 * sites;
+    while (!is_fast(grid))
+        grid += 2;
+    return grid;
+}
+
 double BlockOptions::contact_modulus() const {
     return in_series(Solid::contact_modulus(),
                      counter ? std::optional(counter->contact_modulus()) : std::nullopt);

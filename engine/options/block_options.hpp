@@ -90,8 +90,9 @@ struct BlockOptions : Solid {
 
     /// Returns the edge of the box, Å.
     double edge() const { return sites * spacing; }
-    /// Returns the number of sites along an edge of the grid of waves: N, with free edges 2N.
-    int grid() const { return free_edges ? 2 * sites : sites; }
+    /// Returns the number of sites along an edge of the grid of waves: N, with free edges the least
+    /// even number from 2N on without a prime factor above 7, which transforms fast.
+    int grid() const;
     /// Returns all materials of the solids, that of the block's surface first.
     std::vector<Material> materials() const;
     /// Returns the smallest modulus of uniaxial strain of all materials, lambda + 2 mu, eV/Å^3.

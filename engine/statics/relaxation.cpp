@@ -26,19 +26,17 @@ using Constants = RelaxationConstants;
 /// Test for a relaxation that has stagnated.
 class StagnationTest {
 public:
-    explicit StagnationTest(long long period) : period_(period) {}
     bool operator()(long long iteration, double residual) {
         if (residual < 0.5 * smallest_) {
             smallest_ = residual;
             found_at_ = iteration;
         }
-        return iteration >= found_at_ + period_;
+        return iteration > found_at_ + Constants::stagnation_period;
     }
 
 private:
     double smallest_ = std::numeric_limits<double>::infinity();
     long long found_at_ = 0;
-    long long period_;
 };
 
 /// Returns the length of the longest vector of a field. Collective.
@@ -269,18 +267,14 @@ RelaxedState relax_over_wall(SpectralBlock& block, const Interface& interface,
     long long products = 0;
     if (options.start == Start::near) {
         WallNewton newton(block, interface, constraint, options, phases);
-        StagnationTest stagnates(Constants::wall_stagnation_period);
-        RelaxedState state =
-            follow(newton, block, options, rounding, [&](long long iteration, double residual) {
-                return newton.unstable() || stagnates(iteration, residual);
-            });
+        RelaxedState state = follow(newton, block, options, rounding,
+                                    [&](long long, double) { return newton.gives_up(); });
         products = state.iterations = newton.products();
         if (state.converged || state.interrupted) return state;
         newton.put_back();
     }
     WallMinimiser minimiser(block, interface, options, phases);
-    RelaxedState state =
-        follow(minimiser, block, options, rounding, StagnationTest(Constants::stagnation_period));
+    RelaxedState state = follow(minimiser, block, options, rounding, StagnationTest());
     state.iterations += products;
     return state;
 }
@@ -318,8 +312,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, const Const
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
     if (wall) return relax_over_wall(block, interface, constraint, options, phases, rounding);
     Minimiser minimiser(block, interface, options, phases);
-    return follow(minimiser, block, options, rounding,
-                  StagnationTest(Constants::stagnation_period));
+    return follow(minimiser, block, options, rounding, StagnationTest());
 }
 
 } // namespace asperity

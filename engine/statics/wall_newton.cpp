@@ -55,6 +55,7 @@ double WallNewton::conclude() {
 }
 
 void WallNewton::step() {
+    bool cut = false;
     {
         const auto t = phases_.time(Phase::interface);
         linearise();
@@ -62,9 +63,22 @@ void WallNewton::step() {
     {
         const auto t = phases_.time(Phase::relax);
         solve();
-        move();
+        cut = move();
     }
     measure();
+    if (cut)
+        ++cut_;
+    else
+        ++stalled_;
+    if (residual_ < 0.5 * smallest_) {
+        smallest_ = residual_;
+        stalled_ = 0;
+    }
+}
+
+bool WallNewton::gives_up() const {
+    return unstable_ || stalled_ >= Constants::wall_stagnation_period ||
+           cut_ >= Constants::wall_cut_steps_max;
 }
 
 /// Computes the gradient of the energy at the sites, and the residual.
@@ -129,14 +143,15 @@ void WallNewton::solve() {
     }
 }
 
-/// Moves the sites by the step, or a part of it.
-void WallNewton::move() {
+/// Moves the sites by the step, or a part of it. Returns true for a part.
+bool WallNewton::move() {
     const PlaneView<const double> d = std::as_const(d_).plane(0);
     const double longest = largest(d, lift_);
     const double part = longest > furthest_ ? furthest_ / longest : 1.0;
     for_sites([&](int x, int y) { u_(x, y) += lift_ + part * (d(x, y) - lift_); });
     block_.apply_constraint();
     lift_ = 0.0;
+    return part < 1.0;
 }
 
 /// Sets product_ to N^2 S p without the uniform wave of p, whose part is uniform_product_.

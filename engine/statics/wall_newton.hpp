@@ -31,6 +31,7 @@
 #include "engine/waves/preconditioner.hpp"
 #include "engine/waves/spectral_block.hpp"
 
+#include <limits>
 #include <optional>
 
 namespace asperity {
@@ -52,8 +53,8 @@ public:
     /// Makes one step; over a wall that attracts, no site moves further than move_max beside a
     /// prescribed change of the mean height. Collective.
     void step();
-    /// Returns true if the energy has shown no minimum in the last step.
-    bool unstable() const { return unstable_; }
+    /// Returns true if the energy has no minimum along the last step, or steps no longer help.
+    bool gives_up() const;
     /// Puts the sites back to where the first step left them. Collective.
     void put_back();
     /// Returns the number of products with S so far.
@@ -63,7 +64,7 @@ private:
     void measure();
     void linearise();
     void solve();
-    void move();
+    bool move();
     void multiply();
     template <class Force>
     void respond(const Force& f);
@@ -92,7 +93,10 @@ private:
     double uniform_product_ = 0.0;   ///< uniform wave of S p, eV/Å
     double residual_ = 0.0;          ///< eV/Å
     long long products_ = 0;
-    bool unstable_ = false;
+    bool unstable_ = false; ///< the curvature along a direction was negative
+    double smallest_ = std::numeric_limits<double>::infinity(); ///< smallest residual, eV/Å
+    int stalled_ = 0; ///< whole steps since the residual halved
+    int cut_ = 0;     ///< steps that were cut
     std::optional<Preconditioner> preconditioner_;
     SiteField<double> gradient_; ///< gradient of the energy at the sites, eV/Å
     SiteField<float> product_;   ///< N^2 S p without the uniform wave of p, eV/Å

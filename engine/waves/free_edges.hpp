@@ -5,12 +5,12 @@
 // images.
 //
 // The displacement of sites on a square of N x N under forces F is that of an infinite lattice, u =
-// sum g F. A periodic grid of 2N x 2N sites gives the same displacement (Hockney; Stanley and Kato,
-// J. Tribol. 119, 481 (1997), for contacts): g is cut at +-N and repeated, and as long as no force
-// acts on the sites outside the square, no image of a force is nearer to a site of the square than
-// N. The block therefore has the stiffness S = 1/g^ on 2N x 2N sites. Sites outside the square have
-// no interface and carry no force in equilibrium; their u has no meaning. g^ is positive for all
-// waves, as for any stiffness.
+// sum g F. A periodic grid of M x M sites, M >= 2N (BlockOptions::grid()), gives the same
+// displacement (Hockney; Stanley and Kato, J. Tribol. 119, 481 (1997), for contacts): g is cut at
+// +-M/2 and repeated, and as long as no force acts on the sites outside the square, no image of a
+// force is nearer to a site of the square than N. The block therefore has the stiffness S = 1/g^ on
+// M x M sites. Sites outside the square have no interface and carry no force in equilibrium; their
+// u has no meaning. g^ is positive for all waves, as for any stiffness.
 //
 // g is a sum of two parts. The far part is that of a half-space, 1/(pi E* r), with a smoothed core,
 //
@@ -19,7 +19,7 @@
 //
 // without a remainder for s = 1.9 a. The near part, 1/S(q) - far^(q) with the lattice's S, decays
 // as r^-3 and is computed wave by wave; its periodic images change displacements across the box by
-// a relative 0.15/N^2.
+// a relative 0.6/M^2.
 //
 // Layers and surface stress add K(q), the difference of 1/S with and without them, which decays as
 // r^-3 times their thickness squared. Its long waves, K(q) G(q) with K along x and G = exp(-(q
@@ -44,11 +44,11 @@ namespace asperity {
 /// Compliance of the waves of a surface with free edges.
 class FreeEdges {
 public:
-    /// Computes the transform of the far field in the slabs of the grid of 2N x 2N sites.
+    /// Computes the transform of the far field in the slabs of the grid.
     /// Collective.
     FreeEdges(const BlockOptions& block, const Slab& slab);
 
-    /// Returns g^ at q = 2 pi (nx, ny) / (2N a), 0 <= nx, ny <= N, Å^2/eV. This rank must hold the
+    /// Returns g^ at q = 2 pi (nx, ny) / (M a), 0 <= nx, ny <= M/2, Å^2/eV. This rank must hold the
     /// column nx or ny.
     double compliance(int nx, int ny) const;
 
@@ -76,7 +76,7 @@ private:
     BlockOptions plain_; ///< block_ without layers and surface stress
     bool has_added_;
     Slab slab_;
-    /// Waves of the far field, [column of this rank][ny], ny = 0 .. N, Å^2/eV; real, because the
+    /// Waves of the far field, [column of this rank][ny], ny = 0 .. M/2, Å^2/eV; real, because the
     /// field is even.
     std::vector<double> far_;
 };

@@ -60,8 +60,8 @@ struct AtWall : test::PathCase {
                                                 test::paper_scales().length)) {
         block.set_uniform(height - interface.start_height());
     }
-    RelaxedState relax(const Constraint& constraint) {
-        return PathCase::relax(constraint, tolerance);
+    RelaxedState relax(const Constraint& constraint, const RelaxOptions& how = {}) {
+        return PathCase::relax(constraint, tolerance, how);
     }
 };
 
@@ -333,6 +333,37 @@ TEST(Wall, NarrowAttractionsAndCoarseTolerancesAreNoted) {
 }
 
 /// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
+/// Newton's method finds the state that a relaxation from the plane finds, in as many products
+/// whatever the number of sites: without the response of the block in its preconditioner
+/// (wall_newton.hpp) they grow as the root of it.
+TEST(Wall, NextPointTakesAFewProductsAtAnySize) {
+    using Of = Constraint::Of;
+    for (const Of of : {Of::top, Of::mean_height, Of::load}) {
+        double last = 1000.0;
+        for (const int sites : {32, 128}) {
+            const auto at_rest = [sites] {
+                return AtWall(test::self_affine(sites, 1.0), a, laws()[0]);
+            };
+            AtWall at = at_rest(), fresh = at_rest();
+            const double load = 0.01 * at.sites() * a * a, more = 1.02 * load;
+            const RelaxedState pressed = at.relax(Constraint::load(load));
+            Constraint next = Constraint::load(more);
+            if (of == Of::top) next = Constraint::top(at.block.top() - 0.02);
+            if (of == Of::mean_height) next = Constraint::mean_height(pressed.mean_height - 0.02);
+            RelaxOptions near;
+            near.start = Start::near;
+            const RelaxedState point = at.relax(next, near);
+            EXPECT_LE(point.iterations, 25) << sites << " sites, " << static_cast<int>(of);
+            EXPECT_LE(static_cast<double>(point.iterations), 1.5 * last);
+            last = static_cast<double>(point.iterations);
+            const RelaxedState anew = fresh.relax(next);
+            EXPECT_NEAR(point.force, anew.force, 1e-4 * load);
+            EXPECT_NEAR(test::energy(point), test::energy(anew), 1e-6 * -test::energy(anew));
+            EXPECT_EQ(point.in_contact, anew.in_contact);
+        }
+    }
+}
+
 TEST(Wall, OneStateUnderThreeConstraints) {
     for (const WallLaw& law : laws()) {
         AtWall at(test::self_affine(32, 1.0), a, law);
