@@ -122,7 +122,7 @@ struct RelaxationConstants {
 
     // Newton's method over a wall (wall_newton.hpp).
     /// Share of the residual, measured by the preconditioner, that conjugate gradients leave.
-    static constexpr double wall_forcing = 1e-2;
+    static constexpr double wall_forcing = 3e-3;
     /// Newton's method gives up if the residual has not halved in this many whole steps, or after
     /// this many steps that were cut to move_max.
     static constexpr int wall_stagnation_period = 3, wall_cut_steps_max = 50;

@@ -19,7 +19,7 @@ constexpr double least_stiffness = 1e-9;
 
 WallNewton::WallNewton(SpectralBlock& block, const Interface& interface,
                        const Constraint& constraint, const RelaxOptions& options, Phases& phases)
-    : block_(block), interface_(interface), phases_(phases),
+    : block_(block), interface_(interface), phases_(phases), tolerance_(options.tolerance),
       furthest_(interface.wall()->attracts() ? Constants::move_max * options.scales.length
                                              : std::numeric_limits<double>::infinity()),
       u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
@@ -91,7 +91,13 @@ void WallNewton::measure() {
     Waves<double> g = block_.new_waves<double>();
     block_.gradient(g);
     to_sites(g, block_.transform<double>(), gradient_);
-    residual_ = largest(std::as_const(gradient_[0]).plane(0), 0.0);
+    const PlaneView<const double> sites = std::as_const(gradient_[0]).plane(0);
+    const double mean = sum([&](int x, int y) { return sites(x, y); }) / sites_;
+    // What is left of a load is less than its accuracy.
+    const double load = block_.constraint().load() / sites_;
+    double share = Constants::mean_force_share;
+    if (load != 0.0) share = std::min(share, 0.1 * load_accuracy * std::abs(load) / tolerance_);
+    residual_ = std::max(largest(sites, 0.0), std::abs(mean) / share);
 }
 
 /// Sets H, the preconditioner and the right side.

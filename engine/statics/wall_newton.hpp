@@ -44,7 +44,8 @@ public:
     WallNewton(SpectralBlock& block, const Interface& interface, const Constraint& constraint,
                const RelaxOptions& options, Phases& phases);
 
-    /// Returns the largest residual force on a site, eV/Å.
+    /// Returns the largest residual force on a site or, if that is larger, the mean one over the
+    /// share of the tolerance that is allowed to it: mean forces add up over the sites. eV/Å.
     double residual() const { return residual_; }
     /// Returns residual(), and computes sums(). Collective.
     double conclude();
@@ -81,7 +82,8 @@ private:
     SpectralBlock& block_;
     const Interface& interface_;
     Phases& phases_;
-    double furthest_; ///< largest move of a site in a step, Å
+    double tolerance_; ///< eV/Å
+    double furthest_;  ///< largest move of a site in a step, Å
     PlaneView<double> u_;
     bool held_; ///< the mean height is
     double sites_;

@@ -24,7 +24,7 @@ from asperity.studies.tip import Contact  # noqa: E402
 
 TIPS = {
     "stiff": {"radius": "30 nm", "young": "100 GPa", "poisson": 0.3, "adhesion": "100 mJ/m2", "stiffness": "40 N/m"},
-    "diamond": {"radius": "8 nm", "young": "300 GPa", "poisson": 0.2, "adhesion": "200 mJ/m2", "stiffness": "100 N/m", "sites": 80},
+    "diamond": {"radius": "8 nm", "young": "300 GPa", "poisson": 0.2, "adhesion": "200 mJ/m2", "stiffness": "100 N/m"},
     "colloid": {"radius": "1 um", "young": "70 GPa", "poisson": 0.2, "adhesion": "40 mJ/m2", "stiffness": "10 N/m"},
     "silica": {"radius": "50 nm", "young": "70 GPa", "poisson": 0.17, "adhesion": "80 mJ/m2", "stiffness": "20 N/m"},
     "long-ranged": {"radius": "50 nm", "young": "20 GPa", "poisson": 0.3, "adhesion": "60 mJ/m2", "stiffness": "5 N/m", "range": "1 nm"},

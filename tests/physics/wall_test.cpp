@@ -340,12 +340,17 @@ TEST(Wall, NextPointTakesAFewProductsAtAnySize) {
     using Of = Constraint::Of;
     for (const Of of : {Of::top, Of::mean_height, Of::load}) {
         double last = 1000.0;
-        for (const int sites : {32, 128}) {
-            const auto at_rest = [sites] {
-                return AtWall(test::self_affine(sites, 1.0), a, laws()[0]);
+        for (const int sites : {64, 256}) {
+            SurfaceOptions rough;
+            rough.sites = sites;
+            rough.length = a * sites;
+            rough.rms = 1.0;
+            rough.rolloff = sites / 32.0; // the same roughness
+            const auto at_rest = [&rough] {
+                return AtWall(make_surface(rough), a, ExponentialWall(0.05, 1.3, 24.0));
             };
             AtWall at = at_rest(), fresh = at_rest();
-            const double load = 0.01 * at.sites() * a * a, more = 1.02 * load;
+            const double load = 1e-3 * at.sites() * a * a, more = 1.05 * load;
             const RelaxedState pressed = at.relax(Constraint::load(load));
             Constraint next = Constraint::load(more);
             if (of == Of::top) next = Constraint::top(at.block.top() - 0.02);
@@ -360,6 +365,24 @@ TEST(Wall, NextPointTakesAFewProductsAtAnySize) {
             EXPECT_NEAR(point.force, anew.force, 1e-4 * load);
             EXPECT_NEAR(test::energy(point), test::energy(anew), 1e-6 * -test::energy(anew));
             EXPECT_EQ(point.in_contact, anew.in_contact);
+        }
+    }
+}
+
+/// Residuals of the sites, each within the tolerance, do not add up to a force on the top plane:
+/// a soft spring would take it for a part of the pull.
+TEST(Wall, NextPointIsInBalanceAtAnyTolerance) {
+    for (const double tolerance : {1e-3, 1e-4, 1e-5}) {
+        AtWall at(test::self_affine(64, 1.0), a, ExponentialWall(0.05, 1.3, 24.0));
+        at.tolerance = 1e-8;
+        at.relax(Constraint::load(1e-3 * at.sites() * a * a));
+        at.tolerance = tolerance;
+        RelaxOptions near;
+        near.start = Start::near;
+        for (int i = 1; i < 6; ++i) {
+            const RelaxedState point = at.relax(Constraint::top(at.block.top() - 0.01 * i), near);
+            EXPECT_NEAR(point.force, point.top_force, 1.01e-3 * tolerance * at.sites())
+                << tolerance << ", " << i;
         }
     }
 }
