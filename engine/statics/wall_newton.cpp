@@ -93,7 +93,7 @@ void WallNewton::measure() {
     to_sites(g, block_.transform<double>(), gradient_);
     const PlaneView<const double> sites = std::as_const(gradient_[0]).plane(0);
     const double mean = sum([&](int x, int y) { return sites(x, y); }) / sites_;
-    // What is left of a load is less than its accuracy.
+    // A load is met to its accuracy.
     const double load = block_.constraint().load() / sites_;
     double share = Constants::mean_force_share;
     if (load != 0.0) share = std::min(share, 0.1 * load_accuracy * std::abs(load) / tolerance_);

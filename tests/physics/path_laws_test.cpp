@@ -128,7 +128,8 @@ TEST(WorkInTime, WithATailIsThatFromOutOfReach) {
 TEST(PathOverLoads, MeetsThemWithTheContactsOfAnExactPath) {
     // Loads of four decades over a wall that only repels. The tolerance is a fraction of what a
     // site in contact bears: pressures are met to 1e-3, as asked, and one site at most differs from
-    // a path relaxed a thousand times further, which takes many more iterations.
+    // a path relaxed a hundred times further, for which Newton's method takes less than twice the
+    // products.
     for (const int seed : {1, 2, 3}) {
         const auto run = [&](const char* tolerance) {
             return test::Written(
@@ -139,7 +140,7 @@ TEST(PathOverLoads, MeetsThemWithTheContactsOfAnExactPath) {
                 "tolerance = " +
                 tolerance);
         };
-        const test::Written usual = run("2.5e-4"), exact = run("2.5e-7");
+        const test::Written usual = run("2.5e-4"), exact = run("2.5e-6");
         double load = 0.02;
         for (std::size_t i = 0; i < 5; ++i, load *= 10.0) {
             const auto segment = [&](const test::Written& of, const char* what) {
@@ -153,6 +154,7 @@ TEST(PathOverLoads, MeetsThemWithTheContactsOfAnExactPath) {
             const double work = segment(exact, "work_of_drive");
             EXPECT_NEAR(segment(usual, "work_of_drive"), work, 4e-3 * work);
         }
-        EXPECT_LT(usual("run.iterations"), 0.6 * exact("run.iterations"));
+        EXPECT_LT(usual("run.iterations"), exact("run.iterations"));
+        EXPECT_LT(exact("run.iterations"), 2.0 * usual("run.iterations"));
     }
 }
