@@ -91,7 +91,7 @@ void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile
 }
 
 double OverWall::stiffness_at(int x, int y, double gap) const {
-    if (yields() && gap < yield_gap_.plane(0)(x, y)) return 0.0;
+    if (yields_at(x, y, gap)) return 0.0;
     return with_law(x, y, [&](const auto& law) { return law.stiffness_at(gap); });
 }
 

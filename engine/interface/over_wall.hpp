@@ -75,6 +75,10 @@ public:
         else
             return kernels.rest_single(law_, row, rule, sites);
     }
+    /// Returns true if a site of the tile yields at this gap, Å.
+    bool yields_at(int x, int y, double gap) const {
+        return yields() && gap < yield_gap_.plane(0)(x, y);
+    }
     /// Returns the stiffness -dF/dg of the law of a site of the tile at this gap, Å, in eV/Å^2.
     double stiffness_at(int x, int y, double gap) const;
     /// Returns true if the wall attracts sites.

@@ -78,7 +78,7 @@ void WallNewton::step() {
 
 bool WallNewton::gives_up() const {
     // Sites that begin to yield and those that end go to and fro.
-    if (interface_.yielding_wall() && stalled_ + cut_ > 0) return true;
+    if (yielding_ && stalled_ + cut_ > 0) return true;
     return unstable_ || stalled_ >= Constants::wall_stagnation_period ||
            cut_ >= Constants::wall_cut_steps_max;
 }
