@@ -95,6 +95,13 @@ void WallNewton::measure() {
     to_sites(g, block_.transform<double>(), gradient_);
     const PlaneView<const double> sites = std::as_const(gradient_[0]).plane(0);
     const double mean = sum([&](int x, int y) { return sites(x, y); }) / sites_;
+    if (const OverWall* const yields = interface_.yielding_wall()) {
+        const double reference = interface_.reference_height();
+        yielding_ = sum([&](int x, int y) {
+                        const double gap = reference + u_(x, y) - yields->below(x, y);
+                        return yields->yields_at(x, y, gap) ? 1.0 : 0.0;
+                    }) > 0.0;
+    }
     // A load is met to its accuracy.
     const double load = block_.constraint().load() / sites_;
     double share = Constants::mean_force_share;

@@ -95,7 +95,7 @@ private:
     double uniform_product_ = 0.0;   ///< uniform wave of S p, eV/Å
     double residual_ = 0.0;          ///< eV/Å
     long long products_ = 0;
-    bool yielding_ = false; ///< some sites yielded before the last step
+    bool yielding_ = false; ///< some sites yield
     bool unstable_ = false; ///< the curvature along a direction was negative
     double smallest_ = std::numeric_limits<double>::infinity(); ///< smallest residual, eV/Å
     int stalled_ = 0; ///< whole steps since the residual halved
