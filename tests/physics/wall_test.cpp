@@ -332,7 +332,6 @@ TEST(Wall, NarrowAttractionsAndCoarseTolerancesAreNoted) {
                   coarse);
 }
 
-/// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
 /// Newton's method finds the state that a relaxation from the plane finds, in as many products
 /// whatever the number of sites: without the response of the block in its preconditioner
 /// (wall_newton.hpp) they grow as the root of it.
@@ -387,6 +386,7 @@ TEST(Wall, NextPointIsInBalanceAtAnyTolerance) {
     }
 }
 
+/// A state is one of equilibrium, whatever is held to get there; energies change by the work done.
 TEST(Wall, OneStateUnderThreeConstraints) {
     for (const WallLaw& law : laws()) {
         AtWall at(test::self_affine(32, 1.0), a, law);

@@ -73,7 +73,7 @@ def test_the_expected_error_is_that_of_the_runs(smooth, tmp_path):
 
 def test_errors_cover_what_rings_give(smooth, tmp_path):
     """Bodies of revolution on the same spring, which share nothing with the program; a soft contact, and a stiff one, whose
-    attraction is far wider than the contact. All ten of tips.py: docs/data/tables/tips.csv."""
+    attraction is far wider than the contact. All twelve of tips.py: docs/data/tables/tips.csv."""
     stiff = asperity.tip(**tips.TIPS["stiff"], sites=24, out=tmp_path / "stiff", jobs=2)
     for found, load in ((smooth[0], 4.7), (stiff, 14.0)):
         truth = tips.of_rings(found.contact, load)
