@@ -65,6 +65,8 @@ cp $place/parameters/parameters.csv $data
 made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 "$python" scenes/validation/curves.py --curves 600 --csv $data/tables/curve-fits.csv
 made $data/tables/curve-fits.csv
+"$python" scenes/validation/tip_curves.py --csv $data/tables/tip-curves.csv
+made $data/tables/tip-curves.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/works >$place/log.txt
