@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <stdexcept>
@@ -93,6 +94,19 @@ void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile
 double OverWall::stiffness_at(int x, int y, double gap) const {
     if (yields_at(x, y, gap)) return 0.0;
     return with_law(x, y, [&](const auto& law) { return law.stiffness_at(gap); });
+}
+
+double OverWall::step(int x, int y, double gap, double step, double spring) const {
+    const double yield = yield_gap_.plane(0)(x, y);
+    if ((gap < yield) == (gap + step < yield)) return step;
+    return with_law(x, y, [&](const auto& law) {
+        const double out = law.contact_gap();
+        if (gap < yield || gap >= out)
+            return yield + 1e-4 * (out - yield) - gap; // well above the rounding of heights
+        const double excess = law.force(gap) - law.stiffness_at(gap) * step - law.force(yield);
+        const double most = law.force(yield) - law.force(out);
+        return yield - std::clamp(excess, 0.0, most) / spring - gap;
+    });
 }
 
 bool OverWall::attracts() const {

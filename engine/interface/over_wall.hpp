@@ -81,6 +81,10 @@ public:
     }
     /// Returns the stiffness -dF/dg of the law of a site of the tile at this gap, Å, in eV/Å^2.
     double stiffness_at(int x, int y, double gap) const;
+    /// Returns the step that a site of the tile at this gap makes, Å, where that of Newton's method
+    /// is `step`: another one if it begins or ends to yield (wall_newton.hpp). spring: stiffness of
+    /// the block's stiffest wave, eV/Å^2. Requires yields().
+    double step(int x, int y, double gap, double step, double spring) const;
     /// Returns true if the wall attracts sites.
     bool attracts() const;
 

@@ -125,7 +125,7 @@ struct RelaxationConstants {
     static constexpr double wall_forcing = 3e-3;
     /// Newton's method gives up if the residual has not halved in this many whole steps, or after
     /// this many steps that were cut to move_max.
-    static constexpr int wall_stagnation_period = 3, wall_cut_steps_max = 10;
+    static constexpr int wall_stagnation_period = 8, wall_cut_steps_max = 10;
 
     // The minimiser over a wall (wall_minimiser.hpp).
     /// Largest residual mean force, divided by the tolerance. The secant converges faster than

@@ -77,8 +77,6 @@ void WallNewton::step() {
 }
 
 bool WallNewton::gives_up() const {
-    // Sites that begin to yield and those that end go to and fro.
-    if (yielding_ && stalled_ + cut_ > 0) return true;
     return unstable_ || stalled_ >= Constants::wall_stagnation_period ||
            cut_ >= Constants::wall_cut_steps_max;
 }
@@ -95,18 +93,11 @@ void WallNewton::measure() {
     to_sites(g, block_.transform<double>(), gradient_);
     const PlaneView<const double> sites = std::as_const(gradient_[0]).plane(0);
     const double mean = sum([&](int x, int y) { return sites(x, y); }) / sites_;
-    if (const OverWall* const yields = interface_.yielding_wall()) {
-        const double reference = interface_.reference_height();
-        yielding_ = sum([&](int x, int y) {
-                        const double gap = reference + u_(x, y) - yields->below(x, y);
-                        return yields->yields_at(x, y, gap) ? 1.0 : 0.0;
-                    }) > 0.0;
-    }
     // A load is met to its accuracy.
     const double load = block_.constraint().load() / sites_;
     double share = Constants::mean_force_share;
     if (load != 0.0) share = std::min(share, 0.1 * load_accuracy * std::abs(load) / tolerance_);
-    residual_ = std::max(largest(sites, 0.0), std::abs(mean) / share);
+    residual_ = std::max({largest(sites, 0.0), std::abs(mean) / share, spring_ * std::abs(lift_)});
 }
 
 /// Sets H, the preconditioner and the right side.
@@ -163,9 +154,25 @@ bool WallNewton::move() {
     const PlaneView<const double> d = std::as_const(d_).plane(0);
     const double longest = largest(d, lift_);
     const double part = longest > furthest_ ? furthest_ / longest : 1.0;
-    for_sites([&](int x, int y) { u_(x, y) += lift_ + part * (d(x, y) - lift_); });
-    block_.apply_constraint();
-    lift_ = 0.0;
+    const OverWall* const yields = interface_.yielding_wall();
+    const double reference = interface_.reference_height();
+    for_sites([&](int x, int y) {
+        double step = lift_ + part * (d(x, y) - lift_);
+        if (const double gap = yields ? reference + u_(x, y) - yields->below(x, y) : NAN;
+            !std::isnan(gap))
+            step = yields->step(x, y, gap, step, spring_);
+        u_(x, y) += step;
+    });
+    // Steps to or from a yield gap miss a held mean height.
+    lift_ = held_ && yields
+                ? sum([&](int x, int y) { return block_.constraint().value - u_(x, y); }) / sites_
+                : 0.0;
+    if (spring_ * std::abs(lift_) > Constants::mean_force_share * tolerance_) {
+        block_.transform_sites();
+    } else {
+        block_.apply_constraint();
+        lift_ = 0.0;
+    }
     return part < 1.0;
 }
 

@@ -23,6 +23,14 @@
 // as many with (S + k)^-1, whatever the number of sites. Uniform waves are kept in double
 // precision: a soft spring that holds the block lets the uniform wave move far, and its rounding
 // in single precision would be a force of the stiff waves.
+//
+// Over a wall that yields, a step exchanges sites between three sets: those that yield, those that
+// the wall holds, and the others. A site whose pressure would exceed the hardness, or fall below
+// the largest attraction, leaves the wall by the distance at which the block's stiffest wave would
+// carry the excess, not by the step, in which the stiffness of the wall counts. A site that ends to
+// yield, or that reaches the yield gap from outside, is put into the second set, at the yield gap.
+// A step of the height alone would send it from one end of the law to the other, and back in the
+// next step. A held mean height is then met only by the steps that follow.
 #pragma once
 
 #include "engine/interface/interface.hpp"
@@ -45,7 +53,8 @@ public:
                const RelaxOptions& options, Phases& phases);
 
     /// Returns the largest residual force on a site or, if that is larger, the mean one over the
-    /// share of the tolerance that is allowed to it: mean forces add up over the sites. eV/Å.
+    /// share of the tolerance that is allowed to it: mean forces add up over the sites; or L times
+    /// what the mean height misses. eV/Å.
     double residual() const { return residual_; }
     /// Returns residual(), and computes sums(). Collective.
     double conclude();
@@ -89,13 +98,12 @@ private:
     double sites_;
     double spring_;                  ///< L, eV/Å^2
     double uniform_stiffness_ = 0.0; ///< stiffness of the uniform wave, eV/Å^2 per site
-    double lift_ = 0.0;              ///< change of the held mean height, Å
+    double lift_ = 0.0;              ///< change of the held mean height that is to be made, Å
     double force_ = 0.0;             ///< force on each site that holds the mean height, eV/Å
     double sum_of_uniform_ = 0.0;    ///< sum of of_uniform_
     double uniform_product_ = 0.0;   ///< uniform wave of S p, eV/Å
     double residual_ = 0.0;          ///< eV/Å
     long long products_ = 0;
-    bool yielding_ = false; ///< some sites yield
     bool unstable_ = false; ///< the curvature along a direction was negative
     double smallest_ = std::numeric_limits<double>::infinity(); ///< smallest residual, eV/Å
     int stalled_ = 0; ///< whole steps since the residual halved

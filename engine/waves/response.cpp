@@ -366,14 +366,18 @@ void Response::restore_mean_height() {
 
 void Response::apply_constraint() {
     restore_mean_height();
+    transform_sites();
+    if (constraint_.is_mean_height() && slab_.holds_uniform())
+        waves_.uniform(components_ - 1) = constraint_.value;
+}
+
+void Response::transform_sites() {
     const double sites = slab_.sites;
     const WaveBlocks<double> blocks = to_blocks(moving_planes(layer_), transform_);
 #pragma omp parallel for schedule(static) num_threads(blocks.threads())
     for (int b = 0; b < waves_.blocks(); ++b)
         combine_row(1.0 / (sites * sites), blocks.get(b), 0.0, waves_.block(b),
                     static_cast<int>(waves_.length()));
-    if (constraint_.is_mean_height() && slab_.holds_uniform())
-        waves_.uniform(components_ - 1) = constraint_.value;
 }
 
 } // namespace asperity

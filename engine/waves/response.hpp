@@ -170,6 +170,8 @@ public:
     /// were written, or after many calls of displace(), whose rounding in single precision leaves a
     /// relative difference of 1e-7 between sites and waves. Collective.
     void apply_constraint();
+    /// Recomputes the waves from the sites. Collective.
+    void transform_sites();
 
 protected:
     Response(const BlockOptions& options, const Communicator& communicator, bool frictionless);

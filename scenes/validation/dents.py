@@ -9,9 +9,10 @@ Unloaded, a half-space that bore the hardness H on a circle of radius A is a bod
 of this pressure does, whatever the sphere was. Its pull-off depends on om = w E*/(H² A) and on l/A, l = E* range²/w. Rings (rings.py)
 find it for any range; the closed form (Mesarovic and Johnson 2000) is that of no range. The program presses the sphere and pulls it
 off, with a contact whose radius is a third of the box, at a range of l = 1.5 spacings or w/H. --rings leaves the program's runs out.
-Prints pull-offs over the largest load; nan where rings find no solution as far out as
-the contact comes off, which is so at the shorter range for om = 0.001 and 0.03. Runs take 6 to 80 s of a
-core at 64 sites, rings up to some minutes for each om.
+Prints pull-offs over the largest load; nan where rings find no solution as far out as the contact comes off. The number of no range is
+that of a line through the two shortest ranges. In the program the attraction presses as well as the load: rings stand beside it with the
+contact of its area at the hardness, which is stated over that under the load alone. Runs take 2 to 24 s of a core at 64 sites, rings up
+to some minutes for each om.
 """
 import argparse
 import csv
@@ -29,8 +30,8 @@ import rings  # noqa: E402
 import asperity  # noqa: E402
 
 PARAMETERS = (0.001, 0.01, 0.03, 0.1, 0.3, 1.0)
-RANGES = (0.08, 0.04)
-"""l over the radius r at which the contact comes off; the second is half the first."""
+RANGES = (0.16, 0.08, 0.06, 0.04)
+"""l over the radius r at which the contact comes off."""
 RATIO, HARDNESS, SPACING = 0.02, 2.0, 10.0
 """Hardness over E*; hardness, GPa; spacing, Å."""
 ROUND = 12.83
@@ -75,8 +76,9 @@ def of_rings(om: float, length: float) -> float:
     return float(-force.min() / math.pi) if force.argmin() < len(force) - 1 else math.nan  # nan: the way ends before the contact comes off
 
 
-def run(om: float, sites: int, out: str) -> tuple[float, float, float]:
-    """Returns the pull-off over the largest load by the program, l/A, and its processor time, s."""
+def run(om: float, sites: int, out: str) -> tuple[float, float, float, float]:
+    """Returns the pull-off over the largest load by the program, the contact at the hardness over that under the load alone, l/A, and its
+    processor time, s."""
     contact, modulus = sites / 3 * SPACING, HARDNESS / RATIO
     work = om * HARDNESS * RATIO * contact  # GPa Å
     reach = max(work / HARDNESS, math.sqrt(1.5 * SPACING * work / modulus))
@@ -89,7 +91,9 @@ def run(om: float, sites: int, out: str) -> tuple[float, float, float]:
         "drive.displacement_step": 0.5 * reach, "output.fields": [], "output.checkpoint": "none"},
         out=out, progress=False)
     force = np.asarray(found.series["force"])
-    return float(-force[int(np.argmax(force)):].min() / force.max()), modulus * reach**2 / work / contact, found["run"]["processor_seconds"]
+    area = found["segments"][1]["yielding_fraction"] * (sites * SPACING / contact) ** 2 / math.pi
+    return (float(-force[int(np.argmax(force)):].min() / force.max()), area, modulus * reach**2 / work / contact,
+            found["run"]["processor_seconds"])
 
 
 def main() -> None:
@@ -101,20 +105,22 @@ def main() -> None:
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # few sites
-    rows = [["om", "closed", "rings, l/r 0.08", "0.04", "to no range", "over closed", "l/A", "program", "rings", "over rings", "processor, s"]]
+    rows = [["om", "closed", f"rings, l/r {RANGES[0]}", *map(str, RANGES[1:]), "to no range", "over closed", "l/A", "area", "program", "rings", "over rings", "processor, s"]]
     print("  ".join(rows[0]))
     for om in asked.only:
         limit, held = closed(om)
         found = [of_rings(om, part * held) for part in RANGES]
         # A zone of attraction that is short beside the contact changes the pull-off in proportion to its length, about l.
-        ends = 2 * found[1] - found[0]
+        (far, more), (near, less) = [(part, one) for part, one in zip(RANGES, found, strict=True) if not math.isnan(one)][-2:]
+        ends = less - near * (more - less) / (far - near)
         row = [f"{om:g}", f"{limit:.5f}", *(f"{one:.5f}" for one in found), f"{ends:.5f}", f"{ends / limit:.4f}"]
         if asked.rings:
-            row += [""] * 5
+            row += [""] * 6
         else:
-            pulled, length, seconds = run(om, asked.sites, f"{asked.out}/{om:g}")
-            same = of_rings(om, length)
-            row += [f"{length:.4f}", f"{pulled:.5f}", f"{same:.5f}", f"{pulled / same:.3f}", f"{seconds:.0f}"]
+            pulled, area, length, seconds = run(om, asked.sites, f"{asked.out}/{om:g}")
+            wider = math.sqrt(area)
+            same = area * of_rings(om / wider, length / wider)
+            row += [f"{length:.4f}", f"{area:.4f}", f"{pulled:.5f}", f"{same:.5f}", f"{pulled / same:.3f}", f"{seconds:.0f}"]
         rows.append(row)
         print("  ".join(row), flush=True)
     if asked.csv:

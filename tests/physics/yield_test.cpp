@@ -582,6 +582,22 @@ TEST(Yield, ConvergesUpToTheHardness) {
     }
 }
 
+/// Sites that begin and end to yield, to touch and to part are exchanged in a few steps of Newton's
+/// method (wall_newton.hpp): the minimiser, which follows where they go to and fro, takes thirty to
+/// fifty products a point.
+TEST(Yield, NextPointTakesAFewProducts) {
+    for (const char* control : {"mean-height", "top"})
+        for (const int sites : {32, 64}) {
+            const test::Written run(scene_of(
+                fmt::format("sites = {}\nspacing = 2\nhurst = 0.8\nrms = 4\nq_max = 8", sites),
+                "adhesion = 0\nhardness = 0.2", fmt::format("control = \"{}\"", control),
+                {"approach", load_of(20), load_of(100), load_of(180), "pull-off"}));
+            EXPECT_GT(of_segment(run, 3, "yielding_fraction"), 0.5);
+            const double points = static_cast<double>(run.series("force").size());
+            std::printf("PER %g\n", run("run.iterations") / points); EXPECT_LT(run("run.iterations") / points, 20.0) << control << " " << sites;
+        }
+}
+
 /// Without attraction the way out ends at the first point at which the dented surfaces are apart,
 /// far below the summits that there were, and the next approach finds the contact from there.
 TEST(Yield, WayOutEndsWhereTheDentedSurfacesPart) {
