@@ -173,82 +173,93 @@ void Interface::find_mean_heights() {
 
 InterfaceSums Interface::sweep(const VectorPlane<const double>& displacement,
                                const VectorPlane<double>& force, SweepOptions how) const {
-    return sweep_sites({over_substrate(displacement),
-                        force,
-                        spacing_,
-                        how.height.value_or(reference_height_),
-                        tile_.x0,
-                        tile_.y0,
-                        {}},
-                       how);
-}
-
-InterfaceSums Interface::sweep_sites(const InterfaceSites& sites, SweepOptions how) const {
-    const auto row = [&](int y, InterfaceSums& sums) {
-        std::visit(
-            [&](const auto& substrate) {
-                using Kind = std::decay_t<decltype(substrate)>;
-                if constexpr (std::is_same_v<Kind, std::monostate>)
-                    reference_sweep(sites, map_.view(), options_.potential, y, y + 1, sums);
-                else if constexpr (std::is_same_v<Kind, OverAtoms>)
-                    method_ == InterfaceMethod::reference
-                        ? substrate.reference_row(sites, y, sums)
-                        : substrate.sweep_row(sites, y, how, sums);
-                else
-                    substrate.sweep_row(sites, y, how, sums);
-            },
-            substrate_);
-        if (!mean_height_.empty())
-            tail_sweep(sites, options_.potential, density(), mean_height_.plane(0), y, y + 1,
-                       how.observe, sums);
-    };
+    const InterfaceSites sites{over_substrate(displacement),
+                               force,
+                               spacing_,
+                               how.height.value_or(reference_height_),
+                               tile_.x0,
+                               tile_.y0,
+                               {}};
     InterfaceSums total;
 #pragma omp parallel
     {
         InterfaceSums mine;
 #pragma omp for schedule(static) nowait
         for (int y = 0; y < tile_.ny; ++y)
-            row(y, mine);
+            sweep_row(sites, y, how, mine);
 #pragma omp critical(asperity_interface_sums)
         total.merge(mine);
     }
     return total;
 }
 
+void Interface::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
+                          InterfaceSums& sums) const {
+    std::visit(
+        [&](const auto& substrate) {
+            using Kind = std::decay_t<decltype(substrate)>;
+            if constexpr (std::is_same_v<Kind, std::monostate>)
+                reference_sweep(sites, map_.view(), options_.potential, y, y + 1, sums);
+            else if constexpr (std::is_same_v<Kind, OverAtoms>)
+                method_ == InterfaceMethod::reference ? substrate.reference_row(sites, y, sums)
+                                                      : substrate.sweep_row(sites, y, how, sums);
+            else
+                substrate.sweep_row(sites, y, how, sums);
+        },
+        substrate_);
+    if (!mean_height_.empty())
+        tail_sweep(sites, options_.potential, density(), mean_height_.plane(0), y, y + 1,
+                   how.observe, sums);
+}
+
 InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) const {
-    VectorField<double> force(tile_, 1);
-    Field<double> nearest(tile_, 1);
     InterfaceMaps maps;
     maps.nx = tile_.nx;
     maps.ny = tile_.ny;
     const std::size_t count =
         static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
     maps.contact.resize(count);
+    for (std::vector<double>* map : {&maps.distance, &maps.gap, &maps.pressure})
+        map->resize(count);
     const VectorPlane<const double> u = over_substrate(displacement);
-    const InterfaceSites sites{u,
-                               force.plane(0),
-                               spacing_,
-                               reference_height_,
-                               tile_.x0,
-                               tile_.y0,
-                               nearest.plane(0),
-                               {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
-    sweep_sites(sites, {.observe = true});
-    maps.distance.reserve(count);
-    maps.gap.reserve(count);
-    maps.pressure.reserve(count);
     const double to_gpa = 1.0 / (units::gigapascal * spacing_ * spacing_);
-    for (int y = 0; y < tile_.ny; ++y)
-        for (int x = 0; x < tile_.nx; ++x) {
-            const double r2 = sites.nearest_r2(x, y);
-            maps.distance.push_back(r2 < no_pair ? std::sqrt(r2)
-                                                 : std::numeric_limits<double>::infinity());
-            maps.pressure.push_back(sites.force.z(x, y) * to_gpa);
-            const double below = wall() ? wall()->below(x, y)
-                                        : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
-                                                       (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
-            maps.gap.push_back(reference_height_ + displacement.z(x, y) - below);
+#pragma omp parallel
+    {
+        Tile one_row = tile_;
+        one_row.ny = 1;
+        VectorField<double> force(one_row, 1);
+        Field<double> nearest(one_row, 1);
+        // Every row of the sites has its forces in this one.
+        const auto of_all_rows = [&](PlaneView<double> row) {
+            return PlaneView<double>{row.origin, 0, tile_.nx, tile_.ny};
+        };
+        const InterfaceSites sites{u,
+                                   {of_all_rows(force.x.plane(0)), of_all_rows(force.y.plane(0)),
+                                    of_all_rows(force.z.plane(0))},
+                                   spacing_,
+                                   reference_height_,
+                                   tile_.x0,
+                                   tile_.y0,
+                                   of_all_rows(nearest.plane(0)),
+                                   {maps.contact.data(), tile_.nx, tile_.nx, tile_.ny}};
+        InterfaceSums sums;
+#pragma omp for schedule(static)
+        for (int y = 0; y < tile_.ny; ++y) {
+            sweep_row(sites, y, {.observe = true}, sums);
+            for (int x = 0; x < tile_.nx; ++x) {
+                const auto i = static_cast<std::size_t>(y * tile_.nx + x);
+                const double r2 = sites.nearest_r2(x, y);
+                maps.distance[i] =
+                    r2 < no_pair ? std::sqrt(r2) : std::numeric_limits<double>::infinity();
+                maps.pressure[i] = sites.force.z(x, y) * to_gpa;
+                const double below =
+                    wall() ? wall()->below(x, y)
+                           : map_.between((tile_.x0 + x + 0.5) * spacing_ + u.x(x, y),
+                                          (tile_.y0 + y + 0.5) * spacing_ + u.y(x, y));
+                maps.gap[i] = reference_height_ + displacement.z(x, y) - below;
+            }
         }
+    }
     if (const OverWall* const yielding = yielding_wall())
         for (int y = 0; y < tile_.ny; ++y)
             for (int x = 0; x < tile_.nx; ++x) {

@@ -160,7 +160,7 @@ private:
     /// Substrate; std::monostate: the reference loop over the map.
     using Substrate = std::variant<std::monostate, OverLattice, OverRows, OverAtoms, OverWall>;
     Substrate substrate_of(const AtomPositions& atoms) const;
-    InterfaceSums sweep_sites(const InterfaceSites& sites, SweepOptions how) const;
+    void sweep_row(const InterfaceSites& sites, int y, SweepOptions how, InterfaceSums& sums) const;
     VectorPlane<const double> over_substrate(const VectorPlane<const double>& displacement) const;
     void find_mean_heights();
     /// Returns the gap below which a site is in contact with the wall, Å. Requires a wall.

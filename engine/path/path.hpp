@@ -95,8 +95,12 @@ public:
     /// a step. Throws io::PhysicsError if no next point or state is found, or if a segment demands
     /// more tension than the pull-off force.
     bool advance(const Wish& wish);
-    /// Returns the state of force balance that was found, with its layer; at_rest only.
+    /// Returns the state of force balance that was found; at_rest only.
     const LayerAtRest& state() const { return *state_; }
+    /// Returns the displacements of the lowest layer in that state, Å; at_rest only.
+    VectorPlane<const double> state_layer() const {
+        return state_->layer.empty() ? layer() : state_->layer.plane(0);
+    }
     /// Called during relaxations with the iteration and the largest residual force, eV/Å. Returns
     /// true to stop the relaxation.
     using Watch = std::function<bool(long long iteration, double residual)>;

@@ -108,8 +108,10 @@ std::optional<LayerAtRest> StaticPath::find_state() {
         // A path that starts in a state comes back to another; its numbers are of the first.
         if (!results_.zero_load || !case_.starts_with(Segment::relax)) results_.zero_load = found;
         state.numbers = found;
-        state.layer = VectorField<double>(grid_.tile(0), 1);
-        copy_layer(layer(), state.layer.plane(0));
+        if (held) {
+            state.layer = VectorField<double>(grid_.tile(0), 1);
+            copy_layer(layer(), state.layer.plane(0));
+        }
     }
     if (held) points_->put_back();
     if (!found) return std::nullopt;

@@ -54,7 +54,7 @@ void PathMaps::look_at_end(const Path& path) {
 }
 
 void PathMaps::look_at_state(const Path& path) {
-    if (times_.relaxed) write(path, "relaxed", path.state().layer.view()[0]);
+    if (times_.relaxed) write(path, "relaxed", path.state_layer());
 }
 
 void PathMaps::finish(const Path& path) {

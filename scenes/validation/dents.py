@@ -105,7 +105,8 @@ def main() -> None:
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # few sites
-    rows = [["om", "closed", f"rings, l/r {RANGES[0]}", *map(str, RANGES[1:]), "to no range", "over closed", "l/A", "area", "program", "rings", "over rings", "processor, s"]]
+    rows = [["om", "closed", f"rings, l/r {RANGES[0]}", *map(str, RANGES[1:]), "to no range", "over closed", "l/A", "area", "program", "rings",
+             "over rings", "processor, s"]]
     print("  ".join(rows[0]))
     for om in asked.only:
         limit, held = closed(om)
