@@ -54,10 +54,17 @@ double allocated() {
 }
 
 /// Returns the case on fewer sites, on one rank and on the processor. timed: with the whole path;
-/// otherwise a quasi-static one is a relaxation.
+/// otherwise a quasi-static one is a relaxation over atoms, and two points over a wall, where the
+/// second has a solver of its own.
 Case piece_of(const Case& c, int sites, bool timed) {
     Case piece = c;
-    if (!c.effects.dynamic && !timed) piece.simulation.drive.path = {{Segment::relax}};
+    DriveOptions& drive = piece.simulation.drive;
+    if (!c.effects.dynamic && !timed) {
+        if (c.simulation.interface.wall)
+            drive.max_steps = std::min(drive.max_steps.value_or(2), 2LL);
+        else
+            drive.path = {{Segment::relax}};
+    }
     piece.ranks = 1;
     piece.simulation.device = {};
     BlockOptions& block = piece.simulation.block;
@@ -198,6 +205,9 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     } catch (const io::PhysicsError&) { // for the run to tell
     }
     done.resting = now() - begun;
+    // A path over a wall has made its own copies.
+    if (path && !piece.starts_with(Segment::relax))
+        done.bytes[Piece::rest] = std::max(0.0, done.bytes[Piece::rest] - done.bytes[Piece::kept]);
     if (path) done.points = path->steps();
     const VectorPlane<const double> layer =
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
