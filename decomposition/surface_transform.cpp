@@ -99,11 +99,14 @@ struct SurfaceTransform<T>::Parts {
         T* columns = nullptr;
     };
     std::vector<Own> own;
-    /// Waves that are transformed along x: of this rank's rows of all blocks, and, of several
-    /// ranks, of all rows of this rank's blocks, by rank. In both a block of a rank's rows is
-    /// [component][row][column], and the next one begins a line further, so that the blocks of a
-    /// row do not all lie at one place of a page.
-    AlignedArray<T> of_rows, of_blocks;
+    /// Waves that are transformed along x: this rank's rows of all blocks, or all rows of this
+    /// rank's blocks, which the ranks exchange in place. The part of each rank, its blocks or its
+    /// rows, begins at part(). In both a block of a rank's rows is [component][row][column], and
+    /// the next one begins a line further, so that the blocks of a row do not all lie at one place
+    /// of a page.
+    AlignedArray<T> waves_along_x;
+    std::vector<std::size_t> begins; ///< of each rank's part, and the end
+    AlignedArray<T> sent;            ///< a part that is being exchanged
 
     Parts(const Slab& of, int components_) : slab(of), components(components_) {
         const std::size_t room =
@@ -117,9 +120,15 @@ struct SurfaceTransform<T>::Parts {
             for (std::size_t c = 0; c < static_cast<std::size_t>(components); ++c)
                 mine.rows[c] = mine.room.get() + c * row_length();
         }
-        of_rows =
-            aligned_array<T>(static_cast<std::size_t>(slab.all_blocks()) * block_of(slab.rows));
-        if (slab.ranks.size() > 1) of_blocks = aligned_array<T>(from_rank(slab.ranks.size()));
+        begins.push_back(0);
+        std::size_t longest = 0;
+        for (int r = 0; r < slab.ranks.size(); ++r) {
+            const std::size_t part = std::max(length_as_rows(r), length_as_blocks(r));
+            begins.push_back(begins.back() + part);
+            longest = std::max(longest, part);
+        }
+        waves_along_x = aligned_array<T>(begins.back());
+        if (slab.ranks.size() > 1) sent = aligned_array<T>(longest);
         T* const sites = mine();
         auto* const waves = reinterpret_cast<Complex*>(waves_of_mine());
         rows_forward = F::real_to_waves(slab.sites, sites, waves, FFTW_ESTIMATE);
@@ -172,16 +181,20 @@ struct SurfaceTransform<T>::Parts {
     std::size_t block_of(int rows) const {
         return static_cast<std::size_t>(components) * of_component(rows) + line;
     }
-    /// Returns the place in of_blocks at which the part of a rank begins.
-    std::size_t from_rank(int rank) const {
-        std::size_t at = 0;
-        for (int r = 0; r < rank; ++r)
-            at += static_cast<std::size_t>(slab.blocks()) *
-                  block_of(slab.first_row(r + 1) - slab.first_row(r));
-        return at;
+    /// Returns the number of blocks of a rank, and of its rows.
+    int blocks_of(int rank) const { return slab.first_block(rank + 1) - slab.first_block(rank); }
+    int rows_of(int rank) const { return slab.first_row(rank + 1) - slab.first_row(rank); }
+    /// Returns the length of the part of a rank: this rank's rows of its blocks, or its rows of
+    /// this rank's blocks.
+    std::size_t length_as_rows(int rank) const {
+        return static_cast<std::size_t>(blocks_of(rank)) * block_of(slab.rows);
     }
+    std::size_t length_as_blocks(int rank) const {
+        return static_cast<std::size_t>(slab.blocks()) * block_of(rows_of(rank));
+    }
+    T* part(int rank) { return waves_along_x.get() + begins[static_cast<std::size_t>(rank)]; }
 
-    /// Transforms row y of this rank from its sites into of_rows; get_rows() goes back.
+    /// Transforms row y of this rank from its sites along x; get_rows() goes back.
     void put_rows(int y) {
         const auto& rows = of_thread().rows;
         T* const waves = waves_of_mine();
@@ -209,22 +222,25 @@ struct SurfaceTransform<T>::Parts {
     }
     template <class Copy>
     void each_of_row(int y, int c, const Copy& copy) {
-        T* there = of_rows.get() + static_cast<std::size_t>(c) * of_component(slab.rows) +
-                   static_cast<std::size_t>(y) * width;
-        for (int b = 0; b < slab.all_blocks(); ++b, there += block_of(slab.rows))
-            copy(there, static_cast<std::size_t>(b) * width);
+        const std::size_t in_block = static_cast<std::size_t>(c) * of_component(slab.rows) +
+                                     static_cast<std::size_t>(y) * width;
+        std::size_t i = 0;
+        for (int r = 0; r < slab.ranks.size(); ++r) {
+            T* there = part(r) + in_block;
+            for (int b = 0; b < blocks_of(r); ++b, there += block_of(slab.rows), i += width)
+                copy(there, i);
+        }
     }
 
-    /// Calls copy() for each rank's part of this rank's block b with its place in of_blocks, its
-    /// place in a whole block, and its length.
+    /// Calls copy() for each rank's rows of this rank's block b with their place in its part, their
+    /// place in a whole block, and their number of values.
     template <class Copy>
     void each_of_block(int b, const Copy& copy) {
         for (int r = 0; r < slab.ranks.size(); ++r) {
-            const int rows = slab.first_row(r + 1) - slab.first_row(r);
-            T* const part =
-                of_blocks.get() + from_rank(r) + static_cast<std::size_t>(b) * block_of(rows);
+            const int rows = rows_of(r);
+            T* const there = part(r) + static_cast<std::size_t>(b) * block_of(rows);
             for (int c = 0; c < components; ++c)
-                copy(part + static_cast<std::size_t>(c) * of_component(rows),
+                copy(there + static_cast<std::size_t>(c) * of_component(rows),
                      static_cast<std::size_t>(c) * of_component(slab.sites) +
                          of_component(slab.first_row(r)),
                      of_component(rows));
@@ -258,7 +274,7 @@ struct SurfaceTransform<T>::Parts {
     }
     T* get_block(int b) {
         T* const whole = second_block();
-        const T* from = of_rows.get() + static_cast<std::size_t>(b) * block_of(slab.rows);
+        const T* from = part(0) + static_cast<std::size_t>(b) * block_of(slab.rows);
         if (slab.ranks.size() > 1) {
             each_of_block(b, [&](const T* part, std::size_t at, std::size_t count) {
                 std::copy_n(part, count, mine() + at);
@@ -271,7 +287,7 @@ struct SurfaceTransform<T>::Parts {
     void put_block(int b, const T* waves) {
         if (slab.ranks.size() == 1) {
             transform_block(columns_backward, waves,
-                            of_rows.get() + static_cast<std::size_t>(b) * block_of(slab.rows));
+                            part(0) + static_cast<std::size_t>(b) * block_of(slab.rows));
             return;
         }
         transform_block(columns_backward, waves, mine());
@@ -280,25 +296,23 @@ struct SurfaceTransform<T>::Parts {
         });
     }
 
-    /// Exchanges the rows of all ranks for this rank's blocks (to_blocks), or sends them back.
+    /// Exchanges the rows of all ranks for this rank's blocks (to_blocks), or sends them back: in
+    /// turn with each rank, in place. The part of this rank itself is the same in both.
     void exchange(bool to_blocks) {
-        if (slab.ranks.size() == 1) return;
-        std::vector<Message> messages;
         // A wave in single precision is as long as a double.
         const auto span = [](T* at, std::size_t count) {
             return std::span(reinterpret_cast<double*>(at), count * sizeof(T) / sizeof(double));
         };
-        for (int r = 0; r < slab.ranks.size(); ++r) {
-            const auto first = static_cast<std::size_t>(slab.first_block(r));
-            const auto its = static_cast<std::size_t>(slab.first_block(r + 1)) - first;
-            const auto rows =
-                span(of_rows.get() + first * block_of(slab.rows), its * block_of(slab.rows));
-            const auto blocks =
-                span(of_blocks.get() + from_rank(r), from_rank(r + 1) - from_rank(r));
-            messages.push_back(to_blocks ? Message{r, r, 0, rows, blocks}
-                                         : Message{r, r, 0, blocks, rows});
+        const int ranks = slab.ranks.size(), me = slab.ranks.rank();
+        for (int turn = 0; turn < ranks; ++turn) {
+            const int r = (turn - me + ranks) % ranks; // whose turn is with this rank
+            if (r == me) continue;
+            const std::size_t rows = length_as_rows(r), blocks = length_as_blocks(r);
+            std::copy_n(part(r), to_blocks ? rows : blocks, sent.get());
+            const Message message{r, r, 0, span(sent.get(), to_blocks ? rows : blocks),
+                                  span(part(r), to_blocks ? blocks : rows)};
+            slab.ranks.exchange(std::span(&message, 1));
         }
-        slab.ranks.exchange(messages);
     }
 };
 

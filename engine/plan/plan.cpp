@@ -48,8 +48,8 @@ constexpr double one_day = 86400.0; ///< s
 /// Bytes of the root for a node of a band of a map: the others' parts, the band, and what is
 /// written.
 constexpr double bytes_of_bands = 3.0 * sizeof(double);
-/// Bytes for a component of a site in which the transforms of several ranks exchange waves, in
-/// double and single precision.
+/// Bytes for a component of a site of the part that the transforms of two ranks exchange at a time,
+/// in double and single precision.
 constexpr double bytes_exchanged = sizeof(double) + sizeof(float);
 
 /// Returns pieces of growing width; the last is the largest that the time allows.
@@ -125,7 +125,8 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     const double components = c.effects.dynamic || c.effects.lateral ? 3.0 : 1.0;
     const double map = part == Piece::interface ? piece.map : 0.0;
     return (bytes - map) * here + (map > 0.0 ? bytes_of_map(c, tile) : 0.0) +
-           (at_rest && c.ranks > 1 ? bytes_exchanged * components * tile.nx * tile.ny : 0.0);
+           (at_rest && c.ranks > 1 ? bytes_exchanged * components * tile.nx * tile.ny / c.ranks
+                                   : 0.0);
 }
 
 /// Returns the bytes of the maps of a state for a site: six numbers and a mark, two of a surface
