@@ -166,6 +166,9 @@ void Communicator::abort(int exit_code) const {
 
 ParallelSession::ParallelSession(int& argc, char**& argv) {
     if (!launched_in_parallel()) return;
+    // A rank of Open MPI that waits leaves its processor to others: the rank that it waits for may
+    // have no other one.
+    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     started_ = true;

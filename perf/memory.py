@@ -48,8 +48,7 @@ def peaks(program: str, scene: pathlib.Path, ranks: int) -> list[int]:
         if ranks > 1:
             command = [*mpirun(), "--oversubscribe", "--bind-to", "none", "-n", str(ranks), *command]
         subprocess.run(command, check=True, stdout=subprocess.DEVNULL, env={
-            **os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-            "OMPI_MCA_mpi_yield_when_idle": "1"})
+            **os.environ, "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"})
         return sorted((int(file.read_text()) for file in pathlib.Path(scratch).glob("rank-*")), reverse=True)
 
 
