@@ -34,6 +34,28 @@ namespace {
 
 int count(std::size_t n) { return static_cast<int>(n); }
 
+/// Waits until the requests are complete. A rank that waits for longer than messages take sleeps,
+/// so that other ranks and programs have its processor: the one that it waits for may be among
+/// them. A rank that has slept is woken before programs that compute.
+void wait_for(std::span<MPI_Request> requests) {
+    constexpr std::chrono::microseconds awake(200), asleep(50);
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point begin = Clock::now();
+    for (int complete = 0;;) {
+        MPI_Testall(count(requests.size()), requests.data(), &complete, MPI_STATUSES_IGNORE);
+        if (complete) return;
+        if (Clock::now() - begin > awake) std::this_thread::sleep_for(asleep);
+    }
+}
+
+/// Calls begin(&request), which begins a collective operation, and waits for it.
+template <class Begin>
+void wait_after(const Begin& begin) {
+    MPI_Request request;
+    begin(&request);
+    wait_for(std::span(&request, 1));
+}
+
 /// Returns the processors that this process may use as a number: FNV-1a of their mask.
 std::uint64_t processors_allowed() {
     std::vector<cpu_set_t> mask(1);
@@ -63,12 +85,16 @@ Communicator Communicator::of_fortran(int number) {
 
 void Communicator::sum(std::span<double> v) const {
     if (!mpi_) return;
-    MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_DOUBLE, MPI_SUM, mpi_->all);
+    wait_after([&](MPI_Request* r) {
+        MPI_Iallreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_DOUBLE, MPI_SUM, mpi_->all, r);
+    });
 }
 
 void Communicator::sum(std::span<std::int64_t> v) const {
     if (!mpi_) return;
-    MPI_Allreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_INT64_T, MPI_SUM, mpi_->all);
+    wait_after([&](MPI_Request* r) {
+        MPI_Iallreduce(MPI_IN_PLACE, v.data(), count(v.size()), MPI_INT64_T, MPI_SUM, mpi_->all, r);
+    });
 }
 
 double Communicator::sum_on_machine(double value) const {
@@ -91,7 +117,10 @@ void Communicator::share_processors() const {
 }
 
 double Communicator::max(double value) const {
-    if (mpi_) MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, mpi_->all);
+    if (mpi_)
+        wait_after([&](MPI_Request* r) {
+            MPI_Iallreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, mpi_->all, r);
+        });
     return value;
 }
 
@@ -99,8 +128,10 @@ void Communicator::broadcast(std::span<std::byte> bytes) const {
     if (!mpi_) return;
     constexpr std::size_t chunk = std::size_t{1} << 30; // MPI counts are ints
     for (std::size_t at = 0; at < bytes.size(); at += chunk)
-        MPI_Bcast(bytes.data() + at, count(std::min(chunk, bytes.size() - at)), MPI_BYTE, 0,
-                  mpi_->all);
+        wait_after([&](MPI_Request* r) {
+            MPI_Ibcast(bytes.data() + at, count(std::min(chunk, bytes.size() - at)), MPI_BYTE, 0,
+                       mpi_->all, r);
+        });
 }
 
 void Communicator::all_gather(std::span<const double> mine, std::span<const int> counts,
@@ -112,8 +143,10 @@ void Communicator::all_gather(std::span<const double> mine, std::span<const int>
     std::vector<int> offsets(counts.size(), 0);
     for (std::size_t r = 1; r < counts.size(); ++r)
         offsets[r] = offsets[r - 1] + counts[r - 1];
-    MPI_Allgatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
-                   offsets.data(), MPI_DOUBLE, mpi_->all);
+    wait_after([&](MPI_Request* r) {
+        MPI_Iallgatherv(mine.data(), count(mine.size()), MPI_DOUBLE, all.data(), counts.data(),
+                        offsets.data(), MPI_DOUBLE, mpi_->all, r);
+    });
 }
 
 void Communicator::exchange(std::span<const Message> messages) const {
@@ -130,11 +163,11 @@ void Communicator::exchange(std::span<const Message> messages) const {
     for (const Message& m : messages)
         if (to_itself(m)) std::copy(m.send.begin(), m.send.end(), m.receive.begin());
     if (requests.empty()) return;
-    MPI_Waitall(count(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    wait_for(requests);
 }
 
 void Communicator::barrier() const {
-    if (mpi_) MPI_Barrier(mpi_->all);
+    if (mpi_) wait_after([&](MPI_Request* r) { MPI_Ibarrier(mpi_->all, r); });
 }
 
 bool Communicator::all_arrive(double seconds) const {
@@ -166,9 +199,6 @@ void Communicator::abort(int exit_code) const {
 
 ParallelSession::ParallelSession(int& argc, char**& argv) {
     if (!launched_in_parallel()) return;
-    // A rank of Open MPI that waits leaves its processor to others: the rank that it waits for may
-    // have no other one.
-    ::setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
     started_ = true;
