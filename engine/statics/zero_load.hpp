@@ -74,8 +74,8 @@ std::optional<ZeroLoad> find_zero_load(SpectralBlock& block, const Interface& in
 /// A relaxed state on one rank.
 struct LayerAtRest {
     std::optional<ZeroLoad> numbers;
-    /// Displacements of the lowest layer of this rank's tile, Å; empty if the block that was relaxed
-    /// is still in the state.
+    /// Displacements of the lowest layer of this rank's tile, Å; empty if the block that was
+    /// relaxed is still in the state.
     VectorField<double> layer;
 };
 /// Relaxes a copy of a moving block at zero load. The state depends on the displacements of the

@@ -594,7 +594,7 @@ TEST(Yield, NextPointTakesAFewProducts) {
                 {"approach", load_of(20), load_of(100), load_of(180), "pull-off"}));
             EXPECT_GT(of_segment(run, 3, "yielding_fraction"), 0.5);
             const double points = static_cast<double>(run.series("force").size());
-            std::printf("PER %g\n", run("run.iterations") / points); EXPECT_LT(run("run.iterations") / points, 20.0) << control << " " << sites;
+            EXPECT_LT(run("run.iterations") / points, 20.0) << control << " " << sites;
         }
 }
 
