@@ -216,8 +216,8 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
     InterfaceMaps maps;
     maps.nx = tile_.nx;
     maps.ny = tile_.ny;
-    const std::size_t count =
-        static_cast<std::size_t>(tile_.nx) * static_cast<std::size_t>(tile_.ny);
+    const auto nx = static_cast<std::size_t>(tile_.nx);
+    const std::size_t count = nx * static_cast<std::size_t>(tile_.ny);
     maps.contact.resize(count);
     for (std::vector<double>* map : {&maps.distance, &maps.gap, &maps.pressure})
         map->resize(count);
@@ -247,7 +247,8 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
         for (int y = 0; y < tile_.ny; ++y) {
             sweep_row(sites, y, {.observe = true}, sums);
             for (int x = 0; x < tile_.nx; ++x) {
-                const auto i = static_cast<std::size_t>(y * tile_.nx + x);
+                const std::size_t i =
+                    static_cast<std::size_t>(y) * nx + static_cast<std::size_t>(x);
                 const double r2 = sites.nearest_r2(x, y);
                 maps.distance[i] =
                     r2 < no_pair ? std::sqrt(r2) : std::numeric_limits<double>::infinity();

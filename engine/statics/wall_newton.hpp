@@ -25,12 +25,12 @@
 // in single precision would be a force of the stiff waves.
 //
 // Over a wall that yields, a step exchanges sites between three sets: those that yield, those that
-// the wall holds, and the others. A site whose pressure would exceed the hardness, or fall below
-// the largest attraction, leaves the wall by the distance at which the block's stiffest wave would
-// carry the excess, not by the step, in which the stiffness of the wall counts. A site that ends to
-// yield, or that reaches the yield gap from outside, is put into the second set, at the yield gap.
-// A step of the height alone would send it from one end of the law to the other, and back in the
-// next step. A held mean height is then met only by the steps that follow.
+// the wall holds, and those that it does not touch. A site whose pressure would exceed the hardness
+// yields, deeper than the yield gap by the distance at which the block's stiffest wave would carry
+// the excess: the step itself has the stiffness of the wall in it. A site that ends to yield, or
+// that reaches the yield gap from outside, is put into the second set, at the yield gap: the whole
+// step would send it from one end of the law to the other, and back in the next step. A held mean
+// height is then met only by the steps that follow.
 #pragma once
 
 #include "engine/interface/interface.hpp"
