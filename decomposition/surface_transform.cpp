@@ -105,7 +105,7 @@ struct SurfaceTransform<T>::Parts {
     /// the next one begins a line further, so that the blocks of a row do not all lie at one place
     /// of a page.
     AlignedArray<T> waves_along_x;
-    std::vector<std::size_t> begins; ///< of each rank's part, and the end
+    std::vector<std::size_t> begins; ///< places at which the ranks' parts begin, and the end
     AlignedArray<T> sent;            ///< a part that is being exchanged
 
     Parts(const Slab& of, int components_) : slab(of), components(components_) {
