@@ -4,9 +4,9 @@
 """Peak memory of each rank beside what plan says: memory.py [--program PROGRAM] [--kinds wall ...] [--sites 1024 ...] [--ranks 1 2 4]
 
 The peak is the kernel's high-water mark of each process. "sum" is that of all ranks, "over one" this sum over the peak of one rank, "own" the
-same of what ranks take beyond the peak of as many ranks on 16 sites (the program, MPI and its buffers), and "planned" the memory that
-plan says for all ranks. Kinds: a state over a wall, over atoms, of a tip with free edges, over a wall with a field of adhesion,
-and four points of a path over a wall and over atoms. Writes all as CSV with --csv.
+same of what ranks take beyond the peak of as many ranks on 16 sites (the program, MPI and its buffers), and "planned over own" the memory
+that plan says for all ranks over this. Kinds: a state over a wall, over atoms, of a tip with free edges, over a wall with a field of
+adhesion, and four points of a path over a wall and over atoms. Writes all as CSV with --csv.
 """
 import argparse
 import csv
@@ -74,7 +74,7 @@ def main() -> None:
     words.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4])
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
-    rows = [["kind", "sites", "ranks", "sum, MB", "largest, MB", "over one", "own", "planned, MB", "planned over own"]]
+    rows = [["kind", "sites", "ranks", "sum, MB", "largest, MB", "over one", "own", "planned over own"]]
     print("  ".join(rows[0]))
     with tempfile.TemporaryDirectory() as scratch:
         scene, small = pathlib.Path(scratch, "memory.toml"), pathlib.Path(scratch, "small.toml")
@@ -90,7 +90,7 @@ def main() -> None:
                 own = sum(found) - bare[ranks]
                 one, own_of_one = one or sum(found), own_of_one or own
                 rows.append([kind, sites, ranks, f"{sum(found) / 1e6:.0f}", f"{found[0] / 1e6:.0f}", f"{sum(found) / one:.2f}",
-                             f"{own / own_of_one:.2f}", f"{planned / 1e6:.0f}", f"{planned / own:.2f}"])
+                             f"{own / own_of_one:.2f}", f"{planned / own:.2f}"])
                 print("  ".join(map(str, rows[-1])), flush=True)
     if asked.csv:
         with asked.csv.open("w", newline="") as file:

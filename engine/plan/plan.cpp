@@ -45,9 +45,9 @@ std::string memory_text(double bytes) {
 
 constexpr double one_day = 86400.0; ///< s
 
-/// Returns the bytes of the root for a node of a band of a map: the band, what is written, and the
-/// others' parts.
-double bytes_of_bands(int ranks) { return (ranks > 1 ? 3.0 : 2.0) * sizeof(double); }
+/// Bytes of the root for a node of a band of a map: the others' parts, the band, and what is
+/// written.
+constexpr double bytes_of_bands = 3.0 * sizeof(double);
 /// Bytes for a component of a site of the part that the transforms of two ranks exchange at a time,
 /// in double and single precision.
 constexpr double bytes_exchanged = sizeof(double) + sizeof(float);
@@ -113,10 +113,10 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
     }
     if (part == Piece::maps &&
         bytes > 0.0) // the root holds bands of the others', and the stresses whole
-        return bytes * here +
-               (rank == 0 ? bytes_of_bands(c.ranks) * rows_of_band(block.grid()) * block.grid() +
-                                stress_bytes(block.sites, c.output.stress)
-                          : 0.0);
+        return bytes * here + (rank == 0
+                                   ? bytes_of_bands * rows_of_band(block.grid()) * block.grid() +
+                                         stress_bytes(block.sites, c.output.stress)
+                                   : 0.0);
     if (c.effects.dynamic && (part == Piece::block || part == Piece::kept))
         return bytes * nodes_of(c.levels) / piece.nodes / whole * (tile.nx + h) * (tile.ny + h) /
                std::pow(piece.sites + h, 2);

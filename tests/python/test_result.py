@@ -324,7 +324,7 @@ def test_a_run_takes_the_memory_that_its_plan_says(results, effects):
         return 1024.0 * int(told.stdout.split()[-1])
 
     # The run of few sites has the libraries, whose buffers are a part of what a state over a wall takes.
-    sites = 768 if "interface.kind=wall" in effects else 384
+    sites = 1024 if "interface.kind=wall" in effects else 384
     taken = peak(sites) - peak(24)
     planned = 1e6 * float(re.search(r"^ *altogether +([0-9.]+) MB", command("plan", "-", *words(sites)), re.MULTILINE)[1])
     assert 0.85 * planned < taken < 1.15 * planned
