@@ -67,6 +67,13 @@ made $data/renormalised.csv $data/fig5-equilibrium.csv $data/parameters.csv
 made $data/tables/curve-fits.csv
 "$python" scenes/validation/tip_curves.py --csv $data/tables/tip-curves.csv
 made $data/tables/tip-curves.csv
+for sites in 32 64; do
+    table=yielding$([ $sites = 64 ] || echo -cost).csv
+    "$python" scenes/validation/yielding.py --sites $sites --out $place/yielding-$sites --csv $data/tables/$table
+    made $data/tables/$table
+done
+"$python" scenes/validation/dents.py --out $place/dents --csv $data/tables/dents.csv
+made $data/tables/dents.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/works >$place/log.txt

@@ -10,7 +10,6 @@ four λ. Each curve has an offset, a tilt, noise (of 1.5πwR) and its own place 
 deviations over the mean of the errors ("bias"), and the share of the curves within one of their errors. A minute of one core.
 """
 import argparse
-import csv
 import math
 import pathlib
 import sys
@@ -19,6 +18,8 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+from printed import Printed  # noqa: E402
+
 from asperity.studies.curve_fit import fit, regions  # noqa: E402
 from asperity.theories.indentation import Indenter, path  # noqa: E402
 
@@ -57,14 +58,11 @@ def main() -> None:
     words.add_argument("--noise", type=float, nargs="+", default=[0.01, 0.05])
     words.add_argument("--csv", type=pathlib.Path, default=pathlib.Path("results/curves.csv"))
     asked = words.parse_args()
-    rows = [["curve and model", "noise, %", "error of w, %", "bias of w", "w within, %", "error of E*, %", "bias of E*", "E* within, %"]]
+    table = Printed("curve and model", "noise, %", "error of w, %", "bias of w", "w within, %", "error of E*, %", "bias of E*", "E* within, %")
     for noise in asked.noise:
         for model, parameter in CASES:
-            rows.append(row_of(model, parameter, noise, asked.points, asked.curves))
-            print("  ".join(rows[-1]), flush=True)
-    asked.csv.parent.mkdir(parents=True, exist_ok=True)
-    with asked.csv.open("w", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
+            table.add(*row_of(model, parameter, noise, asked.points, asked.curves))
+    table.write(asked.csv)
 
 
 if __name__ == "__main__":

@@ -15,7 +15,6 @@ contact of its area at the hardness, which is stated over that under the load al
 to some minutes for each om.
 """
 import argparse
-import csv
 import math
 import os
 import pathlib
@@ -26,6 +25,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "python"), str(ROOT / "scenes/validation")]
 import rings  # noqa: E402
+from printed import Printed  # noqa: E402
 
 import asperity  # noqa: E402
 
@@ -105,9 +105,8 @@ def main() -> None:
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # few sites
-    rows = [["om", "closed", f"rings, l/r {RANGES[0]}", *map(str, RANGES[1:]), "to no range", "over closed", "l/A", "area", "program", "rings",
-             "over rings", "processor, s"]]
-    print("  ".join(rows[0]))
+    table = Printed("om", "closed", f"rings, l/r {RANGES[0]}", *map(str, RANGES[1:]), "to no range", "over closed", "l/A", "area", "program",
+                    "rings", "over rings", "processor, s")
     for om in asked.only:
         limit, held = closed(om)
         found = [of_rings(om, part * held) for part in RANGES]
@@ -122,11 +121,8 @@ def main() -> None:
             wider = math.sqrt(area)
             same = area * of_rings(om / wider, length / wider)
             row += [f"{length:.4f}", f"{area:.4f}", f"{pulled:.5f}", f"{same:.5f}", f"{pulled / same:.3f}", f"{seconds:.0f}"]
-        rows.append(row)
-        print("  ".join(row), flush=True)
-    if asked.csv:
-        with asked.csv.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
+        table.add(*row)
+    table.write(asked.csv)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,6 @@ at 1500 points of each direction, with a noise of 0.5 % of 1.5πwR. A row has, o
 (--range) and with the model unknown, each with its error, and w of JKR alone. Half a minute to two minutes a row.
 """
 import argparse
-import csv
 import math
 import pathlib
 import sys
@@ -19,6 +18,8 @@ import numpy as np
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+from printed import Printed  # noqa: E402
+
 import asperity  # noqa: E402
 
 SAMPLES = ((30.0, 0.3), (3.0, 0.9), (3.0, 0.3), (0.5, 0.5), (0.5, 0.2))
@@ -65,14 +66,10 @@ def main() -> None:
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     asked.out.mkdir(parents=True, exist_ok=True)
-    rows = [["sample", "λ", "known range: w", "E*", "unknown: w", "E*", "JKR alone: w"]]
-    print("  ".join(rows[0]))
+    table = Printed("sample", "λ", "known range: w", "E*", "unknown: w", "E*", "JKR alone: w")
     for number in asked.only:
-        rows.append(row_of(number, asked.sites, asked.out))
-        print("  ".join(rows[-1]), flush=True)
-    if asked.csv:
-        with asked.csv.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
+        table.add(*row_of(number, asked.sites, asked.out))
+    table.write(asked.csv)
 
 
 if __name__ == "__main__":

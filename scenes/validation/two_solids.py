@@ -9,7 +9,6 @@ Writes two-solids.csv and stresses-below.csv (docs/reports/two-solids.md): each 
 stands in this file: closed forms, and of rough contacts those of other programs. Two minutes of one core.
 """
 import argparse
-import csv
 import os
 import pathlib
 import sys
@@ -19,6 +18,7 @@ import numpy as np
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
 import h5py  # noqa: E402
+from printed import Printed  # noqa: E402
 
 import asperity  # noqa: E402
 from asperity.running import program  # noqa: E402
@@ -81,39 +81,33 @@ def scene(place: pathlib.Path, own: np.ndarray, counter: np.ndarray, n: int = SI
             "drive": {"mode": "quasistatic", "path": ["relax"], "load": 300.0, "tolerance": 1e-6}}
 
 
-class Rows:
-    """Rows of a table, which are printed as they come."""
+class Rows(Printed):
+    """Numbers beside the expected ones."""
 
     def __init__(self) -> None:
-        self.rows: list[list[str]] = []
+        super().__init__("number", "expected", "program")
 
-    def add(self, what: str, expected: float, found: float, digits: int = 4) -> None:
+    def number(self, what: str, expected: float, found: float, digits: int = 4) -> None:
         """Adds a number beside the expected one."""
-        self.rows.append([what, *(f"{0.0 if abs(value) < 1e-9 else value:.{digits}g}" for value in (expected, found))])
-        print("  ".join(self.rows[-1]), flush=True)
-
-    def write(self, file: pathlib.Path) -> None:
-        """Writes the table."""
-        with open(file, "w", newline="") as opened:
-            csv.writer(opened, lineterminator="\n").writerows([["number", "expected", "program"], *self.rows])
+        self.add(what, *(f"{0.0 if abs(value) < 1e-9 else value:.{digits}g}" for value in (expected, found)))
 
 
 def composite(place: pathlib.Path) -> Rows:
     """Heights, full contact and areas of the test map on itself, and moduli of two solids."""
     rows, n = Rows(), 256
     h = banded(n, 4, 32)
-    rows.add("test map, rms height over its width", 1.42107e-3, h.std(), 6)
-    rows.add("test map, energy of full contact over E*", 2.39918e-5, full(h), 6)
+    rows.number("test map, rms height over its width", 1.42107e-3, h.std(), 6)
+    rows.number("test map, energy of full contact over E*", 2.39918e-5, full(h), 6)
     for d, expected in SHIFTS.items():
         with scene_file(scene(place, h, -h[:, ::-1], n)) as file:
             s = surface_made(file, [f"surface.counter_shift_x={-d}"]).heights / n
         for name, one, found in zip(("rms^2", "slope^2", "energy of full contact"), expected,
                                     (s.var() / h.var(), slope(s)**2 / slope(h)**2, full(s) / full(h))):
-            rows.add(f"h(x) - h(x + {d}) over h, {name}", one, found)
+            rows.number(f"h(x) - h(x + {d}) over h, {name}", one, found)
     with scene_file(scene(place, h, h[:, ::-1], n, counter_turn=90.0)) as file:
         s = surface_made(file).heights / n
-    rows.add("h + h turned by 90 degrees, slope", 0.112447, slope(s), 6)
-    rows.add("h + h turned by 90 degrees, energy of full contact over E*", 4.7904e-5, full(s), 5)
+    rows.number("h + h turned by 90 degrees, slope", 0.112447, slope(s), 6)
+    rows.number("h + h turned by 90 degrees, energy of full contact over E*", 4.7904e-5, full(s), 5)
     for (turn, shift), areas in AREAS.items():  # of gaps of the test map
         name = "h + h turned by 90 degrees" if turn else "h(x) - h(x + 8)"
         made = scene(place, -h, (-h if turn else h)[:, ::-1], n, counter_turn=turn, counter_shift_x=shift)
@@ -121,13 +115,13 @@ def composite(place: pathlib.Path) -> Rows:
         for pressure, area in zip((0.005, 0.01, 0.02), areas):
             made["drive"] |= {"load": pressure * 1e4 / (1 - 0.3**2), "tolerance": 1e-3}
             found = asperity.run(made, out=place / f"area-{turn:g}-{pressure}", progress=False).contact_fraction
-            rows.add(f"{name}, area at {pressure} E*", area, found)
+            rows.number(f"{name}, area at {pressure} E*", area, found)
     n = 32
     state = asperity.run(scene(place, banded(n, 2, 8), banded(n, 3, 7), n, counter_young=70, counter_poisson=0.2), {"block.thickness": 4 * n},
                          out=place / "moduli", progress=False).fields["relaxed"]
     pressure, both, counter = (np.fft.fft2(one)[0, 2] for one in (state.pressure, state.u_z, state.u_z_counter))
-    rows.add("10 GPa, 0.3 on 70 GPa, 0.2: E*, GPa", 9.5498, (2 * pressure / (2 * np.pi * 2 / n * both)).real, 5)
-    rows.add("the same, share of the first in the displacement", 0.86903, ((both + counter) / both).real, 5)
+    rows.number("10 GPa, 0.3 on 70 GPa, 0.2: E*, GPa", 9.5498, (2 * pressure / (2 * np.pi * 2 / n * both)).real, 5)
+    rows.number("the same, share of the first in the displacement", 0.86903, ((both + counter) / both).real, 5)
     return rows
 
 
@@ -165,7 +159,7 @@ def stresses(place: pathlib.Path) -> Rows:
     for z, expected in WAVE.items():
         s = below(wave, z / q, place, free=False)[1]
         for name, one, found in zip(("szz", "sxx", "von Mises"), expected, (s["zz"][0, 0], s["xx"][0, 0], von_mises(s).max())):
-            rows.add(f"wave, qz = {z}: {name}", one, found)
+            rows.number(f"wave, qz = {z}: {name}", one, found)
     a, n = 16.0, 256
     sphere = averaged(n, lambda r: np.sqrt(np.maximum(0, 1 - (r / a)**2)), 1)
     punch = averaged(n, lambda r: np.where(r < a, 1 / np.sqrt(np.maximum(1e-12, 1 - (r / a)**2)), 0), 10)
@@ -173,12 +167,12 @@ def stresses(place: pathlib.Path) -> Rows:
         for z, expected in table.items():
             s = below(pressure, z * a, place)[1]
             for component, one in zip(("zz", "xx"), expected):
-                rows.add(f"{name}, z = {z} a: s{component}", one, s[component][n // 2, n // 2])
+                rows.number(f"{name}, z = {z} a: s{component}", one, s[component][n // 2, n // 2])
     n = 128
     sphere = averaged(n, lambda r: np.sqrt(np.maximum(0, 1 - (r / a)**2)), 4)
     for friction, expected in SLIDING.items():
         found = max(von_mises(s).max() for s in below(sphere, 0.875 * a, place, friction, depths=8))
-        rows.add(f"sphere that slides, friction {friction}: largest von Mises", expected, found)
+        rows.number(f"sphere that slides, friction {friction}: largest von Mises", expected, found)
     n, t = 64, 2.0
     for (ratio, qt), expected in LAYERS.items():
         waves = round(qt / t * n / (2 * np.pi)) or 1
@@ -189,7 +183,7 @@ def stresses(place: pathlib.Path) -> Rows:
         inside = below(wave, thick * (1 + 1e-9), place, free=False, layers=[[thick, float(ratio), 0.3]])[1]
         for name, one, found in zip(("szz at the interface", "sxx in the layer there", "sxx below it", "sxx at the surface"), expected,
                                     (coat["zz"][0, 0], coat["xx"][0, 0], inside["xx"][0, 0], surface["xx"][0, 0])):
-            rows.add(f"layer, E1/E2 = {ratio}, qt = {qt}: {name}", one, found)
+            rows.number(f"layer, E1/E2 = {ratio}, qt = {qt}: {name}", one, found)
     return rows
 
 

@@ -11,7 +11,6 @@ sites at the hardness and the mean set at the largest load, points, iterations a
 hardness, and the error of the balance of energies. Some minutes of one core.
 """
 import argparse
-import csv
 import os
 import pathlib
 import random
@@ -19,6 +18,8 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "python"))
+from printed import Printed  # noqa: E402
+
 import asperity  # noqa: E402
 
 
@@ -43,8 +44,8 @@ def main() -> None:
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # few sites
-    rows = [["map", "H/E*", "slope", "attraction", "at H", "set/rms", "points", "iterations", "over elastic", "time over elastic", "balance"]]
-    print("  ".join(rows[0]))
+    table = Printed("map", "H/E*", "slope", "attraction", "at H", "set/rms", "points", "iterations", "over elastic", "time over elastic",
+                    "balance")
     for number in range(asked.first, asked.first + asked.maps):
         keys, hardness = keys_of(number, asked.sites)
         path = [*(f"load {part * hardness * 1000:.8g} MPa" for part in (0.01, 0.1, 0.5, 0.9, 0.99)), "pull-off"]
@@ -53,14 +54,11 @@ def main() -> None:
         full = runs[0]["segments"][-2]
         work = [run["run"]["iterations"] for run in runs]
         seconds = [run["run"]["processor_seconds"] for run in runs]
-        rows.append([f"{number}", f"{hardness / 10:.4f}", f"{runs[0]['surface']['rms_slope']:.4f}",
+        table.add(f"{number}", f"{hardness / 10:.4f}", f"{runs[0]['surface']['rms_slope']:.4f}",
                      "no" if keys["interface.adhesion"] == "0" else "yes", f"{full['yielding_fraction']:.4f}",
                      f"{full['mean_set'] / runs[0]['surface']['rms']:.4f}", f"{runs[0]['run']['steps']}", f"{work[0]}", f"{work[0] / work[1]:.2f}",
-                     f"{seconds[0] / seconds[1]:.2f}", f"{abs(runs[0]['energy']['balance_error']):.1e}"])
-        print("  ".join(rows[-1]), flush=True)
-    if asked.csv:
-        with asked.csv.open("w", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
+                     f"{seconds[0] / seconds[1]:.2f}", f"{abs(runs[0]['energy']['balance_error']):.1e}")
+    table.write(asked.csv)
 
 
 if __name__ == "__main__":
