@@ -60,10 +60,10 @@ Case piece_of(const Case& c, int sites, bool timed) {
     Case piece = c;
     DriveOptions& drive = piece.simulation.drive;
     if (!c.effects.dynamic && !timed) {
-        if (c.simulation.interface.wall)
-            drive.max_steps = std::min(drive.max_steps.value_or(2), 2LL);
-        else
-            drive.path = {{Segment::relax}};
+        const bool points = std::ranges::any_of(
+            c.path(), [](const Segment& segment) { return segment.kind != Segment::relax; });
+        drive.path = {{c.simulation.interface.wall && points ? Segment::approach : Segment::relax}};
+        drive.max_steps = 2;
     }
     piece.ranks = 1;
     piece.simulation.device = {};

@@ -131,6 +131,20 @@ TEST(Plan, HeightsOfARankAreThoseHeld) {
     }
 }
 
+/// The solver of points over a wall has more arrays than that of a state, wherever a path begins.
+TEST(Plan, PathsOverAWallTakeTheirSolver) {
+    const auto bytes = [](const char* path) {
+        return bytes_of(make_plan(
+            case_with({"surface.sites=256", "interface.kind=wall", "drive.mode=quasistatic",
+                       "output.fields=[]", std::string("drive.path=") + path}),
+            0));
+    };
+    const double approach = bytes("[\"approach\", \"pull-off\"]");
+    EXPECT_GT(approach, 1.2 * bytes("[\"relax\"]"));
+    EXPECT_NEAR(bytes("[\"relax\", \"pull-off\"]") / approach, 1.0, 0.02);
+    EXPECT_NEAR(bytes("[\"load 100 MPa\", \"pull-off\"]") / approach, 1.0, 0.02);
+}
+
 TEST(Plan, NodesHoldSoManyRanks) {
     const Case c = case_with({"surface.sites=96"}, 4);
     const Plan plan = make_plan(c, 0);
