@@ -74,6 +74,8 @@ for sites in 32 64; do
 done
 "$python" scenes/validation/dents.py --out $place/dents --csv $data/tables/dents.csv
 made $data/tables/dents.csv
+"$python" scenes/validation/works.py --out $place/errors --csv $data/tables/standard-errors.csv
+made $data/tables/standard-errors.csv
 "$python" $gallery/renormalised.py
 "$python" $gallery/fig5.py
 ./asperity sweep scenes/paper/small/fig2-quasistatic.toml --set surface.rms=0.5,1,1.5,2,3,4.5 --out $place/works >$place/log.txt

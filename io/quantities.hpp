@@ -77,11 +77,11 @@ inline constexpr Quantity written_quantities[] = {
     {"pair_binding_energy", "meV/Å^2", per::area,
      "-U_LJ of the relaxed state: binding energy of the pairs alone, without the elastic energy"},
     {"work_of_interface.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of work_of_interface.approach (quasi-static), for the sequence of instabilities "
-     "on the path"},
+     "convergence of work_of_interface.approach (quasi-static): standard error, by the steps "
+     "and the tolerance of the path"},
     {"work_of_interface.uncertainty.pull_off", "meV/Å^2", per::area,
-     "convergence of work_of_interface.pull_off (quasi-static), for the sequence of instabilities "
-     "on the path"},
+     "convergence of work_of_interface.pull_off (quasi-static): standard error, by the steps "
+     "and the tolerance of the path"},
     {"work_of_drive.approach", "meV/Å^2", per::area,
      "work of the drive on the solids during the approach, from rest beyond the interaction range: "
      "negative if they attract each other. The drive is the top plane (on dynamic paths with the "
@@ -90,11 +90,11 @@ inline constexpr Quantity written_quantities[] = {
      "work of the drive on the solids during the pull-off, until they are at rest beyond the "
      "interaction range"},
     {"work_of_drive.uncertainty.approach", "meV/Å^2", per::area,
-     "convergence of work_of_drive.approach (quasi-static), for the sequence of instabilities on "
-     "the path"},
+     "convergence of work_of_drive.approach (quasi-static): standard error, by the steps and "
+     "the tolerance of the path"},
     {"work_of_drive.uncertainty.pull_off", "meV/Å^2", per::area,
-     "convergence of work_of_drive.pull_off (quasi-static), for the sequence of instabilities on "
-     "the path"},
+     "convergence of work_of_drive.pull_off (quasi-static): standard error, by the steps and "
+     "the tolerance of the path"},
     {"{loss}.approach", "meV/Å^2", per::area,
      "{meaning}, during the approach; if the path has several cycles: of the last one"},
     {"{loss}.pull_off", "meV/Å^2", per::area,
@@ -102,8 +102,10 @@ inline constexpr Quantity written_quantities[] = {
     {"{loss}.cycle", "meV/Å^2", per::area,
      "{meaning}, in a whole cycle, from and to rest beyond the interaction range; the sum of all "
      "losses is the work of the drive"},
-    {"{loss}.uncertainty.approach", "meV/Å^2", per::area, "convergence of {loss}.approach"},
-    {"{loss}.uncertainty.pull_off", "meV/Å^2", per::area, "convergence of {loss}.pull_off"},
+    {"{loss}.uncertainty.approach", "meV/Å^2", per::area,
+     "convergence of {loss}.approach: standard error"},
+    {"{loss}.uncertainty.pull_off", "meV/Å^2", per::area,
+     "convergence of {loss}.pull_off: standard error"},
     {"kinetic.approach", "meV/Å^2", per::area,
      "kinetic and vibrational energy left at the end of the approach (dynamic, at T = 0, without a "
      "load), above the state at zero load"},
@@ -212,8 +214,8 @@ inline constexpr Quantity written_quantities[] = {
      "energy of the spring that holds the top plane at the end of an approach or a pull-off of a "
      "dynamic path at T = 0, as spring.*"},
     {"segments[].uncertainty", "meV/Å^2", per::area,
-     "convergence of work_of_drive and of the losses (quasi-static), for the sequence of "
-     "instabilities on the path"},
+     "convergence of work_of_drive and of the losses (quasi-static): standard error, by the steps "
+     "and the tolerance of the path"},
     {"segments[].largest_attraction", "eV/Å", per::block, "largest attraction in the segment"},
     {"segments[].friction", "eV/Å", per::block,
      "mean force against a slide: work that moves the block sideways, divided by the distance"},

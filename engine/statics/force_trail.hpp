@@ -29,11 +29,19 @@ struct ForceAt {
 /// and the error of the integral is at most half the step times the miss, wherever in the step the
 /// force has changed. After a jump of the force the trail begins anew; the miss is then measured
 /// from the slope of the branch before, which hardly changes if a small part of the contact jumps.
+///
+/// A fall J of the force anywhere in one of equal steps h, each place as likely as the others,
+/// makes an error of the integral with a standard deviation of h J/sqrt(12): what the polynomials
+/// of the steps that follow add has the mean of this error with the opposite sign. The misses of
+/// these steps are J, -2 J and J (through three points: J and -J; through two: J). The variance is
+/// shared among the steps as the squares of the misses are.
 class ForceTrail {
 public:
     /// Integral of the force over a step.
     struct Integral {
-        double value = 0.0, error = 0.0; ///< int f dx and its error, eV
+        double value = 0.0; ///< int f dx, eV
+        double error = 0.0; ///< largest error of the value, eV
+        double sigma = 0.0; ///< standard deviation of the value, for sums of its square, eV
     };
 
     /// Starts the trail with a first point.
@@ -51,6 +59,7 @@ public:
         const std::size_t n = points_.size();
         const ForceAt& last = points_[n - 1];
         const double h = x - last.x, slope = (f - last.f) / h;
+        double misses = 1.0; // sum of the squares of the misses of one fall of the force
         double value = 0.5 * h * (f + last.f), miss = f - last.f - h * branch_slope_;
         if (n > 1) {
             const ForceAt& second = points_[n - 2];
@@ -58,6 +67,7 @@ public:
             const double bend = (slope - old_slope) / (x - second.x);
             value -= h * h * h / 6.0 * bend;
             miss = bend * h * (x - second.x);
+            misses = 2.0;
             if (n > 2) {
                 const ForceAt& third = points_[n - 3];
                 const double old_bend =
@@ -65,9 +75,11 @@ public:
                 const double twist = (bend - old_bend) / (x - third.x);
                 value -= (h / 12.0 + d / 6.0) * h * h * h * twist;
                 miss = twist * h * (x - second.x) * (x - third.x);
+                misses = 6.0;
             }
         }
-        return {value, std::abs(0.5 * h * miss)};
+        const double error = std::abs(0.5 * h * miss);
+        return {value, error, error / std::sqrt(3.0 * misses)};
     }
     const ForceAt& last() const { return points_.back(); }
     const std::vector<ForceAt>& points() const { return points_; }

@@ -44,13 +44,17 @@ struct StepDecision {
     /// Energy lost: work of the forces less energy gained, eV. Below zero it is an error of the
     /// work.
     double lost = 0.0;
-    /// Work of the forces less energy gained, where it may be an error of the work, eV.
+    /// Error that adds up over steps, eV: work of the forces less energy gained in a long step in
+    /// time, or the error of an energy.
     double gap = 0.0;
-    double uncertain = 0.0;   ///< uncertainty of the work of a step that passes an instability, eV
-    bool smooth = true;       ///< the force did not jump
-    bool excess = false;      ///< the energy gained exceeds the work and its uncertainty
-    bool coarse = false;      ///< the step is halved because of the error of the time step
-    double growth = 1.0;      ///< factor from this length to that of the next step
+    /// Standard deviation of the work of the forces, eV; at least what a step gains without work,
+    /// which can only be an error.
+    double sigma = 0.0;
+    double uncertain = 0.0; ///< largest error of the work of a step that passes an instability, eV
+    bool smooth = true;     ///< the force did not jump
+    bool excess = false;    ///< the energy gained exceeds the work and its uncertainty
+    bool coarse = false;    ///< the step is halved because of the error of the time step
+    double growth = 1.0;    ///< factor from this length to that of the next step
     bool of_energies = false; ///< the work is the energy gained and dissipated
 };
 
@@ -67,8 +71,8 @@ inline StepDecision reversible_step(const PathPoint& last, const PathPoint& tria
 
 /// Decides on the step from `last` to `trial`: accepted, accepted as an instability, or halved. All
 /// energy that is missing in an accepted step is lost, however small: patches that jump unseen lose
-/// as much for each site in a box of any size. The errors of the works of smooth steps have both
-/// signs and cancel. trail: forces of the points so far.
+/// as much for each site in a box of any size. The errors of the works of steps have both signs.
+/// trail: forces of the points so far.
 inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const ForceTrail& trail,
                            const StepLimits& limits) {
     const double gained = trial.energy - last.energy;
@@ -90,26 +94,30 @@ inline StepDecision decide(const PathPoint& last, const PathPoint& trial, const 
         // In a long step in time energies and dissipation are of fourth order in the step, the
         // forces at its ends of second.
         d.of_energies = !limits.short_in_time;
-        d.gap = missing;
-        if (d.of_energies)
+        if (d.of_energies) {
             d.work = gained;
-        else
+            d.gap = missing;
+        } else {
             d.lost = missing;
+            d.sigma = std::max(integral.sigma, -d.lost);
+        }
         return d;
     }
     d.coarse = !limits.short_in_time;
     d.uncertain = integral.error;
+    d.sigma = integral.sigma;
     d.smooth = d.uncertain <= limits.missing;
     bool known = d.smooth;
     if (!d.smooth) {
         d.work = -trail.trapezium(trial.at, trial.force);
         d.uncertain = 0.5 * std::abs(trial.at - last.at) * trail.jump(trial.at, trial.force);
+        d.sigma = d.uncertain / std::sqrt(3.0); // at an unknown place in the step
         known = d.uncertain <= limits.uncertain;
     }
     const double least = d.uncertain + limits.missing;
     d.lost = d.work - gained;
     d.excess = -d.lost > least;
-    if (d.lost <= least) d.gap = d.lost; // no instability that could be told
+    d.sigma = std::max(d.sigma, -d.lost);
     if ((known && !d.excess && limits.short_in_time) || limits.last_try)
         d.verdict = d.lost > least ? StepDecision::jump : StepDecision::accept;
     return d;

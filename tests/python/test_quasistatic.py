@@ -121,10 +121,10 @@ def test_many_loads_of_a_wall_that_repels(place):
     assert found("parts") == found("many")
 
 
-def test_works_over_soft_walls_are_within_their_uncertainty(place, monkeypatch):
+def test_works_over_soft_walls_are_within_two_standard_errors(place, monkeypatch):
     # Where many patches come off, another tolerance leads to another sequence of instabilities.
     monkeypatch.syspath_prepend(ROOT / "scenes" / "validation")
-    scene = importlib.import_module("soft_walls").scene(10)
+    scene = importlib.import_module("works").soft_wall(10)
     default, close = (asperity.run({}, scene | {"drive.tolerance": t}, out=f"{t}", progress=False) for t in (2.5e-4, 2e-5))
     for way in ("approach", "pull_off"):
         error = abs(getattr(default.work_of_drive, way) - getattr(close.work_of_drive, way))
