@@ -102,10 +102,10 @@ void check_path(const Case& c, io::Problems& problems) {
                        "of two rough solids the pressure acts on slopes of both, and the friction "
                        "at each place is not known",
                        "give output.stress_friction, a friction in phase with the pressure");
-            for (const SiteMapKeys* map : c.scene.interface.site_maps())
-                refuse(fmt::format("over a field of the {}", map->of.words),
+            for (const io::SiteQuantity& of : c.scene.interface.site_maps())
+                refuse(fmt::format("over a field of the {}", of.words),
                        "the heights move under the block, and the field would stay",
-                       fmt::format("give interface.{} a number", map->of.name));
+                       fmt::format("give interface.{} a number", of.name));
             if (wall && c.effects.dynamic)
                 refuse("over a wall on a dynamic path",
                        "a wall moves under a block that is in force balance",
@@ -469,7 +469,7 @@ void refuse_above_hardness(const Case& c, io::Problems& refused) {
                                 "{:.6g} MPa (interface.hardness): the whole surface would yield, "
                                 "and nothing would bear the load",
                                 force / c.area() / units::megapascal,
-                                c.simulation.interface.hardness_map ? "mean " : "",
+                                c.simulation.interface.maps[SiteMapOf::hardness] ? "mean " : "",
                                 hardness / units::megapascal),
                     "take a smaller load or a larger hardness");
     };

@@ -159,6 +159,17 @@ std::string Scene::Interface::potential_name() const {
         potentials);
 }
 
+void set_largest(Scene::Interface& interface, SiteMapOf map, double largest) {
+    switch (map) {
+    case SiteMapOf::adhesion:
+        interface.adhesion = largest;
+        break;
+    case SiteMapOf::hardness:
+        interface.hardness = largest;
+        break;
+    }
+}
+
 bool Scene::only_relaxes() const {
     return drive.path.size() == 1 && segment_name(drive.path.front()) == word(Segment::relax);
 }
@@ -473,8 +484,8 @@ io::Schema bind(Scene& scene) {
     bind_site_map(
         schema,
         schema.number_or_text(
-            "adhesion", interface.adhesion, interface.adhesion_map.source, "meV/Å^2", at_least(0.0),
-            "map.npy",
+            "adhesion", interface.adhesion, interface.maps[SiteMapOf::adhesion].source, "meV/Å^2",
+            at_least(0.0), "map.npy",
             "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
             "attraction. A value for each site is given by a map, in a file as for surface.file, "
             "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
@@ -482,17 +493,17 @@ io::Schema bind(Scene& scene) {
             "middle of the box) or \"patches LOW HIGH LENGTH SEED\" (random, with this correlation "
             "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
             "10 nm\""),
-        interface.adhesion_map, needs.adhesion);
+        interface.maps[SiteMapOf::adhesion], needs.adhesion);
     bind_site_map(
         schema,
         schema.number_or_text(
-            "hardness", interface.hardness, interface.hardness_map.source, "none", "GPa",
-            positive(), "map.npy",
+            "hardness", interface.hardness, interface.maps[SiteMapOf::hardness].source, "none",
+            "GPa", positive(), "map.npy",
             "largest net pressure of a site over a wall on a quasi-static path: a site at the "
             "hardness takes a permanent set (a cap on the pressure, without pile-up and "
             "hardening); \"none\": the surface does not yield. A value for each site as for "
             "adhesion"),
-        interface.hardness_map, needs.yielding);
+        interface.maps[SiteMapOf::hardness], needs.yielding);
     schema
         .number("range", interface.range, "Å", positive(),
                 "range of the laws except smeared and table")

@@ -46,7 +46,7 @@ InterfaceOptions interface_of(const Kind& kind) {
         field->largest = sites * sites;
         for (int i = 1; i <= sites * sites; ++i)
             field->values.push_back(i * 7 % 256 + 1);
-        o.adhesion = field;
+        o.maps[SiteMapOf::adhesion] = field;
     }
     o.slides = kind.slides;
     o.hardness = kind.hardness;
