@@ -83,7 +83,6 @@ void OverWall::find_law_factors(const InterfaceOptions& options, const Tile& til
 void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile, int across,
                                double area) {
     yield_gap_ = Field<double>(tile, 1, 0);
-    set_ = Field<double>(tile, 1, 0);
     const PlaneView<double> gap = yield_gap_.plane(0);
     std::vector<double> hardness;
     if (const auto& field = options.maps[SiteMapOf::hardness]) hardness = field->under(tile);

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace asperity {
@@ -47,10 +48,13 @@ public:
 
     /// Returns true if the surface yields.
     bool yields() const { return !yield_gap_.empty(); }
+    /// Keeps a reference to the permanent set of the sites, Å, by which a wall that yields is
+    /// lower.
+    void lower_by(Field<double>& set) { set_ = &set; }
     /// Returns the permanent set of the sites, Å, for writing. Requires yields().
-    Field<double>& set() { return set_; }
+    Field<double>& set() { return *set_; }
     /// Returns the permanent set of the sites, Å. Requires yields().
-    PlaneView<const double> set() const { return set_.plane(0); }
+    PlaneView<const double> set() const { return std::as_const(*set_).plane(0); }
     /// Returns the depth of a site below its yield gap, Å: the growth of its set if a step ends
     /// there; 0 over a hole. z: height of the site, Å. Requires yields().
     double growth(int x, int y, double z) const {
@@ -100,8 +104,7 @@ public:
     std::size_t bytes_of_map() const { return sliding_ ? sliding_->bytes_of_map() : 0; }
     std::size_t bytes() const {
         return (sliding_ ? sliding_->bytes() : height_.bytes()) +
-               (factors_.empty() ? 0 : factors_.bytes()) +
-               (yields() ? yield_gap_.bytes() + set_.bytes() : 0);
+               (factors_.empty() ? 0 : factors_.bytes()) + (yields() ? yield_gap_.bytes() : 0);
     }
 
 private:
@@ -131,7 +134,7 @@ private:
     std::optional<SlidingMap> sliding_;
     Field<double> factors_;   ///< plane k: factor k of the law of each site; empty: one for all
     Field<double> yield_gap_; ///< WallMaps::yield_gap; empty: no site yields
-    Field<double> set_;       ///< permanent set, Å
+    Field<double>* set_ = nullptr; ///< permanent set, Å, kept by the interface
     WallLaw law_;
 };
 

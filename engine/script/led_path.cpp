@@ -55,7 +55,7 @@ LedPath::LedPath(const Case& c)
       interface_(surface_, grid_.tile(0), case_.simulation.block.spacing,
                  case_.simulation.interface),
       block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
-    remember_set(block_, interface_);
+    remember_sites(block_, interface_);
     before_.mean_height = interface_.reference_height();
 }
 
@@ -188,11 +188,10 @@ RestState LedPath::release(const Look& look) {
         const std::optional<ZeroLoad> found =
             find_zero_load(block_, interface_, case_.simulation.drive.load_force, case_, watch_);
         if (!found) looking.rethrow();
-        // Branches have relaxed; the set of a surface that yields stays.
-        const bool yields = interface_.yielding_wall() != nullptr;
-        if (yields) block_.end_step();
+        const bool remembers = any_stays_at_rest(block_.memories());
+        if (remembers) block_.end_step();
         State there = copy();
-        if (!yields) there.values.resize(there.displacements());
+        if (!remembers) there.values.resize(there.displacements());
         place(there);
         return {*found, maps()};
     } catch (...) {

@@ -71,7 +71,7 @@ struct Contact {
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
           path(block, interface, path_options(kind.along)), slides(kind.slides) {
-        remember_set(block, interface);
+        remember_sites(block, interface);
     }
 
     static BlockOptions block_of(const Kind& kind) {
