@@ -187,49 +187,11 @@ BlockModel Scene::block_model() const {
     return interface.has_adhesion() ? BlockModel::continuum : BlockModel::lattice;
 }
 
-io::Schema bind(Scene& scene) {
-    io::Schema schema;
-    const auto shared_needs =
-        std::make_shared<const Needs>(scene); // the closures of the needs refer to it
-    const Needs& needs = *shared_needs;
+namespace {
 
+/// Adds the keys of a self-affine surface, and of its curvature.
+void bind_roughness(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& surface = scene.surface;
-    schema.section("surface", "The rough substrate, rigid unless counter gives it an elasticity.");
-    schema.choice<SurfaceKind>("kind", surface.kind,
-                               {{"flat", SurfaceKind::flat},
-                                {"self-affine", SurfaceKind::self_affine},
-                                {"file", SurfaceKind::file},
-                                {"atoms", SurfaceKind::atoms}},
-                               "the substrate: one layer of atoms with heights, generated or from "
-                               "a map; \"atoms\": atoms of a file at arbitrary positions");
-    schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
-                           "number of sites along an edge of the box, N; or its width (\"133 "
-                           "nm\"), rounded to whole spacings");
-    schema
-        .choice<Boundary>(
-            "boundary", surface.boundary,
-            {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
-            "edges of the box: periodic surfaces, or a substrate that ends at the edges below an "
-            "infinite half-space (a tip, a lens, a punch; over a wall, quasi-static)")
-        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
-                                 "a surface without images is known wave by wave, at rest",
-                                 "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
-                  needs.refusing(needs.wall, "without a wall",
-                                 "a surface without images answers normal forces alone",
-                                 "take interface.kind = \"wall\", or boundary = \"periodic\"")};
-    schema.number("spacing", surface.spacing, "Å", positive(),
-                  "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
-    schema
-        .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
-                "block spacing divided by substrate spacing, rounded to whole atoms; 1.618 is "
-                "incommensurate")
-        .needs = {
-        needs.heights("the atoms stand where their file says",
-                      "leave it out: the file has its own spacing"),
-        needs.refusing({[&scene] { return scene.interface.kind != InterfaceKind::wall; }, ""},
-                       "with a wall",
-                       "a wall has a height below each site, and no lattice of its own",
-                       "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
     io::Schema::Key& rms =
         schema.number("rms", surface.rms, "Å", at_least(0.0),
                       "rms height; a map from a file is scaled only if the scene sets this key");
@@ -263,6 +225,11 @@ io::Schema bind(Scene& scene) {
                    "radius of a spherical cap under the roughness")
         .needs = {
         needs.heights("the atoms stand where their file says", "leave it out, and curve the file")};
+}
+
+/// Adds the keys of a surface from a file.
+void bind_surface_file(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& surface = scene.surface;
     schema
         .key("file", surface.file,
              "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of "
@@ -320,8 +287,54 @@ io::Schema bind(Scene& scene) {
             "resampling of a map without N x N values to the lattice: refused, or band-limited")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
                   needs.any_map};
-    bind_counter(schema, surface.counter, needs);
+}
 
+/// Adds the keys of the section [surface].
+void bind_surface(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& surface = scene.surface;
+    schema.section("surface", "The rough substrate, rigid unless counter gives it an elasticity.");
+    schema.choice<SurfaceKind>("kind", surface.kind,
+                               {{"flat", SurfaceKind::flat},
+                                {"self-affine", SurfaceKind::self_affine},
+                                {"file", SurfaceKind::file},
+                                {"atoms", SurfaceKind::atoms}},
+                               "the substrate: one layer of atoms with heights, generated or from "
+                               "a map; \"atoms\": atoms of a file at arbitrary positions");
+    schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
+                           "number of sites along an edge of the box, N; or its width (\"133 "
+                           "nm\"), rounded to whole spacings");
+    schema
+        .choice<Boundary>(
+            "boundary", surface.boundary,
+            {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
+            "edges of the box: periodic surfaces, or a substrate that ends at the edges below an "
+            "infinite half-space (a tip, a lens, a punch; over a wall, quasi-static)")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
+                                 "a surface without images is known wave by wave, at rest",
+                                 "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
+                  needs.refusing(needs.wall, "without a wall",
+                                 "a surface without images answers normal forces alone",
+                                 "take interface.kind = \"wall\", or boundary = \"periodic\"")};
+    schema.number("spacing", surface.spacing, "Å", positive(),
+                  "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
+    schema
+        .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
+                "block spacing divided by substrate spacing, rounded to whole atoms; 1.618 is "
+                "incommensurate")
+        .needs = {
+        needs.heights("the atoms stand where their file says",
+                      "leave it out: the file has its own spacing"),
+        needs.refusing({[&scene] { return scene.interface.kind != InterfaceKind::wall; }, ""},
+                       "with a wall",
+                       "a wall has a height below each site, and no lattice of its own",
+                       "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
+    bind_roughness(schema, scene, needs);
+    bind_surface_file(schema, scene, needs);
+    bind_counter(schema, surface.counter, needs);
+}
+
+/// Adds the keys of the section [block].
+void bind_block(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
     schema
@@ -410,55 +423,11 @@ io::Schema bind(Scene& scene) {
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "
                     "rigid top would return"});
+}
 
+/// Adds the keys of a wall.
+void bind_wall(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& interface = scene.interface;
-    schema.section("interface", "The interaction between substrate and lowest layer.");
-    schema.choice<InterfaceKind>("kind", interface.kind,
-                                 {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
-                                 "pairs of atoms, or a wall, which acts by a law of the gap below "
-                                 "each site without lateral forces (quasi-static paths)");
-    std::vector<std::pair<std::string, int>> names;
-    each_potential(interface.potentials,
-                   [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
-    schema
-        .choice<int>("potential", interface.potential, names,
-                     "potential of the pairs, or of the atoms of a smeared wall")
-        .needs = {needs.pairs};
-    each_potential(interface.potentials, [&]<class P>(P& p) {
-        bind_potential(schema, p, {needs.pairs, needs.potential(P::name)});
-    });
-    schema
-        .key("table", interface.table,
-             "file of potential = \"table\": text of distances in Å and energies in eV (law = "
-             "\"table\": gaps in Å, and energies in any unit, which adhesion scales); a line above "
-             "more than two columns names them (\"# r F V\"); searched in the folder of the scene, "
-             "then in the working directory")
-        .needs = {needs.table};
-    schema
-        .number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
-                   "distance beyond which atoms do not interact, at most half the box. \"4 r0\": "
-                   "four times the distance of zero energy, for each type of interface.pairs, and "
-                   "at most the last distance of a table")
-        .needs = {needs.pairs};
-    schema.removed({"interface.morse_r0", "",
-                    "it is the place of the minimum, and interface.r0 where the energy is zero",
-                    "write interface.morse_r_min with the same number"});
-    schema
-        .list("pairs", interface.pairs, {},
-              "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C "
-              "morse 0.02 1.5 3.9 10\"] each with the potential's name and the cutoff, if they "
-              "differ from potential and cutoff, and the parameters in the order above; units may "
-              "follow. []: interface.potential for atoms of one type")
-        .needs = {
-        needs.refusing({[&scene] { return scene.surface.kind == SurfaceKind::atoms; }, ""},
-                       "without a substrate of atoms from a file",
-                       "the atoms of other substrates are of one type, with interface.potential",
-                       "leave it out, or take surface.kind = \"atoms\"")};
-    schema.key("tail", interface.tail, "continuum correction beyond the cutoff").needs = {
-        needs.pairs, needs.heights("the tail is that of one layer of known density",
-                                   "take a larger interface.cutoff, and tail = false")};
-    schema.key("frictionless", interface.frictionless,
-               "no lateral tractions, and normal displacements only (quasi-static paths)");
     schema
         .choice<WallLawKind>(
             "law", interface.law,
@@ -526,7 +495,106 @@ io::Schema bind(Scene& scene) {
                              "than 1.3 times too large, because the spacing does not resolve the "
                              "range and rows of sites pin the edge of the contact")
         .needs = {needs.adhesion};
+}
 
+/// Adds the keys of the section [interface].
+void bind_interface(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& interface = scene.interface;
+    schema.section("interface", "The interaction between substrate and lowest layer.");
+    schema.choice<InterfaceKind>("kind", interface.kind,
+                                 {{"atoms", InterfaceKind::atoms}, {"wall", InterfaceKind::wall}},
+                                 "pairs of atoms, or a wall, which acts by a law of the gap below "
+                                 "each site without lateral forces (quasi-static paths)");
+    std::vector<std::pair<std::string, int>> names;
+    each_potential(interface.potentials,
+                   [&](auto& p) { names.emplace_back(p.name, static_cast<int>(names.size())); });
+    schema
+        .choice<int>("potential", interface.potential, names,
+                     "potential of the pairs, or of the atoms of a smeared wall")
+        .needs = {needs.pairs};
+    each_potential(interface.potentials, [&]<class P>(P& p) {
+        bind_potential(schema, p, {needs.pairs, needs.potential(P::name)});
+    });
+    schema
+        .key("table", interface.table,
+             "file of potential = \"table\": text of distances in Å and energies in eV (law = "
+             "\"table\": gaps in Å, and energies in any unit, which adhesion scales); a line above "
+             "more than two columns names them (\"# r F V\"); searched in the folder of the scene, "
+             "then in the working directory")
+        .needs = {needs.table};
+    schema
+        .number_or("cutoff", interface.cutoff, "4 r0", "Å", positive(),
+                   "distance beyond which atoms do not interact, at most half the box. \"4 r0\": "
+                   "four times the distance of zero energy, for each type of interface.pairs, and "
+                   "at most the last distance of a table")
+        .needs = {needs.pairs};
+    schema.removed({"interface.morse_r0", "",
+                    "it is the place of the minimum, and interface.r0 where the energy is zero",
+                    "write interface.morse_r_min with the same number"});
+    schema
+        .list("pairs", interface.pairs, {},
+              "potentials of the types of a substrate of atoms from a file: [\"Au 0.1 3.28\", \"C "
+              "morse 0.02 1.5 3.9 10\"] each with the potential's name and the cutoff, if they "
+              "differ from potential and cutoff, and the parameters in the order above; units may "
+              "follow. []: interface.potential for atoms of one type")
+        .needs = {
+        needs.refusing({[&scene] { return scene.surface.kind == SurfaceKind::atoms; }, ""},
+                       "without a substrate of atoms from a file",
+                       "the atoms of other substrates are of one type, with interface.potential",
+                       "leave it out, or take surface.kind = \"atoms\"")};
+    schema.key("tail", interface.tail, "continuum correction beyond the cutoff").needs = {
+        needs.pairs, needs.heights("the tail is that of one layer of known density",
+                                   "take a larger interface.cutoff, and tail = false")};
+    schema.key("frictionless", interface.frictionless,
+               "no lateral tractions, and normal displacements only (quasi-static paths)");
+    bind_wall(schema, scene, needs);
+}
+
+/// Adds the keys of time steps, loads and convergence.
+void bind_motion(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& drive = scene.drive;
+    schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
+        .needs = {needs.dynamic};
+    schema
+        .number("damping", drive.damping, "1/ps", at_least(0.0),
+                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
+                "top plane or the far end of its spring (drive.stiffness)")
+        .needs = {needs.dynamic};
+    schema
+        .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
+                "fraction of the thickness above which damping acts")
+        .needs = {needs.dynamic, needs.damping};
+    schema
+        .number_or("ramp", drive.ramp, "auto", "ps", at_least(0.0),
+                   "duration of smooth changes of the top plane's velocity; \"auto\": one sound "
+                   "transit of the block")
+        .needs = {needs.dynamic};
+    schema.quantity_or(
+        "load", drive.load, "MPa", {"nN", "a force", &scene.force},
+        "pressure, or force on the box (\"20 nN\"), at which an approach ends, or under which "
+        "\"relax\" finds the state; the state after an approach is without load");
+    schema
+        .number("temperature", drive.temperature, "K", at_least(0.0),
+                "temperature; above 0 with a Langevin thermostat")
+        .needs = {needs.dynamic};
+    schema.integer("seed", drive.seed, at_least(0), "seed of the thermal noise").needs = {
+        needs.dynamic, needs.temperature};
+    schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
+                          "largest number of time steps, or points of a quasi-static path, after "
+                          "which the run stops");
+    schema
+        .number("tolerance", drive.tolerance, "", positive(),
+                "largest residual force of a relaxation, as a fraction of the smallest force on a "
+                "site that decides the state (`asperity plan` prints this force); on a "
+                "quasi-static path also the error of the energy per site and Å")
+        .was = {"eV/Å",
+                "it is a fraction of the smallest force on a site that decides the state, "
+                "which `asperity plan` prints",
+                "leave it out, or give the fraction: 2.5e-4 is the default"};
+}
+
+/// Adds the keys of the section [drive].
+void bind_drive(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& drive = scene.drive;
     schema.section("drive", "The motion of the top plane, and the time step.");
     schema.choice<DriveMode>(
@@ -598,45 +666,11 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.dynamic, needs.spring};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
-    schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
-        .needs = {needs.dynamic};
-    schema
-        .number("damping", drive.damping, "1/ps", at_least(0.0),
-                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
-                "top plane or the far end of its spring (drive.stiffness)")
-        .needs = {needs.dynamic};
-    schema
-        .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
-                "fraction of the thickness above which damping acts")
-        .needs = {needs.dynamic, needs.damping};
-    schema
-        .number_or("ramp", drive.ramp, "auto", "ps", at_least(0.0),
-                   "duration of smooth changes of the top plane's velocity; \"auto\": one sound "
-                   "transit of the block")
-        .needs = {needs.dynamic};
-    schema.quantity_or(
-        "load", drive.load, "MPa", {"nN", "a force", &scene.force},
-        "pressure, or force on the box (\"20 nN\"), at which an approach ends, or under which "
-        "\"relax\" finds the state; the state after an approach is without load");
-    schema
-        .number("temperature", drive.temperature, "K", at_least(0.0),
-                "temperature; above 0 with a Langevin thermostat")
-        .needs = {needs.dynamic};
-    schema.integer("seed", drive.seed, at_least(0), "seed of the thermal noise").needs = {
-        needs.dynamic, needs.temperature};
-    schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
-                          "largest number of time steps, or points of a quasi-static path, after "
-                          "which the run stops");
-    schema
-        .number("tolerance", drive.tolerance, "", positive(),
-                "largest residual force of a relaxation, as a fraction of the smallest force on a "
-                "site that decides the state (`asperity plan` prints this force); on a "
-                "quasi-static path also the error of the energy per site and Å")
-        .was = {"eV/Å",
-                "it is a fraction of the smallest force on a site that decides the state, "
-                "which `asperity plan` prints",
-                "leave it out, or give the fraction: 2.5e-4 is the default"};
+    bind_motion(schema, scene, needs);
+}
 
+/// Adds the keys of the section [theory].
+void bind_theory(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& theory = scene.theory;
     schema.section("theory", "Persson's theory for the same surface.");
     schema
@@ -670,7 +704,10 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.one_layer};
     schema.removed({"theory.renormalised", "", "the renormalised theory is no part of a run",
                     "leave it out; `asperity theory`, sweeps and reports compute it"});
+}
 
+/// Adds the keys of the section [numerics].
+void bind_numerics(io::Schema& schema, Scene& scene) {
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");
     schema.choice<Precision>("precision", numerics.precision,
@@ -694,7 +731,10 @@ io::Schema bind(Scene& scene) {
                               "devices in turn); \"auto\": on a CUDA device if there is one; "
                               "\"emulated\": a device emulated by the processor, for tests")
         .numerals = true;
+}
 
+/// Adds the keys of the section [output].
+void bind_output(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& output = scene.output;
     schema.section("output", "The output of a run.");
     schema
@@ -761,6 +801,22 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.dynamic};
     schema.number_or_none("checkpoint", output.checkpoint, "s", positive(),
                           "wall time between checkpoints");
+}
+
+} // namespace
+
+io::Schema bind(Scene& scene) {
+    io::Schema schema;
+    const auto shared_needs =
+        std::make_shared<const Needs>(scene); // the closures of the needs refer to it
+    const Needs& needs = *shared_needs;
+    bind_surface(schema, scene, needs);
+    bind_block(schema, scene, needs);
+    bind_interface(schema, scene, needs);
+    bind_drive(schema, scene, needs);
+    bind_theory(schema, scene, needs);
+    bind_numerics(schema, scene);
+    bind_output(schema, scene, needs);
 
     schema.variations({"sweep",
                        "What `asperity sweep` varies: any key above, with a list of values or a "
