@@ -23,6 +23,13 @@ namespace io {
 
 /// Description of such a quantity, which is zero or more at each site.
 struct SiteQuantity {
+    /// Whether a map may be 0 at some sites.
+    enum Zero {
+        taken,
+        taken_without_repulsion, ///< refused with a law that includes a repulsion
+        refused
+    };
+
     SiteMapOf map;
     std::string_view name;      ///< name of its key, and in results
     std::string_view words;     ///< name in sentences
@@ -31,20 +38,21 @@ struct SiteQuantity {
     std::string_view low, high; ///< values of an example
     std::string_view negative;  ///< reason why a value is not negative
     bool scales_law;            ///< the law of a site has a factor that follows from the value
-    /// Refusal of a map that is 0 at some sites: reason and remedy; of a map that scales the law
-    /// only if the law includes a repulsion, which it scales too. Empty: such a map is taken.
-    std::string_view zero, no_zero;
+    Zero zero;
+    std::string_view why_no_zero{}, instead_of_zero{}; ///< reason and remedy of the refusal
 };
 
 /// All such quantities, in the order of SiteMapOf.
 inline constexpr auto site_quantities = std::to_array<SiteQuantity>({
     {SiteMapOf::adhesion, "adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2",
      "50 mJ/m^2", "a work of adhesion is zero or more: a site repels at contact alone", true,
+     SiteQuantity::taken_without_repulsion,
      "the law (interface.law) repels by itself, and the work of adhesion multiplies its repulsion "
      "too: nothing would repel there",
      "take a small work of adhesion in place of 0, or law = \"exponential\""},
     {SiteMapOf::hardness, "hardness", "hardness", "pressure", "GPa", "1 GPa", "3 GPa",
-     "a hardness is above zero", false, "a site of no hardness would not be pressed at all",
+     "a hardness is above zero", false, SiteQuantity::refused,
+     "a site of no hardness would not be pressed at all",
      "take a hardness above 0 at each site, in GPa"},
 });
 

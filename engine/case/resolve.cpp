@@ -399,11 +399,13 @@ void find_site_maps(Case& c, const Communicator& world, io::Problems& problems) 
         if (of.scales_law && !keys.has_adhesion()) continue;
         const auto map = site_map(c, of, world, problems);
         if (!map) continue;
-        const bool takes_zero = of.zero.empty() || (of.scales_law && !keys.shape_repels());
-        if (map->least == 0.0 && !takes_zero)
+        const bool no_zero =
+            of.zero == io::SiteQuantity::refused ||
+            (of.zero == io::SiteQuantity::taken_without_repulsion && keys.shape_repels());
+        if (map->least == 0.0 && no_zero)
             problems.add(fmt::format("interface.{}", of.name),
                          fmt::format("= \"{}\" is 0 at some sites", map->source),
-                         std::string(of.zero), std::string(of.no_zero));
+                         std::string(of.why_no_zero), std::string(of.instead_of_zero));
         set_largest(keys, of.map, map->largest);
         options.maps[of.map] = map;
     }
