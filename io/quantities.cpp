@@ -86,27 +86,52 @@ std::string tables(std::span<const Quantity> quantities, const std::vector<Topic
     return text;
 }
 
+/// Returns a row whose texts have these words for the names in braces.
+template <class... Words>
+Quantity filled(const Quantity& row, const Words&... words) {
+    static std::deque<std::string> texts; // to which quantities refer
+    const auto text = [&](std::string_view of) -> std::string_view {
+        return texts.emplace_back(fmt::format(fmt::runtime(of), words...));
+    };
+    return {text(row.name), text(row.unit), row.per, text(row.meaning)};
+}
+
+bool is_of_map(const Quantity& row) { return row.name.find("{map}") != std::string_view::npos; }
+
+/// Returns the quantities that rows stand for. Neighbouring rows of a map are written out map by
+/// map.
+std::vector<Quantity> written_out(std::span<const Quantity> rows) {
+    std::vector<Quantity> list;
+    for (auto row = rows.begin(); row != rows.end(); ++row) {
+        if (stands_for(*row, row->name)) { // the one of its name
+            list.push_back(*row);
+        } else if (is_of_map(*row)) {
+            const auto end = std::find_if_not(row, rows.end(), is_of_map);
+            for (const SiteQuantity& of : site_quantities)
+                for (auto each = row; each != end; ++each)
+                    list.push_back(filled(*each, fmt::arg("map", of.name),
+                                          fmt::arg("unit", of.unit), fmt::arg("words", of.words)));
+            row = end - 1;
+        } else {
+            for (const EnergyTerm& term : energy_terms)
+                if (!term.word(row->name).empty())
+                    list.push_back(filled(*row, fmt::arg("loss", term.key),
+                                          fmt::arg("last", term.last),
+                                          fmt::arg("meaning", term.meaning)));
+        }
+    }
+    return list;
+}
+
 } // namespace
 
 const std::vector<Quantity>& result_quantities() {
-    static std::deque<std::string> texts; // to which quantities refer
-    static const std::vector<Quantity> quantities = [] {
-        std::vector<Quantity> list;
-        for (const Quantity& row : written_quantities)
-            if (stands_for(row, row.name)) // the one of its name
-                list.push_back(row);
-            else
-                for (const EnergyTerm& term : energy_terms) {
-                    const auto filled = [&](std::string_view text) -> std::string_view {
-                        return texts.emplace_back(fmt::format(
-                            fmt::runtime(text), fmt::arg("loss", term.key),
-                            fmt::arg("last", term.last), fmt::arg("meaning", term.meaning)));
-                    };
-                    if (!term.word(row.name).empty())
-                        list.push_back({filled(row.name), row.unit, row.per, filled(row.meaning)});
-                }
-        return list;
-    }();
+    static const std::vector<Quantity> quantities = written_out(written_quantities);
+    return quantities;
+}
+
+const std::vector<Quantity>& run_quantities() {
+    static const std::vector<Quantity> quantities = written_out(written_run_quantities);
     return quantities;
 }
 
@@ -118,14 +143,14 @@ const Quantity& result_quantity(std::string_view name) {
 
 const Quantity* run_quantity(std::string_view path) {
     if (path.starts_with('/')) path.remove_prefix(1);
-    for (const Quantity& q : run_quantities)
+    for (const Quantity& q : run_quantities())
         if (matches(q.name, path)) return &q;
     return nullptr;
 }
 
 std::string result_markdown(std::span<const Quantity> series) {
     std::vector<Quantity> run(series.begin(), series.end());
-    run.insert(run.end(), std::begin(run_quantities), std::end(run_quantities));
+    run.insert(run.end(), run_quantities().begin(), run_quantities().end());
     return "# Results\n\nWritten by `asperity defaults --results`; do not edit. A run writes two "
            "files to its directory:\n`result.json`, its numbers, and `run.h5` (HDF5), the series "
            "along its path and its maps.\n\n## result.json\n\nValues that were not computed are "

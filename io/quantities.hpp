@@ -11,10 +11,11 @@
 // Names: dots lead deeper; "*" stands for any name, "[]" for each element of a list. Units: as
 // io/units.hpp reads them; "1" for a pure number, "" if the value is no number. A row whose name
 // has {loss} stands for each loss of io/energy_terms.hpp, a row with {last} for each term that has
-// a name in the group "energy".
+// a name in the group "energy", a row with {map} for each quantity of io/site_quantities.hpp.
 #pragma once
 
 #include "io/energy_terms.hpp"
+#include "io/site_quantities.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -438,20 +439,13 @@ inline constexpr Quantity written_quantities[] = {
     {"interface.table_digest", "", "",
      "digest of the values of the scene's tabulated potentials. A sweep reuses a result only if "
      "the digest is unchanged"},
-    {"interface.adhesion_digest", "", "",
-     "digest of the field of interface.adhesion on the sites. A sweep reuses a result only if the "
+    {"interface.{map}_digest", "", "",
+     "digest of the field of interface.{map} on the sites. A sweep reuses a result only if the "
      "digest is unchanged"},
-    {"interface.adhesion_least", "meV/Å^2", "",
-     "smallest work of adhesion of a site in the field of interface.adhesion"},
-    {"interface.adhesion_largest", "meV/Å^2", "",
-     "largest work of adhesion of a site in the field of interface.adhesion"},
-    {"interface.hardness_digest", "", "",
-     "digest of the field of interface.hardness on the sites. A sweep reuses a result only if the "
-     "digest is unchanged"},
-    {"interface.hardness_least", "GPa", "",
-     "smallest hardness of a site in the field of interface.hardness"},
-    {"interface.hardness_largest", "GPa", "",
-     "largest hardness of a site in the field of interface.hardness"},
+    {"interface.{map}_least", "{unit}", "",
+     "smallest {words} of a site in the field of interface.{map}"},
+    {"interface.{map}_largest", "{unit}", "",
+     "largest {words} of a site in the field of interface.{map}"},
     {"interface.table_error", "1", "delta_gamma",
      "bound of the error of energies of flat surfaces, and so of binding energies, from the spline "
      "between the rows of these tables and the noise of the rows"},
@@ -490,6 +484,9 @@ constexpr bool stands_for(const Quantity& row, std::string_view name) {
     const std::string_view before = row.name.substr(0, open), after = row.name.substr(close + 1);
     if (!name.starts_with(before) || !name.ends_with(after)) return false;
     name = name.substr(before.size(), name.size() - before.size() - after.size());
+    if (row.name.substr(open, close + 1 - open) == "{map}")
+        return std::ranges::any_of(site_quantities,
+                                   [&](const SiteQuantity& of) { return of.name == name; });
     return std::ranges::any_of(energy_terms,
                                [&](const EnergyTerm& term) { return term.word(row.name) == name; });
 }
@@ -497,8 +494,8 @@ constexpr bool stands_for(const Quantity& row, std::string_view name) {
 /// Returns the quantities of result.json, in the order of the file.
 const std::vector<Quantity>& result_quantities();
 
-/// Data sets of run.h5 except the series (engine/run/series.hpp); "@" leads to an attribute.
-inline constexpr Quantity run_quantities[] = {
+/// Data sets of run.h5 as written; "@" leads to an attribute.
+inline constexpr Quantity written_run_quantities[] = {
     {"fields/*/gap", "Å", "", "height of a site above the substrate below it"},
     {"fields/*/pressure", "GPa", "a² of a site", "normal force on a site; repulsion is positive"},
     {"fields/*/distance", "Å", "",
@@ -506,9 +503,7 @@ inline constexpr Quantity run_quantities[] = {
     {"fields/*/contact", "1", "",
      "1 if distance is below the inflection of the pair potential; with interface.pairs, if an "
      "atom is closer than that of its type"},
-    {"fields/*/adhesion", "meV/Å^2", "",
-     "work of adhesion of a site, if interface.adhesion is a field"},
-    {"fields/*/hardness", "GPa", "", "hardness of a site, if interface.hardness is a field"},
+    {"fields/*/{map}", "{unit}", "", "{words} of a site, if interface.{map} is a field"},
     {"fields/*/set", "Å", "", "permanent set of a site of a surface that yields"},
     {"fields/*/yielded_height", "Å", "",
      "heights of a surface that yields, less its set: a map that surface.file reads"},
@@ -598,6 +593,8 @@ private:
 
 inline std::string_view unit_of(Key key) { return result_quantity(key.name).unit; }
 
+/// Returns the data sets of run.h5 except the series (engine/run/series.hpp).
+const std::vector<Quantity>& run_quantities();
 /// Returns the quantity of run.h5 with this path ("/fields/relaxed/gap"); nullptr if there is none.
 const Quantity* run_quantity(std::string_view path);
 

@@ -13,7 +13,7 @@ namespace {
 
 const Quantity& described(const std::string& path) {
     if (const Quantity* quantity = run_quantity(path)) return *quantity;
-    throw std::logic_error(path + " is not in run_quantities (io/quantities.hpp)");
+    throw std::logic_error(path + " is not in run_quantities() (io/quantities.hpp)");
 }
 
 } // namespace

@@ -16,25 +16,30 @@ namespace {
 /// Height below every other one: a hole, whose height is NaN, is not above it.
 constexpr double below_all = -std::numeric_limits<double>::infinity();
 
-/// Calls use(by_site, yields) with true or false as types: whether the law has a factor at each
+/// Calls use(by_site, yields) with true or false as types: whether the law has factors at each
 /// site, and whether sites yield.
 template <class Law, class Use>
-auto with_maps(const double* factor, const double* yield_gap, Use use) {
+auto with_maps(const double* factors, const double* yield_gap, Use use) {
     const auto with = [&](auto by_site) {
         return yield_gap ? use(by_site, std::true_type()) : use(by_site, std::false_type());
     };
     if constexpr (ScaledBySite<Law>)
-        if (factor) return with(std::true_type());
+        if (factors) return with(std::true_type());
     return with(std::false_type());
 }
 
 /// Returns the law of a register of sites.
 template <bool by_site, class Terms>
-ASPERITY_INLINE auto law_at(const Terms& law, const double* factor, int count) {
-    if constexpr (by_site)
-        return law.scaled(Real::load_first(factor, count));
-    else
+ASPERITY_INLINE auto law_at(const Terms& law, const LawFactors<const double*>& factors, int x,
+                            int count) {
+    if constexpr (by_site) {
+        LawFactors<Real> here;
+        for (std::size_t k = 0; k < here.count; ++k)
+            here.of[k] = Real::load_first(factors.of[k] + x, count);
+        return law.scaled(here);
+    } else {
         return law;
+    }
 }
 
 /// Returns the height of the wall below a register of sites; NaN where there is no solid.
@@ -58,7 +63,9 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, const WallMaps& ma
     Totals totals;
     for (int y = row_begin; y < row_end; ++y) {
         const double *u = sites.displacement.z.line(y), *below = maps.height.line(y);
-        const double* const of_sites = by_site ? maps.factor.line(y) : nullptr;
+        LawFactors<const double*> factors{};
+        for (std::size_t k = 0; by_site && k < factors.count; ++k)
+            factors.of[k] = maps.factors.of[k].line(y);
         const double* const yield_gap = yields ? maps.yield_gap.line(y) : nullptr;
         const double* const set = yields ? maps.set.line(y) : nullptr;
         for (int x = 0; x < nx; x += interface_block) {
@@ -68,7 +75,7 @@ void sweep_over(const Law& wall, const InterfaceSites& sites, const WallMaps& ma
                 const int here = count - lane;
                 const Real under = height_at<yields>(below + x + lane, set + x + lane, here);
                 const auto solid = under > nothing;
-                const auto law = law_at<by_site>(whole, of_sites + x + lane, here);
+                const auto law = law_at<by_site>(whole, factors, x + lane, here);
                 const Real gap = reference + Real::load_first(u + x + lane, here) -
                                  select(solid, under, Real(0.0));
                 Real(0.0).store(terms.x + lane);
@@ -99,7 +106,7 @@ void wall_sweep(const InterfaceSites& sites, const WallMaps& maps, const WallLaw
                 int row_begin, int row_end, InterfaceSums& sums) {
     std::visit(
         [&]<class Law>(const Law& law) {
-            with_maps<Law>(maps.factor.origin, maps.yield_gap.origin,
+            with_maps<Law>(maps.factors.of[0].origin, maps.yield_gap.origin,
                            [&](auto by_site, auto yields) {
                                sweep_over<by_site(), yields(), observe>(law, sites, maps, row_begin,
                                                                         row_end, sums);
@@ -124,7 +131,7 @@ WallSums rest_over(const Law& wall, const WallRow<T>& row, const WallRule& rule,
         }
         for (int lane = 0; lane < count; lane += Real::width) {
             const int here = count - lane;
-            const auto law = law_at<by_site>(whole, row.factor + x + lane, here);
+            const auto law = law_at<by_site>(whole, row.factors, x + lane, here);
             const Real u = Real::load_first(row.u + x + lane, here);
             const Real under = height_at<yields>(row.below + x + lane, row.set + x + lane, here);
             const auto solid = under > nothing;
@@ -156,7 +163,7 @@ template <class T>
 WallSums rest_row(const WallLaw& wall, const WallRow<T>& row, const WallRule& rule, int sites) {
     return std::visit(
         [&]<class Law>(const Law& law) {
-            return with_maps<Law>(row.factor, row.yield_gap, [&](auto by_site, auto yields) {
+            return with_maps<Law>(row.factors.of[0], row.yield_gap, [&](auto by_site, auto yields) {
                 return rest_over<by_site(), yields()>(law, row, rule, sites);
             });
         },

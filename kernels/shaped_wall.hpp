@@ -19,6 +19,7 @@
 // Row k of a shape begins at x_k; the rows are equidistant in y / (1 + y), y = x - x_0.
 #pragma once
 
+#include "kernels/law_factors.hpp"
 #include "kernels/number.hpp"
 
 #include <cmath>
@@ -65,8 +66,9 @@ public:
               last(same<V>(w.shape_.last)), per_length(same<V>(w.per_length())),
               repels(w.shape_.repels) {}
 
-        /// Returns the law times a factor; a repulsion that is not of the shape stays.
-        ASPERITY_INLINE Terms scaled(V factor) const {
+        /// Returns the law times the factor of a site; a repulsion that is not of the shape stays.
+        ASPERITY_INLINE Terms scaled(const LawFactors<V>& factors) const {
+            const V factor = factors[LawFactor::attraction];
             Terms law = *this;
             law.adhesion = factor * adhesion;
             law.tension = factor * tension;
@@ -127,13 +129,14 @@ public:
             return select(x > last, same<V>(0.0), tension * (row[1] + (x - row[0]) * row[2]));
         }
     };
-    /// Returns the law times a factor; a repulsion that is not of the shape stays.
-    ShapedWall scaled(double factor) const {
+    /// Returns the law times the factor of a site; a repulsion that is not of the shape stays.
+    ShapedWall scaled(const LawFactors<double>& factors) const {
         ShapedWall law = *this;
-        law.adhesion_ *= factor;
+        law.adhesion_ *= factors[LawFactor::attraction];
         return law;
     }
-    /// Returns the factor for which scaled() has the fraction `part` of the work of adhesion.
+    /// Returns the factor of the attraction for which scaled() has the fraction `part` of the work
+    /// of adhesion.
     double factor_of(double part) const {
         return work_ > 0.0 ? amplitude(part * work_) / amplitude(work_) : 1.0;
     }

@@ -15,8 +15,8 @@ namespace asperity {
 /// Numbers of the wall at the sites of a tile.
 struct WallMaps {
     PlaneView<const double> height; ///< height of the wall before it yields, Å; NaN: no solid
-    /// Factor of the law of each site (ScaledBySite); no origin: one law for all sites.
-    PlaneView<const double> factor{};
+    /// Factors of the law of each site (ScaledBySite); no origin: one law for all sites.
+    LawFactors<PlaneView<const double>> factors{};
     /// Gap at which the law's force is that of the hardness, Å: at smaller gaps the force is this
     /// one. No origin: no site yields.
     PlaneView<const double> yield_gap{};
@@ -29,8 +29,8 @@ struct WallRow {
     const double* u;               ///< places of the sites, Å
     const float* step;             ///< last moves of the sites, Å
     const T* elastic;              ///< S z / norm, eV/Å
-    /// Factor of the law of each site (ScaledBySite); nullptr: one law for all sites.
-    const double* factor = nullptr;
+    /// Factors of the law of each site (ScaledBySite); nullptr: one law for all sites.
+    LawFactors<const double*> factors{};
     const double* yield_gap = nullptr; ///< WallMaps::yield_gap; nullptr: no site yields
     const double* set = nullptr;       ///< WallMaps::set; nullptr: no site yields
     double* next;                      ///< output: equilibria of the sites, Å

@@ -21,8 +21,8 @@
 // Other shapes of the attraction are in shaped_wall.hpp.
 //
 // If the work of adhesion differs from site to site, the attraction is multiplied by a factor of
-// the site (scaled()). The law is then that of the largest work, and factor_of() returns the factor
-// for a smaller work.
+// the site (scaled(), law_factors.hpp). The law is then that of the largest work, and factor_of()
+// returns the factor for a smaller work.
 //
 // Terms<V> has the formulas of a law for values of type V (number.hpp). A NaN gap gives a NaN
 // force.
@@ -30,6 +30,7 @@
 // Units: Å, eV, eV/Å, for each site.
 #pragma once
 
+#include "kernels/law_factors.hpp"
 #include "kernels/pair_potential.hpp"
 #include "kernels/shaped_wall.hpp"
 
@@ -195,8 +196,9 @@ public:
             : adhesion(same<V>(w.adhesion_)), rate(same<V>(1.0 / w.range_)),
               stiffness(same<V>(w.stiffness_)), tension(same<V>(w.tension_)) {}
 
-        /// Returns the law with its attraction times a factor.
-        ASPERITY_INLINE Terms scaled(V factor) const {
+        /// Returns the law with its attraction times the factor of a site.
+        ASPERITY_INLINE Terms scaled(const LawFactors<V>& factors) const {
+            const V factor = factors[LawFactor::attraction];
             Terms law = *this;
             law.adhesion = factor * adhesion;
             law.tension = factor * tension;
@@ -226,14 +228,15 @@ public:
             return select(x > same<V>(ranges), same<V>(0.0), exponential(-x));
         }
     };
-    /// Returns the law with its attraction times a factor.
-    ExponentialWall scaled(double factor) const {
+    /// Returns the law with its attraction times the factor of a site.
+    ExponentialWall scaled(const LawFactors<double>& factors) const {
         ExponentialWall law = *this;
-        law.adhesion_ *= factor;
-        law.tension_ *= factor;
+        law.adhesion_ *= factors[LawFactor::attraction];
+        law.tension_ *= factors[LawFactor::attraction];
         return law;
     }
-    /// Returns the factor for which scaled() has the fraction `part` of the work of adhesion.
+    /// Returns the factor of the attraction for which scaled() has the fraction `part` of the work
+    /// of adhesion.
     double factor_of(double part) const {
         return work_ > 0.0 ? ExponentialWall(part * work_, range_, stiffness_).adhesion_ / adhesion_
                            : 1.0;
@@ -276,10 +279,10 @@ auto walls_of(const std::variant<P...>&)
                                           std::declval<SmearedWallsOf<P>>()...)));
 using WallLaw = decltype(walls_of(std::declval<PairPotential>()));
 
-/// True for laws that differ from site to site by a factor.
+/// True for laws that differ from site to site by factors.
 template <class Law>
 concept ScaledBySite = requires(const Law& law) {
-    law.scaled(1.0);
+    law.scaled(LawFactors<double>{});
 };
 
 } // namespace asperity

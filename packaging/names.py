@@ -74,6 +74,8 @@ def stub(program: str) -> str:
     rows = [(path, (kind_of(path, q["unit"]), said(q["unit"], q["meaning"]))) for path, q in results.items()
             if not (path.endswith("[]"))]
     classes_of(named(rows), "Numbers", out)
+    losses = sorted({path.partition(".")[0] for path in results if path.startswith("dissipated_in_")})
+    out += ["\nclass Losses:", *(f"    @property\n    def {name}(self) -> float: ..." for name in losses)]  # of a point (_engine.pyi)
     keys = json.loads(say(program, "defaults", "--json"))
     classes_of(named([(key, ("Any", said(q["unit"], q["doc"]))) for key, q in keys.items() if not key.startswith("sweep")]), "Scene", out)
     table = re.findall(r"^\| `(series|fields/\*|substrate)/(\w+)` \| (.*?) \| .*? \| (.*) \|$", say(program, "defaults", "--results"), re.M)

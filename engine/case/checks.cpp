@@ -18,7 +18,6 @@
 #include <cmath>
 #include <numbers>
 #include <string_view>
-#include <tuple>
 
 namespace asperity {
 
@@ -102,10 +101,10 @@ void check_path(const Case& c, io::Problems& problems) {
                        "of two rough solids the pressure acts on slopes of both, and the friction "
                        "at each place is not known",
                        "give output.stress_friction, a friction in phase with the pressure");
-            for (const SiteMapKeys* map : c.scene.interface.site_maps())
-                refuse(fmt::format("over a field of the {}", map->of.words),
+            for (const io::SiteQuantity& of : c.scene.interface.site_maps())
+                refuse(fmt::format("over a field of the {}", of.words),
                        "the heights move under the block, and the field would stay",
-                       fmt::format("give interface.{} a number", map->of.name));
+                       fmt::format("give interface.{} a number", of.name));
             if (wall && c.effects.dynamic)
                 refuse("over a wall on a dynamic path",
                        "a wall moves under a block that is in force balance",
@@ -287,12 +286,11 @@ void note_branches(const Case& c, std::vector<std::string>& list) {
         "these branches are always relaxed", "this branch is always relaxed");
 }
 
-} // namespace
-
-void check_keys(const Case& c, io::Problems& problems) {
+/// Refuses cutoffs that reach around the box, over too many atoms, or to no attraction.
+void check_cutoff(const Case& c, io::Problems& problems) {
     const Scene& scene = c.scene;
-    const auto& [surface, interface, drive] = std::tie(scene.surface, scene.interface, scene.drive);
-
+    const Scene::Surface& surface = scene.surface;
+    const Scene::Interface& interface = scene.interface;
     const bool wall = interface.kind == InterfaceKind::wall;
     const bool pairs = !wall || interface.law == WallLawKind::smeared;
     const PairPotential& potential = c.simulation.interface.potential;
@@ -336,7 +334,12 @@ void check_keys(const Case& c, io::Problems& problems) {
             "interface.cutoff", fmt::format("= {:.6g} Å leaves no attraction", cutoff),
             fmt::format("the minimum of the potential is at {:.6g} Å", minimum),
             fmt::format("take interface.cutoff = {:.6g} Å (4 r0)", 4.0 * zero_of(potential)));
+}
 
+/// Refuses spectra and caps that the box cannot hold.
+void check_shape(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
+    const Scene::Surface& surface = scene.surface;
     if (surface.kind == SurfaceKind::self_affine && surface.q_max &&
         surface.rolloff > *surface.q_max)
         problems.add("surface.rolloff",
@@ -357,10 +360,12 @@ void check_keys(const Case& c, io::Problems& problems) {
             fmt::format("the cap would not reach the corners, {:.6g} Å from the centre",
                         scene.edge() * std::numbers::sqrt2 / 2.0),
             "give a larger radius or fewer sites");
+}
 
-    refuse_unmet_needs(scene, problems);
-    if (surface.kind == SurfaceKind::atoms) check_atoms(scene, problems);
-
+/// Refuses walls and frictionless contacts on paths that have none.
+void check_interface(const Case& c, io::Problems& problems) {
+    const Scene::Interface& interface = c.scene.interface;
+    const bool wall = interface.kind == InterfaceKind::wall;
     if (wall && c.effects.dynamic)
         problems.add("interface.kind", "= \"wall\" on a dynamic path",
                      "a wall takes no lateral tractions, and dynamic paths cannot leave out "
@@ -380,23 +385,35 @@ void check_keys(const Case& c, io::Problems& problems) {
                      "normal forces alone is known wave by wave",
                      "take drive.mode = \"quasistatic\" or drive.path = [\"relax\"], or "
                      "frictionless = false");
+}
 
-    check_path(c, problems);
+/// Refuses holes without a wall, and a map that is scaled to nothing.
+void check_map(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
+    const Scene::Surface& surface = scene.surface;
+    const bool wall = scene.interface.kind == InterfaceKind::wall;
     if (surface.kind == SurfaceKind::file && surface.file_missing == MapMissing::hole && !wall)
         problems.add("surface.file_missing", "= \"hole\" without a wall",
                      "of a layer of atoms no place is empty", "take interface.kind = \"wall\"");
     if (surface.kind == SurfaceKind::file && scene.gives_rms() && surface.rms == 0.0)
         problems.add("surface.rms", "= 0 Å with a map", "a map scaled to nothing is a flat surface",
                      "take kind = \"flat\" and no file, or leave rms out to take the map as it is");
-    const auto& prony = scene.block.prony;
+}
+
+/// Refuses relaxation times that do not grow.
+void check_branches(const Case& c, io::Problems& problems) {
+    const auto& prony = c.scene.block.prony;
     for (std::size_t i = 1; i < prony.size(); ++i)
         if (prony[i][1] <= prony[i - 1][1])
             problems.add("block.prony",
                          fmt::format("has {:.6g} ps after {:.6g} ps", prony[i][1], prony[i - 1][1]),
                          "the relaxation times are to grow from branch to branch",
                          "write the branches in the order of their times, each time once");
-    check_layers(c, problems);
-    if (interface.hardness) check_hardness(c, problems);
+}
+
+/// Refuses a temperature without damping.
+void check_thermostat(const Case& c, io::Problems& problems) {
+    const Scene::Drive& drive = c.scene.drive;
     if (drive.temperature > 0.0 && drive.damping_from >= 1.0)
         problems.add("drive.damping_from",
                      fmt::format("= {:.6g} with a temperature", drive.damping_from),
@@ -407,9 +424,10 @@ void check_keys(const Case& c, io::Problems& problems) {
                      fmt::format("= {:.6g} K with drive.damping = 0", drive.temperature),
                      "the Langevin thermostat gives and takes heat through the damping",
                      "give a damping, for example 0.05 1/ps");
-    if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
-        for (const io::Problem& p : device_problems(c))
-            problems.add(p.where, p.what, p.why, p.fix);
+}
+
+/// Refuses maps of states that the path does not have.
+void check_fields(const Case& c, io::Problems& problems) {
     if (!c.maps.after_approach.empty() && (!c.effects.dynamic || !c.has(Segment::pull_off)))
         problems.add("output.fields", "asks for \"" + c.maps.after_approach.front().second + "\"",
                      "no dynamic pull-off follows an approach",
@@ -421,6 +439,27 @@ void check_keys(const Case& c, io::Problems& problems) {
     if (c.maps.pull_off && !c.has(Segment::pull_off))
         problems.add("output.fields", "asks for \"pull-off\"", "drive.path has no pull-off",
                      "add it to drive.path or take it out of output.fields");
+}
+
+} // namespace
+
+void check_keys(const Case& c, io::Problems& problems) {
+    const Scene& scene = c.scene;
+    check_cutoff(c, problems);
+    check_shape(c, problems);
+    refuse_unmet_needs(scene, problems);
+    if (scene.surface.kind == SurfaceKind::atoms) check_atoms(scene, problems);
+    check_interface(c, problems);
+    check_path(c, problems);
+    check_map(c, problems);
+    check_branches(c, problems);
+    check_layers(c, problems);
+    if (scene.interface.hardness) check_hardness(c, problems);
+    check_thermostat(c, problems);
+    if (scene.numerics.device && scene.numerics.device.kind != DeviceChoice::Kind::automatic)
+        for (const io::Problem& p : device_problems(c))
+            problems.add(p.where, p.what, p.why, p.fix);
+    check_fields(c, problems);
 }
 
 std::vector<io::Problem> device_problems(const Case& c) {
@@ -469,7 +508,7 @@ void refuse_above_hardness(const Case& c, io::Problems& refused) {
                                 "{:.6g} MPa (interface.hardness): the whole surface would yield, "
                                 "and nothing would bear the load",
                                 force / c.area() / units::megapascal,
-                                c.simulation.interface.hardness_map ? "mean " : "",
+                                c.simulation.interface.maps[SiteMapOf::hardness] ? "mean " : "",
                                 hardness / units::megapascal),
                     "take a smaller load or a larger hardness");
     };

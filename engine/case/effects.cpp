@@ -5,10 +5,13 @@
 #include "kernels/device/device.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace asperity {
 
@@ -103,13 +106,15 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
-    for (const SiteMapKeys* map : s.interface.site_maps()) {
-        e.site_maps.on = true;
-        e.site_maps.why +=
-            fmt::format("{}interface.{} = \"{}\"", e.site_maps.why.empty() ? "" : ", ",
-                        map->of.name, map->source);
+    std::vector<std::string> keys, fields; // keys that may be fields, and those that are
+    for (const io::SiteQuantity& of : io::site_quantities) {
+        keys.push_back(fmt::format("interface.{}", of.name));
+        if (const SiteMapKeys& map = s.interface.maps[of.map]; map.given())
+            fields.push_back(fmt::format("{} = \"{}\"", keys.back(), map.source));
     }
-    if (!e.site_maps) e.site_maps.why = "interface.adhesion and interface.hardness are no fields";
+    e.site_maps = {!fields.empty(), fields.empty()
+                                        ? fmt::format("{} are no fields", fmt::join(keys, " and "))
+                                        : fmt::format("{}", fmt::join(fields, ", "))};
     e.curvature = {s.surface.radius.has_value(),
                    s.surface.radius ? fmt::format("surface.radius = {:.6g} Å", *s.surface.radius)
                                     : "surface.radius = \"none\""};
@@ -141,9 +146,9 @@ Effects effects_of(const Case& c) {
         s.block.surface_stress > 0.0, counter.surface_stress > 0.0,
         [&] { return tension("block.surface_stress", s.block.surface_stress); },
         [&] { return tension("surface.counter_surface_stress", counter.surface_stress); });
+    const SiteMapKeys& hardness = s.interface.maps[SiteMapOf::hardness];
     e.yielding = {s.interface.hardness.has_value(),
-                  s.interface.hardness_map.given()
-                      ? fmt::format("interface.hardness = \"{}\"", s.interface.hardness_map.source)
+                  hardness.given() ? fmt::format("interface.hardness = \"{}\"", hardness.source)
                   : s.interface.hardness
                       ? fmt::format("interface.hardness = {:.6g} GPa", *s.interface.hardness)
                       : "interface.hardness = \"none\""};
@@ -193,11 +198,11 @@ NoTheory no_theory(const Scene& scene, const Effects& effects) {
     if (effects.yielding)
         return none("interface.hardness", "the surface yields", "of elastic surfaces",
                     "leave interface.hardness out");
-    for (const SiteMapKeys* map : scene.interface.site_maps())
-        return none(fmt::format("interface.{}", map->of.name),
-                    fmt::format("the {} differs from site to site", map->of.words),
-                    fmt::format("of one {}", map->of.words),
-                    fmt::format("give interface.{} a number, for example the mean", map->of.name));
+    for (const io::SiteQuantity& of : scene.interface.site_maps())
+        return none(fmt::format("interface.{}", of.name),
+                    fmt::format("the {} differs from site to site", of.words),
+                    fmt::format("of one {}", of.words),
+                    fmt::format("give interface.{} a number, for example the mean", of.name));
     if (effects.counter && effects.branches && effects.sliding)
         return none("surface.counter", "the block may be rough itself, and slides",
                     "of a flat block that slides", "leave surface.counter out");

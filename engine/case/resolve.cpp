@@ -192,15 +192,7 @@ void fill_interface(Case& c) {
     } else {
         options.wall = ExponentialWall(adhesion * site, i.range, stiffness * site);
     }
-    if (options.adhesion) { // the mean of equal sites is exactly that of one
-        const double across = options.adhesion->sites;
-        std::array<double, 1> below{};
-        options.adhesion->bands().in_order(below, [&] {
-            for (const double of_site : options.adhesion->values)
-                below[0] += 1.0 - options.adhesion_factor(of_site);
-        });
-        options.mean_adhesion_factor = 1.0 - below[0] / (across * across);
-    }
+    if (options.has_law_factors()) options.find_mean_law_factors();
 }
 
 /// Fills in flat on flat, and the bounds over flat layers of each type of atoms.
@@ -402,30 +394,22 @@ void look_at_ranks(Case& c, io::Problems& refused) {
 /// Fills in the maps of the sites that the scene has, and their largest values in the scene.
 void find_site_maps(Case& c, const Communicator& world, io::Problems& problems) {
     Scene::Interface& keys = c.scene.interface;
-    if (keys.hardness_map.given()) {
-        const auto map = site_map(c, keys.hardness_map, world, problems);
-        if (!map) return;
-        if (map->least == 0.0)
-            return problems.add("interface.hardness",
-                                fmt::format("= \"{}\" is 0 at some sites", map->source),
-                                "a site of no hardness would not be pressed at all",
-                                "take a hardness above 0 at each site, in GPa");
-        keys.hardness = map->largest;
-        c.simulation.interface.hardness_map = map;
+    InterfaceOptions& options = c.simulation.interface;
+    for (const io::SiteQuantity& of : keys.site_maps()) {
+        if (of.scales_law && !keys.has_adhesion()) continue;
+        const auto map = site_map(c, of, world, problems);
+        if (!map) continue;
+        const bool no_zero =
+            of.zero == io::SiteQuantity::refused ||
+            (of.zero == io::SiteQuantity::taken_without_repulsion && keys.shape_repels());
+        if (map->least == 0.0 && no_zero)
+            problems.add(fmt::format("interface.{}", of.name),
+                         fmt::format("= \"{}\" is 0 at some sites", map->source),
+                         std::string(of.why_no_zero), std::string(of.instead_of_zero));
+        set_largest(keys, of.map, map->largest);
+        options.maps[of.map] = map;
     }
-    if (keys.hardness) c.simulation.interface.hardness = *keys.hardness * units::gigapascal;
-    if (!keys.adhesion_map.given() || !keys.has_adhesion()) return;
-    constexpr const char* key = "interface.adhesion";
-    const auto map = site_map(c, keys.adhesion_map, world, problems);
-    if (!map) return;
-    if (keys.shape_repels() && map->least == 0.0)
-        return problems.add(
-            key, fmt::format("= \"{}\" is 0 at some sites", map->source),
-            "the law (interface.law) repels by itself, and the work of adhesion multiplies "
-            "its repulsion too: nothing would repel there",
-            "take a small work of adhesion in place of 0, or law = \"exponential\"");
-    keys.adhesion = map->largest;
-    c.simulation.interface.adhesion = map;
+    if (keys.hardness) options.hardness = *keys.hardness * units::gigapascal;
 }
 
 /// Derives all consequences of keys that do not contradict each other.

@@ -52,8 +52,8 @@ struct Formula {
     std::vector<Extent> extents;
 };
 
-std::vector<Formula> formulas_of(const SiteQuantity& of) {
-    const std::string unit = of.unit, high = of.high, both = fmt::format("{} {}", of.low, of.high);
+std::vector<Formula> formulas_of(const io::SiteQuantity& of) {
+    const std::string unit(of.unit), high(of.high), both = fmt::format("{} {}", of.low, of.high);
     std::vector<Formula> all = {{"stripes",
                                  {unit, unit, "Å"},
                                  "stripes LOW HIGH PERIOD",
@@ -84,7 +84,7 @@ struct BadFormula {
 
 /// Returns the numbers of a formula of a quantity. Throws BadFormula.
 std::vector<double> numbers_of(const Formula& formula, const std::string& text,
-                               const SiteQuantity& of) {
+                               const io::SiteQuantity& of) {
     std::istringstream words(text.substr(formula.name.size()));
     std::vector<std::string> quantities;
     for (std::string word; words >> word;)
@@ -225,7 +225,7 @@ std::optional<double> mean_of(const Formula& formula, const std::vector<double>&
 /// Notes a mean over the sites that is not that of the formula: of a coarse pattern, or of one that
 /// the box cuts.
 void note_other_mean(const Formula& formula, const std::vector<double>& numbers,
-                     const SiteQuantity& of, double mean, std::vector<std::string>& notes) {
+                     const io::SiteQuantity& of, double mean, std::vector<std::string>& notes) {
     constexpr double part = 0.01;
     const std::optional<double> asked = mean_of(formula, numbers);
     if (!asked || std::abs(mean - *asked) <= part * *asked) return;
@@ -236,7 +236,7 @@ void note_other_mean(const Formula& formula, const std::vector<double>& numbers,
 
 /// Returns the values of a formula with these numbers on the sites of the box. Throws BadFormula.
 std::vector<double> values_of(const Formula& formula, const std::vector<double>& p,
-                              const SiteQuantity& of, const Square& box,
+                              const io::SiteQuantity& of, const Square& box,
                               std::vector<std::string>& notes) {
     const auto period_of = [&](double asked) {
         const double used = fitting(asked, box);
@@ -299,9 +299,9 @@ std::pair<double, double> extremes(const std::vector<double>& band, const Bands&
 }
 
 /// Returns the values of a file on the sites of the box. Throws io::SceneError.
-std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::string& file,
+std::vector<double> values_of_file(Case& c, const io::SiteQuantity& of, const std::string& file,
                                    const Square& box) {
-    const SiteQuantity& of = keys.of;
+    const SiteMapKeys& keys = c.scene.interface.maps[of.map];
     const std::string key = fmt::format("interface.{}", of.name);
     io::HeightMap map = read_field({keys.source,
                                     file,
@@ -310,7 +310,8 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
                                      keys.crop == MapCrop::middle,
                                      keys.size,
                                      false,
-                                     {of.words, of.name, of.unit, key, of.dimension}}},
+                                     {std::string(of.words), std::string(of.name),
+                                      std::string(of.unit), key, std::string(of.dimension)}}},
                                    box.bands.ranks())
                             .map;
     SurfaceOptions covered;
@@ -340,7 +341,7 @@ std::vector<double> values_of_file(Case& c, const SiteMapKeys& keys, const std::
     std::vector<double> values = bands.spread(std::move(map.heights));
     const auto [low, high] = extremes(values, bands);
     if (low < 0.0)
-        refuse(fmt::format("has a value of {:.4g} {}", low, of.unit), of.negative,
+        refuse(fmt::format("has a value of {:.4g} {}", low, of.unit), std::string(of.negative),
                "set the negative values of the map to 0 before, or correct its zero");
     if (points != whole) {
         values = heights::resample(values, bands, whole);
@@ -376,10 +377,10 @@ void find_sum_and_digest(SiteMap& map) {
 
 } // namespace
 
-std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, const Communicator& world,
-                                        io::Problems& problems) {
-    const SiteQuantity& of = keys.of;
-    const std::string &text = keys.source, key = fmt::format("interface.{}", of.name);
+std::shared_ptr<const SiteMap> site_map(Case& c, const io::SiteQuantity& of,
+                                        const Communicator& world, io::Problems& problems) {
+    const std::string &text = c.scene.interface.maps[of.map].source,
+                      key = fmt::format("interface.{}", of.name);
     const Square box{
         c.scene.surface.sites, c.scene.surface.spacing, {world, c.scene.surface.sites}};
     auto map = std::make_shared<SiteMap>();
@@ -411,7 +412,7 @@ std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, const 
                                              "\"{}\"",
                                              formulas.front().example)};
             if (colon != std::string::npos) map->file += text.substr(colon);
-            map->values = values_of_file(c, keys, map->file, box);
+            map->values = values_of_file(c, of, map->file, box);
             find_sum_and_digest(*map);
         }
     } catch (const BadFormula& bad) {

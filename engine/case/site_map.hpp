@@ -18,10 +18,10 @@
 
 namespace asperity {
 
-/// Reads or computes a map of the sites, in bands on the ranks of `world`, of which the root reads
-/// the file, and adds its notes to the case. Returns null, with the mistakes in problems, if it has
-/// some. Collective.
-std::shared_ptr<const SiteMap> site_map(Case& c, const SiteMapKeys& keys, const Communicator& world,
-                                        io::Problems& problems);
+/// Reads or computes a map of the sites that the scene has, in bands on the ranks of `world`, of
+/// which the root reads the file, and adds its notes to the case. Returns null, with the mistakes
+/// in problems, if it has some. Collective.
+std::shared_ptr<const SiteMap> site_map(Case& c, const io::SiteQuantity& of,
+                                        const Communicator& world, io::Problems& problems);
 
 } // namespace asperity

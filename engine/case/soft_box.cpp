@@ -48,7 +48,7 @@ std::optional<std::string> note_on_soft_box(const Case& c) {
     if (loss)
         note += fmt::format("; flat surfaces lose about {:.2g} of Δγ in it",
                             *loss / c.flat.work_of_adhesion);
-    if (c.surface.kind == SurfaceKind::flat && !c.simulation.interface.adhesion)
+    if (c.surface.kind == SurfaceKind::flat && !c.simulation.interface.has_law_factors())
         note += fmt::format(
             "; nothing breaks the symmetry of surfaces that are exactly flat, so that the path may "
             "follow states that are not stable: take surface.kind = \"self-affine\" with a "

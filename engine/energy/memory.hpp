@@ -13,6 +13,8 @@
 #include "engine/energy/energies.hpp"
 #include "engine/units.hpp"
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -63,7 +65,16 @@ public:
     virtual void accept() = 0;
     /// Returns the energies if the step ends at the present displacements. Collective.
     virtual StepEnergies energies() const = 0;
+    /// Returns true if a state at rest has the arrays too: they outlive a relaxation.
+    virtual bool stays_at_rest() const { return false; }
     virtual std::size_t bytes() const = 0; ///< returns the memory of the fields, bytes
 };
+using Memories = std::vector<std::unique_ptr<Memory>>; ///< memories of a body
+
+/// Returns true if a memory of a body stays at rest.
+inline bool any_stays_at_rest(const Memories& memories) {
+    return std::ranges::any_of(memories,
+                               [](const auto& memory) { return memory->stays_at_rest(); });
+}
 
 } // namespace asperity

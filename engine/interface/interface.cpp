@@ -79,6 +79,7 @@ Interface::Interface(const Surface& substrate, const Tile& tile, double spacing,
     if (options.tail && !wall()) find_mean_heights();
     if (options.slides) atoms_ = substrate.atoms;
     if (wall()) map_.free_heights();
+    if (yielding_wall()) std::get<OverWall>(substrate_).lower_by(keep("set"));
 }
 
 void Interface::slide_to(double x, double y) {
@@ -261,15 +262,24 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
             }
         }
     }
-    if (const OverWall* const yielding = yielding_wall())
+    const auto add = [&](const std::string& name, const auto& value) {
+        std::vector<double>& map = maps.of_sites.emplace_back(name, std::vector<double>()).second;
+        map.reserve(count);
         for (int y = 0; y < tile_.ny; ++y)
-            for (int x = 0; x < tile_.nx; ++x) {
-                maps.set.push_back(yielding->set()(x, y));
-                maps.yielded_heights.push_back(yielding->below(x, y));
-            }
+            for (int x = 0; x < tile_.nx; ++x)
+                map.push_back(value(x, y));
+    };
+    for (const auto& [name, field] : kept_)
+        add(name, field.plane(0));
+    if (const OverWall* const wall = yielding_wall())
+        add("yielded_height", [&](int x, int y) { return wall->below(x, y); });
     for (const auto& map : options_.site_maps())
         maps.of_sites.emplace_back(map->name, map->under(tile_));
     return maps;
+}
+
+std::size_t Interface::maps_of_sites() const {
+    return kept_.size() + (yielding_wall() ? 1 : 0) + options_.site_maps().size();
 }
 
 double Interface::start_height() const { return map_.highest() + reach_of(options_); }
@@ -325,6 +335,8 @@ std::size_t Interface::bytes() const {
     std::size_t all = map_.heights().size() * sizeof(double) +
                       (mean_height_.empty() ? 0 : mean_height_.bytes()) +
                       3 * atoms_.size() * sizeof(double) + (slid_.empty() ? 0 : slid_.bytes());
+    for (const auto& [name, field] : kept_)
+        all += field.bytes();
     std::visit(
         [&](const auto& substrate) {
             if constexpr (!std::is_same_v<std::decay_t<decltype(substrate)>, std::monostate>)

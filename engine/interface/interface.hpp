@@ -31,6 +31,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <string>
@@ -64,17 +65,16 @@ struct InterfaceMaps {
     /// atoms), Å; NaN over a hole.
     std::vector<double> gap;
     std::vector<double> pressure; ///< normal force on the site per a^2, GPa; repulsion is positive
-    std::vector<double> set;      ///< permanent set, Å; empty: the substrate does not yield
-    /// Height of the substrate, less its set, Å; empty: the substrate does not yield.
-    std::vector<double> yielded_heights;
-    /// Values of each map of the sites (InterfaceOptions::site_maps()), by its name.
+    /// Further maps by their names in run.h5: each field that a memory keeps (Interface::keep()),
+    /// the heights of a wall that yields less its set, Å, and each of
+    /// InterfaceOptions::site_maps().
     std::vector<std::pair<std::string, std::vector<double>>> of_sites;
 
     /// Cuts all maps to their first n x n sites.
     void crop(int n) {
         crop_map(contact, nx, n);
-        for (std::vector<double>* map : {&distance, &gap, &pressure, &set, &yielded_heights})
-            if (!map->empty()) crop_map(*map, nx, n);
+        for (std::vector<double>* map : {&distance, &gap, &pressure})
+            crop_map(*map, nx, n);
         for (auto& [name, map] : of_sites)
             crop_map(map, nx, n);
         nx = ny = n;
@@ -126,6 +126,14 @@ public:
     std::int64_t contact_edges(const VectorPlane<const double>& displacement,
                                const Communicator& ranks) const;
 
+    /// Returns a field of zeros at the sites, for a memory of them (engine/energy/memory.hpp).
+    /// name: name of its map in run.h5. The reference is valid as long as the interface.
+    Field<double>& keep(std::string name) {
+        return kept_.emplace_back(std::move(name), Field<double>(tile_, 1, 0)).second;
+    }
+    /// Returns the number of InterfaceMaps::of_sites.
+    std::size_t maps_of_sites() const;
+
     /// Returns maps of the sites at these displacements, Å. Collective.
     InterfaceMaps maps(const VectorPlane<const double>& displacement) const;
 
@@ -174,6 +182,7 @@ private:
     HeightMap map_; ///< heights; for atoms anywhere, those of the topmost atoms
     InterfaceMethod method_;
     Substrate substrate_;
+    std::deque<std::pair<std::string, Field<double>>> kept_; ///< fields by keep()
     /// Mean heights of the atoms within the cutoff laterally, Å; empty without a tail.
     Field<double> mean_height_;
     double reference_height_ = 0.0; ///< Å

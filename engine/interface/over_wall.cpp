@@ -34,19 +34,12 @@ OverWall::OverWall(const HeightMap& map, int across, const Tile& tile,
             below(x, y) = tile.x0 + x < n && tile.y0 + y < n
                               ? map.at(tile.x0 + x, tile.y0 + y)
                               : std::numeric_limits<double>::quiet_NaN();
-    if (options.adhesion && options.adhesion->sites != n)
-        throw std::invalid_argument(
-            fmt::format("interface: {} x {} sites have a field of {} x {} works of adhesion", n, n,
-                        options.adhesion->sites, options.adhesion->sites));
-    if (options.adhesion) {
-        factor_ = Field<double>(tile, 1, 0);
-        const PlaneView<double> factor = factor_.plane(0);
-        const std::vector<double> adhesion = options.adhesion->under(tile);
-        auto of_site = adhesion.begin();
-        for (int y = 0; y < tile.ny; ++y)
-            for (int x = 0; x < tile.nx; ++x)
-                factor(x, y) = options.adhesion_factor(*of_site++);
-    }
+    for (const auto& field : options.site_maps())
+        if (field->sites != n)
+            throw std::invalid_argument(
+                fmt::format("interface: {} x {} sites have a field of {} x {} values of {}", n, n,
+                            field->sites, field->sites, field->name));
+    if (options.has_law_factors()) find_law_factors(options, tile);
     if (options.hardness) find_yield_gaps(options, tile, n, map.spacing() * map.spacing());
 }
 
@@ -68,14 +61,31 @@ double gap_under(const Law& law, double force) {
 
 } // namespace
 
+/// Finds the factors of the law of each site of the grid. Collective.
+void OverWall::find_law_factors(const InterfaceOptions& options, const Tile& tile) {
+    factors_ = Field<double>(tile, static_cast<int>(LawFactors<double>::count), 0);
+    const std::vector<SiteMapOf> given = options.maps_of_law();
+    PerSiteMap<std::vector<double>> values;
+    for (const SiteMapOf map : given)
+        values[map] = options.maps[map]->under(tile);
+    for (int y = 0; y < tile.ny; ++y)
+        for (int x = 0; x < tile.nx; ++x) {
+            PerSiteMap<double> of_site;
+            for (const SiteMapOf map : given)
+                of_site[map] = values[map][static_cast<std::size_t>(y * tile.nx + x)];
+            const LawFactors<double> factors = options.law_factors(of_site);
+            for (std::size_t k = 0; k < factors.count; ++k)
+                factors_.plane(static_cast<int>(k))(x, y) = factors.of[k];
+        }
+}
+
 /// Finds the yield gaps of the first across x across sites of the grid.
 void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile, int across,
                                double area) {
     yield_gap_ = Field<double>(tile, 1, 0);
-    set_ = Field<double>(tile, 1, 0);
     const PlaneView<double> gap = yield_gap_.plane(0);
     std::vector<double> hardness;
-    if (options.hardness_map) hardness = options.hardness_map->under(tile);
+    if (const auto& field = options.maps[SiteMapOf::hardness]) hardness = field->under(tile);
     const auto hardness_at = [&](int x, int y) {
         if (hardness.empty()) return options.hardness.value();
         return units::gigapascal * hardness[static_cast<std::size_t>(y * tile.nx + x)];
@@ -83,7 +93,7 @@ void OverWall::find_yield_gaps(const InterfaceOptions& options, const Tile& tile
     std::optional<double> of_all; // without maps
     for (int y = 0; y < tile.ny && tile.y0 + y < across; ++y)
         for (int x = 0; x < tile.nx && tile.x0 + x < across; ++x) {
-            if (!of_all || options.adhesion || options.hardness_map)
+            if (!of_all || !factors_.empty() || !hardness.empty())
                 of_all = with_law(x, y, [&](const auto& law) {
                     return gap_under(law, area * hardness_at(x, y));
                 });
@@ -124,13 +134,14 @@ double OverWall::force(int x, int y, double z) const {
 
 void OverWall::sweep_row(const InterfaceSites& sites, int y, SweepOptions how,
                          InterfaceSums& sums) const {
-    interface_kernels().wall.sweep[how.observe](
-        sites,
-        {.height = height(),
-         .factor = factor_.empty() ? PlaneView<const double>() : factor_.plane(0),
-         .yield_gap = yields() ? yield_gap_.plane(0) : PlaneView<const double>(),
-         .set = yields() ? set_.plane(0) : PlaneView<const double>()},
-        law_, y, y + 1, sums);
+    WallMaps maps{.height = height()};
+    for (std::size_t k = 0; !factors_.empty() && k < maps.factors.count; ++k)
+        maps.factors.of[k] = factors_.plane(static_cast<int>(k));
+    if (yields()) {
+        maps.yield_gap = yield_gap_.plane(0);
+        maps.set = set();
+    }
+    interface_kernels().wall.sweep[how.observe](sites, maps, law_, y, y + 1, sums);
 }
 
 } // namespace asperity

@@ -24,6 +24,7 @@
 #include <cstddef>
 #include <optional>
 #include <type_traits>
+#include <utility>
 #include <variant>
 
 namespace asperity {
@@ -47,10 +48,13 @@ public:
 
     /// Returns true if the surface yields.
     bool yields() const { return !yield_gap_.empty(); }
+    /// Keeps a reference to the permanent set of the sites, Å, by which a wall that yields is
+    /// lower.
+    void lower_by(Field<double>& set) { set_ = &set; }
     /// Returns the permanent set of the sites, Å, for writing. Requires yields().
-    Field<double>& set() { return set_; }
+    Field<double>& set() { return *set_; }
     /// Returns the permanent set of the sites, Å. Requires yields().
-    PlaneView<const double> set() const { return set_.plane(0); }
+    PlaneView<const double> set() const { return std::as_const(*set_).plane(0); }
     /// Returns the depth of a site below its yield gap, Å: the growth of its set if a step ends
     /// there; 0 over a hole. z: height of the site, Å. Requires yields().
     double growth(int x, int y, double z) const {
@@ -66,9 +70,10 @@ public:
     template <class T>
     WallSums rest_row(int y, WallRow<T> row, const WallRule& rule, int sites) const {
         row.below = height().line(y);
-        row.factor = factor_.empty() ? nullptr : factor_.plane(0).line(y);
+        for (std::size_t k = 0; !factors_.empty() && k < row.factors.count; ++k)
+            row.factors.of[k] = factors_.plane(static_cast<int>(k)).line(y);
         row.yield_gap = yields() ? yield_gap_.plane(0).line(y) : nullptr;
-        row.set = yields() ? set_.plane(0).line(y) : nullptr;
+        row.set = yields() ? set().line(y) : nullptr;
         const WallKernels& kernels = interface_kernels().wall;
         if constexpr (std::is_same_v<T, double>)
             return kernels.rest_double(law_, row, rule, sites);
@@ -89,9 +94,7 @@ public:
     bool attracts() const;
 
     /// Returns the height of the wall below a site, Å, with its set; NaN over a hole.
-    double below(int x, int y) const {
-        return height()(x, y) - (yields() ? set_.plane(0)(x, y) : 0.0);
-    }
+    double below(int x, int y) const { return height()(x, y) - (yields() ? set()(x, y) : 0.0); }
     /// Returns the height of the wall below each site of the tile before the wall yields, Å; NaN if
     /// there is no solid below the site.
     PlaneView<const double> height() const {
@@ -101,8 +104,7 @@ public:
     std::size_t bytes_of_map() const { return sliding_ ? sliding_->bytes_of_map() : 0; }
     std::size_t bytes() const {
         return (sliding_ ? sliding_->bytes() : height_.bytes()) +
-               (factor_.empty() ? 0 : factor_.bytes()) +
-               (yields() ? yield_gap_.bytes() + set_.bytes() : 0);
+               (factors_.empty() ? 0 : factors_.bytes()) + (yields() ? yield_gap_.bytes() : 0);
     }
 
 private:
@@ -112,19 +114,27 @@ private:
         return std::visit(
             [&]<class Law>(const Law& law) {
                 if constexpr (ScaledBySite<Law>)
-                    if (!factor_.empty()) return use(law.scaled(factor_.plane(0)(x, y)));
+                    if (!factors_.empty()) return use(law.scaled(factors_at(x, y)));
                 return use(law);
             },
             law_);
     }
+    /// Returns the factors of the law of a site. Requires planes of factors.
+    LawFactors<double> factors_at(int x, int y) const {
+        LawFactors<double> factors{};
+        for (std::size_t k = 0; k < factors.count; ++k)
+            factors.of[k] = factors_.plane(static_cast<int>(k))(x, y);
+        return factors;
+    }
+    void find_law_factors(const InterfaceOptions& options, const Tile& tile);
     void find_yield_gaps(const InterfaceOptions& options, const Tile& tile, int across,
                          double area);
 
     Field<double> height_; ///< empty with options.slides
     std::optional<SlidingMap> sliding_;
-    Field<double> factor_;    ///< factor of the law of each site; empty: one law for all
+    Field<double> factors_;   ///< plane k: factor k of the law of each site; empty: one for all
     Field<double> yield_gap_; ///< WallMaps::yield_gap; empty: no site yields
-    Field<double> set_;       ///< permanent set, Å
+    Field<double>* set_ = nullptr; ///< permanent set, Å, kept by the interface
     WallLaw law_;
 };
 

@@ -31,6 +31,7 @@ public:
     void begin(const TimeStep&) override {}
     void accept() override;
     StepEnergies energies() const override;
+    bool stays_at_rest() const override { return true; }
     std::size_t bytes() const override { return 0; } // counted by the interface
 
 private:

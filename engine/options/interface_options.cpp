@@ -5,6 +5,7 @@
 #include "engine/units.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <variant>
@@ -34,40 +35,70 @@ SiteMap SiteMap::piece(int across) const {
 }
 
 std::vector<std::shared_ptr<const SiteMap>> InterfaceOptions::site_maps() const {
-    std::vector<std::shared_ptr<const SiteMap>> maps;
-    for (const auto& map : {adhesion, hardness_map})
-        if (map) maps.push_back(map);
-    return maps;
+    std::vector<std::shared_ptr<const SiteMap>> given;
+    for (const auto& map : maps.of)
+        if (map) given.push_back(map);
+    return given;
 }
 
 void InterfaceOptions::crop_site_maps(int across) {
-    for (auto* const map : {&adhesion, &hardness_map})
-        if (*map) *map = std::make_shared<SiteMap>((*map)->piece(across));
+    for (auto& map : maps.of)
+        if (map) map = std::make_shared<SiteMap>(map->piece(across));
 }
 
-double InterfaceOptions::adhesion_factor(double adhesion_of_site) const {
-    return std::visit(
+std::vector<SiteMapOf> InterfaceOptions::maps_of_law() const {
+    std::vector<SiteMapOf> given;
+    for (const io::SiteQuantity& of : io::site_quantities)
+        if (of.scales_law && maps[of.map]) given.push_back(of.map);
+    return given;
+}
+
+LawFactors<double> InterfaceOptions::law_factors(const PerSiteMap<double>& of_site) const {
+    LawFactors<double> factors = no_factors;
+    const auto& adhesion = maps[SiteMapOf::adhesion];
+    std::visit(
         [&]<class Law>(const Law& of_largest) {
             if constexpr (ScaledBySite<Law>)
                 if (adhesion && adhesion->largest > 0.0)
-                    return of_largest.factor_of(adhesion_of_site / adhesion->largest);
-            return 1.0;
+                    factors[LawFactor::attraction] =
+                        of_largest.factor_of(of_site[SiteMapOf::adhesion] / adhesion->largest);
         },
         *wall);
+    return factors;
+}
+
+void InterfaceOptions::find_mean_law_factors() {
+    const std::vector<SiteMapOf> given = maps_of_law();
+    const SiteMap& any = *maps[given.front()]; // all have the same bands
+    std::array<double, LawFactors<double>::count> below{};
+    any.bands().in_order(below, [&] {
+        for (std::size_t i = 0; i < any.values.size(); ++i) {
+            PerSiteMap<double> of_site;
+            for (const SiteMapOf map : given)
+                of_site[map] = maps[map]->values[i];
+            const LawFactors<double> factors = law_factors(of_site);
+            for (std::size_t k = 0; k < below.size(); ++k)
+                below[k] += 1.0 - factors.of[k];
+        }
+    });
+    const double across = any.sites;
+    for (std::size_t k = 0; k < below.size(); ++k)
+        mean_law_factors.of[k] = 1.0 - below[k] / (across * across);
 }
 
 double InterfaceOptions::mean_hardness() const {
-    if (!hardness_map) return hardness.value();
-    const double across = hardness_map->sites;
-    return units::gigapascal * hardness_map->sum / (across * across);
+    const auto& map = maps[SiteMapOf::hardness];
+    if (!map) return hardness.value();
+    const double across = map->sites;
+    return units::gigapascal * map->sum / (across * across);
 }
 
 WallLaw mean_wall(const InterfaceOptions& options) {
-    if (!options.adhesion) return *options.wall;
+    if (!options.has_law_factors()) return *options.wall;
     return std::visit(
         [&]<class Law>(const Law& law) -> WallLaw {
             if constexpr (ScaledBySite<Law>)
-                return law.scaled(options.mean_adhesion_factor);
+                return law.scaled(options.mean_law_factors);
             else
                 return law;
         },

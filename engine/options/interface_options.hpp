@@ -6,7 +6,9 @@
 
 #include "decomposition/bands.hpp"
 #include "decomposition/tile.hpp"
+#include "io/site_quantities.hpp"
 #include "kernels/interface_kernels.hpp"
+#include "kernels/law_factors.hpp"
 
 #include <cstddef>
 #include <cstdint>
@@ -50,19 +52,26 @@ struct SiteMap {
     SiteMap piece(int across) const;
 };
 
+/// Factors of a law that is the same at all sites.
+inline constexpr LawFactors<double> no_factors = [] {
+    LawFactors<double> factors{};
+    for (double& factor : factors.of)
+        factor = 1.0;
+    return factors;
+}();
+
 /// Options of the interface.
 struct InterfaceOptions {
     std::optional<WallLaw> wall = {};            ///< wall in place of atoms
     std::shared_ptr<const WallShape> shape = {}; ///< shape to which `wall` refers; nullptr: none
-    /// Work of adhesion of each site over the wall, meV/Å^2, of which the largest is the wall's;
-    /// nullptr: the wall's for all sites.
-    std::shared_ptr<const SiteMap> adhesion = {};
-    double mean_adhesion_factor = 1.0; ///< mean of adhesion_factor() over the sites
-    /// Largest net pressure of a site over the wall, eV/Å^3, of all sites without hardness_map;
-    /// empty: no site yields.
+    /// Maps of the sites over the wall, in the units of the scene's keys; nullptr: the number of
+    /// the wall, or of the member below, for all sites. The wall has the largest of their values.
+    PerSiteMap<std::shared_ptr<const SiteMap>> maps = {};
+    /// Mean of law_factors() over the sites.
+    LawFactors<double> mean_law_factors = no_factors;
+    /// Largest net pressure of a site over the wall, eV/Å^3, of all sites without a map; empty: no
+    /// site yields.
     std::optional<double> hardness = {};
-    /// Hardness of each site, GPa; nullptr: `hardness` for all sites.
-    std::shared_ptr<const SiteMap> hardness_map = {};
     PairPotential potential;
     /// Potentials by AtomPositions::type; empty: `potential` for all atoms.
     std::vector<PairPotential> by_type = {};
@@ -81,9 +90,16 @@ struct InterfaceOptions {
     std::vector<std::shared_ptr<const SiteMap>> site_maps() const;
     /// Replaces each map of the sites by a piece of across x across.
     void crop_site_maps(int across);
-    /// Returns the factor of the attraction of a site of this work of adhesion, meV/Å^2, over the
-    /// wall (kernels/wall_law.hpp).
-    double adhesion_factor(double adhesion_of_site) const;
+    /// Returns true if the law of the wall differs from site to site.
+    bool has_law_factors() const { return !maps_of_law().empty(); }
+    /// Returns the maps from which the factors of the law of a site follow.
+    std::vector<SiteMapOf> maps_of_law() const;
+    /// Returns the factors of the law of a site with these values of maps_of_law(), in the units of
+    /// the scene's keys (kernels/law_factors.hpp).
+    LawFactors<double> law_factors(const PerSiteMap<double>& of_site) const;
+    /// Sets mean_law_factors; the mean of equal sites is exactly that of one. Collective over the
+    /// ranks of the maps. Requires has_law_factors().
+    void find_mean_law_factors();
     /// Returns the mean hardness of the sites of the box, eV/Å^3. Requires `hardness`.
     double mean_hardness() const;
 

@@ -18,7 +18,7 @@ StaticPath::StaticPath(const Case& c, const Surface& surface, const Communicator
     : Path(c, surface), grid_(c.grid(ranks.rank())),
       interface_(surface, grid_.tile(0), c.simulation.block.spacing, c.simulation.interface),
       block_(c.simulation.block, ranks, !c.effects.lateral) {
-    remember_set(block_, interface_);
+    remember_sites(block_, interface_);
     before_first_.mean_height = interface_.reference_height();
     if (!interface_.yielding_wall()) return;
     const double a = c.simulation.block.spacing;

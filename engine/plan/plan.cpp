@@ -129,11 +129,10 @@ double bytes_of(Piece::Part part, int rank, const Case& c, const Piece& piece, d
                                    : 0.0);
 }
 
-/// Returns the bytes of the maps of a state for a site: six numbers and a mark, two of a surface
-/// that yields, and those that the interface reads.
-double bytes_of_maps(const InterfaceOptions& interface) {
-    return 49.0 + (interface.hardness ? 16.0 : 0.0) +
-           8.0 * static_cast<double>(interface.site_maps().size());
+/// Returns the bytes of the maps of a state for a site: six numbers and a mark, and those of the
+/// memories and of the maps that the interface reads.
+double bytes_of_maps(const Piece& piece) {
+    return 49.0 + 8.0 * static_cast<double>(piece.maps_of_sites);
 }
 
 /// Returns the largest memory of a rank, bytes.
@@ -213,7 +212,7 @@ Plan make_plan(const Case& c, int threads) {
     }
     plan.whole = arrays_held_whole(c, atoms);
     const double here = std::pow(c.simulation.block.sites, 2);
-    plan.state_bytes = (bytes_of_maps(c.simulation.interface) + (block.counter ? 8.0 : 0.0)) * here;
+    plan.state_bytes = (bytes_of_maps(room) + (block.counter ? 8.0 : 0.0)) * here;
     if (c.effects.maps) plan.stress_bytes = stress_bytes(block.sites, c.output.stress);
     if (c.output.trajectory) plan.frame_bytes = (c.output.velocities ? 24.0 : 12.0) * here;
     if (!timed) return plan;

@@ -211,6 +211,7 @@ Piece rehearse(const Case& c, int sites, double seconds, const Surface* of_file,
     if (path) done.points = path->steps();
     const VectorPlane<const double> layer =
         path ? path->layer() : std::as_const(*simulation).block().lowest_layer();
+    done.maps_of_sites = (path ? path->interface() : *below).maps_of_sites();
     std::optional<InterfaceMaps> maps;
     if (piece.effects.maps) part(Piece::maps, [&] { maps = below->maps(layer); });
     return done;

@@ -19,9 +19,10 @@ struct Piece {
     /// they are written; parts: their number.
     enum Part : std::size_t { surface, interface, block, kept, rest, maps, parts };
     std::array<double, parts> bytes{};
-    double map = 0.0;   ///< size of the heights around the tile in the interface, bytes
-    int sites = 0;      ///< number of sites across
-    double nodes = 0.0; ///< number of nodes of all levels
+    double map = 0.0;              ///< size of the heights around the tile in the interface, bytes
+    int sites = 0;                 ///< number of sites across
+    double nodes = 0.0;            ///< number of nodes of all levels
+    std::size_t maps_of_sites = 0; ///< number of InterfaceMaps::of_sites
     // Seconds of one idle processor:
     double making = 0.0; ///< surface, tables and block
     /// Time of a step of a dynamic path beyond the interaction range, and in contact.

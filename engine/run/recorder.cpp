@@ -401,10 +401,6 @@ void Recorder::fields(const std::string& state, const VectorPlane<const double>&
                 [](double z) { return z * -units::gigapascal; }));
     }
     put_map("distance", maps.distance);
-    if (interface.yielding_wall()) {
-        put_map("set", maps.set);
-        put_map("yielded_height", maps.yielded_heights);
-    }
     for (const auto& [name, values] : maps.of_sites)
         put_map(name, values);
     put("u_x", layer.x, grid, same);

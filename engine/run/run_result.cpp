@@ -239,8 +239,8 @@ void add_capped_theory(const Case& c, const Surface& surface, const PathResults&
     const InterfaceOptions& interface = c.simulation.interface;
     const double pressure = most_pressed(results).force / c.area();
     const char* why = c.effects.free_edges || c.radius() ? "the theory is of endless flat contacts"
-                      : interface.hardness_map           ? "the theory is of one hardness"
-                      : !c.effects.one_modulus()         ? "the theory is of one modulus"
+                      : interface.maps[SiteMapOf::hardness] ? "the theory is of one hardness"
+                      : !c.effects.one_modulus()            ? "the theory is of one modulus"
                       : pressure < 0.0 || pressure >= interface.mean_hardness()
                           ? "no segment ends under a pressure below the hardness"
                           : nullptr;
@@ -259,7 +259,7 @@ void add_capped_theory(const Case& c, const Surface& surface, const PathResults&
 /// Adds what a surface that yields was, and has become at the end of the last segment.
 void add_yielding(const Case& c, const Surface& surface, const PathResults& results,
                   io::Result& result) {
-    const auto& map = c.simulation.interface.hardness_map;
+    const auto& map = c.simulation.interface.maps[SiteMapOf::hardness];
     const double softest =
         map ? map->least : c.simulation.interface.mean_hardness() / units::gigapascal;
     result.set("yielding.tension_over_hardness", c.largest_tension / softest);

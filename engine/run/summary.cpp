@@ -380,7 +380,7 @@ namespace {
 
 /// Returns the description of a wall, with the field of its work of adhesion.
 std::string wall_text(const Case& c) {
-    const auto& field = c.simulation.interface.adhesion;
+    const auto& field = c.simulation.interface.maps[SiteMapOf::adhesion];
     if (!field) return "a wall; ";
     return fmt::format("a wall; work of adhesion \"{}\", {} to {}; on average ", field->source,
                        with_units(field->least), with_units(field->largest));

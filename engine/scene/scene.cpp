@@ -159,6 +159,17 @@ std::string Scene::Interface::potential_name() const {
         potentials);
 }
 
+void set_largest(Scene::Interface& interface, SiteMapOf map, double largest) {
+    switch (map) {
+    case SiteMapOf::adhesion:
+        interface.adhesion = largest;
+        break;
+    case SiteMapOf::hardness:
+        interface.hardness = largest;
+        break;
+    }
+}
+
 bool Scene::only_relaxes() const {
     return drive.path.size() == 1 && segment_name(drive.path.front()) == word(Segment::relax);
 }
@@ -176,49 +187,11 @@ BlockModel Scene::block_model() const {
     return interface.has_adhesion() ? BlockModel::continuum : BlockModel::lattice;
 }
 
-io::Schema bind(Scene& scene) {
-    io::Schema schema;
-    const auto shared_needs =
-        std::make_shared<const Needs>(scene); // the closures of the needs refer to it
-    const Needs& needs = *shared_needs;
+namespace {
 
+/// Adds the keys of a self-affine surface, and of its curvature.
+void bind_roughness(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& surface = scene.surface;
-    schema.section("surface", "The rough substrate, rigid unless counter gives it an elasticity.");
-    schema.choice<SurfaceKind>("kind", surface.kind,
-                               {{"flat", SurfaceKind::flat},
-                                {"self-affine", SurfaceKind::self_affine},
-                                {"file", SurfaceKind::file},
-                                {"atoms", SurfaceKind::atoms}},
-                               "the substrate: one layer of atoms with heights, generated or from "
-                               "a map; \"atoms\": atoms of a file at arbitrary positions");
-    schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
-                           "number of sites along an edge of the box, N; or its width (\"133 "
-                           "nm\"), rounded to whole spacings");
-    schema
-        .choice<Boundary>(
-            "boundary", surface.boundary,
-            {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
-            "edges of the box: periodic surfaces, or a substrate that ends at the edges below an "
-            "infinite half-space (a tip, a lens, a punch; over a wall, quasi-static)")
-        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
-                                 "a surface without images is known wave by wave, at rest",
-                                 "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
-                  needs.refusing(needs.wall, "without a wall",
-                                 "a surface without images answers normal forces alone",
-                                 "take interface.kind = \"wall\", or boundary = \"periodic\"")};
-    schema.number("spacing", surface.spacing, "Å", positive(),
-                  "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
-    schema
-        .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
-                "block spacing divided by substrate spacing, rounded to whole atoms; 1.618 is "
-                "incommensurate")
-        .needs = {
-        needs.heights("the atoms stand where their file says",
-                      "leave it out: the file has its own spacing"),
-        needs.refusing({[&scene] { return scene.interface.kind != InterfaceKind::wall; }, ""},
-                       "with a wall",
-                       "a wall has a height below each site, and no lattice of its own",
-                       "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
     io::Schema::Key& rms =
         schema.number("rms", surface.rms, "Å", at_least(0.0),
                       "rms height; a map from a file is scaled only if the scene sets this key");
@@ -252,6 +225,11 @@ io::Schema bind(Scene& scene) {
                    "radius of a spherical cap under the roughness")
         .needs = {
         needs.heights("the atoms stand where their file says", "leave it out, and curve the file")};
+}
+
+/// Adds the keys of a surface from a file.
+void bind_surface_file(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& surface = scene.surface;
     schema
         .key("file", surface.file,
              "for kind = \"file\": HDF5 (file.h5 or file.h5:/path), .npy or a plain matrix of "
@@ -309,8 +287,54 @@ io::Schema bind(Scene& scene) {
             "resampling of a map without N x N values to the lattice: refused, or band-limited")
         .needs = {needs.heights("the atoms stand where their file says", "leave it out"),
                   needs.any_map};
-    bind_counter(schema, surface.counter, needs);
+}
 
+/// Adds the keys of the section [surface].
+void bind_surface(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& surface = scene.surface;
+    schema.section("surface", "The rough substrate, rigid unless counter gives it an elasticity.");
+    schema.choice<SurfaceKind>("kind", surface.kind,
+                               {{"flat", SurfaceKind::flat},
+                                {"self-affine", SurfaceKind::self_affine},
+                                {"file", SurfaceKind::file},
+                                {"atoms", SurfaceKind::atoms}},
+                               "the substrate: one layer of atoms with heights, generated or from "
+                               "a map; \"atoms\": atoms of a file at arbitrary positions");
+    schema.count_or_length("sites", surface.sites, scene.width, between(fewest_sites, most_sites),
+                           "number of sites along an edge of the box, N; or its width (\"133 "
+                           "nm\"), rounded to whole spacings");
+    schema
+        .choice<Boundary>(
+            "boundary", surface.boundary,
+            {{"periodic", Boundary::periodic}, {"free", Boundary::free}},
+            "edges of the box: periodic surfaces, or a substrate that ends at the edges below an "
+            "infinite half-space (a tip, a lens, a punch; over a wall, quasi-static)")
+        .needs = {needs.refusing(needs.equilibria, "on a dynamic path",
+                                 "a surface without images is known wave by wave, at rest",
+                                 "take drive.mode = \"quasistatic\", or boundary = \"periodic\""),
+                  needs.refusing(needs.wall, "without a wall",
+                                 "a surface without images answers normal forces alone",
+                                 "take interface.kind = \"wall\", or boundary = \"periodic\"")};
+    schema.number("spacing", surface.spacing, "Å", positive(),
+                  "lattice constant a of the block (and of the substrate at lattice_ratio 1)");
+    schema
+        .number("lattice_ratio", surface.lattice_ratio, "", between(0.1, 10.0),
+                "block spacing divided by substrate spacing, rounded to whole atoms; 1.618 is "
+                "incommensurate")
+        .needs = {
+        needs.heights("the atoms stand where their file says",
+                      "leave it out: the file has its own spacing"),
+        needs.refusing({[&scene] { return scene.interface.kind != InterfaceKind::wall; }, ""},
+                       "with a wall",
+                       "a wall has a height below each site, and no lattice of its own",
+                       "take lattice_ratio = 1, or interface.kind = \"atoms\"")};
+    bind_roughness(schema, scene, needs);
+    bind_surface_file(schema, scene, needs);
+    bind_counter(schema, surface.counter, needs);
+}
+
+/// Adds the keys of the section [block].
+void bind_block(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& block = scene.block;
     schema.section("block", "The elastic block.");
     schema
@@ -399,7 +423,82 @@ io::Schema bind(Scene& scene) {
                     "levels always reflect the waves that the next level cannot carry",
                     "leave it out; drive.damping with drive.damping_from damps the sound that the "
                     "rigid top would return"});
+}
 
+/// Adds the keys of a wall.
+void bind_wall(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& interface = scene.interface;
+    schema
+        .choice<WallLawKind>(
+            "law", interface.law,
+            {{"exponential", WallLawKind::exponential},
+             {"smeared", WallLawKind::smeared},
+             {"dugdale", WallLawKind::dugdale},
+             {"power", WallLawKind::power},
+             {"9-3", WallLawKind::nine_three},
+             {"8-2", WallLawKind::eight_two},
+             {"table", WallLawKind::table}},
+            "law of a wall. With a linear repulsion below a gap of 0: an energy per area of "
+            "-adhesion exp(-gap/range), with a largest tension of T = adhesion/range; a constant "
+            "tension T up to the range (\"dugdale\"); or an energy of -adhesion/(1 + "
+            "gap/range)^exponent, with a largest tension of exponent T (\"power\"). Powers 9 and "
+            "3, or 8 and 2, of range/gap in the energy, which is deepest at the range, with a "
+            "largest tension of 1.466 T and 1.026 T; interface.table; or the substrate's atoms "
+            "smeared over their layer (potential, cutoff, tail)")
+        .needs = {needs.wall};
+    schema.removed({"interface.law", "lennard-jones",
+                    "the smeared atoms have whatever potential interface.potential names",
+                    "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
+                    "scene does not say"});
+    bind_site_map(
+        schema,
+        schema.number_or_text(
+            "adhesion", interface.adhesion, interface.maps[SiteMapOf::adhesion].source, "meV/Å^2",
+            at_least(0.0), "map.npy",
+            "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
+            "attraction. A value for each site is given by a map, in a file as for surface.file, "
+            "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
+            "\"rings MEAN AMPLITUDE PERIOD\" (MEAN (1 + AMPLITUDE cos(2 π r/PERIOD)), r from the "
+            "middle of the box) or \"patches LOW HIGH LENGTH SEED\" (random, with this correlation "
+            "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
+            "10 nm\""),
+        interface.maps[SiteMapOf::adhesion], needs.adhesion);
+    bind_site_map(
+        schema,
+        schema.number_or_text(
+            "hardness", interface.hardness, interface.maps[SiteMapOf::hardness].source, "none",
+            "GPa", positive(), "map.npy",
+            "largest net pressure of a site over a wall on a quasi-static path: a site at the "
+            "hardness takes a permanent set (a cap on the pressure, without pile-up and "
+            "hardening); \"none\": the surface does not yield. A value for each site as for "
+            "adhesion"),
+        interface.maps[SiteMapOf::hardness], needs.yielding);
+    schema
+        .number("range", interface.range, "Å", positive(),
+                "range of the laws except smeared and table")
+        .needs = {needs.ranged};
+    schema
+        .number("exponent", interface.exponent, "", io::Range{1.0, 100.0},
+                "exponent of the energy of law = \"power\"; the tension falls with one power more")
+        .needs = {needs.power};
+    schema
+        .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
+                   "stiffness of the linear repulsion; \"auto\": nearly a hard wall, 500 π "
+                   "E*/spacing (a thousand times the stiffness of the block for its shortest "
+                   "wave), and at least 50 adhesion/range²")
+        .needs = {needs.touched};
+
+    schema
+        .choice<EdgePinning>("edge_pinning", interface.edge_pinning,
+                             {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
+                             "allows or refuses the pull-off of a sphere whose force would be more "
+                             "than 1.3 times too large, because the spacing does not resolve the "
+                             "range and rows of sites pin the edge of the contact")
+        .needs = {needs.adhesion};
+}
+
+/// Adds the keys of the section [interface].
+void bind_interface(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& interface = scene.interface;
     schema.section("interface", "The interaction between substrate and lowest layer.");
     schema.choice<InterfaceKind>("kind", interface.kind,
@@ -448,74 +547,54 @@ io::Schema bind(Scene& scene) {
                                    "take a larger interface.cutoff, and tail = false")};
     schema.key("frictionless", interface.frictionless,
                "no lateral tractions, and normal displacements only (quasi-static paths)");
-    schema
-        .choice<WallLawKind>(
-            "law", interface.law,
-            {{"exponential", WallLawKind::exponential},
-             {"smeared", WallLawKind::smeared},
-             {"dugdale", WallLawKind::dugdale},
-             {"power", WallLawKind::power},
-             {"9-3", WallLawKind::nine_three},
-             {"8-2", WallLawKind::eight_two},
-             {"table", WallLawKind::table}},
-            "law of a wall. With a linear repulsion below a gap of 0: an energy per area of "
-            "-adhesion exp(-gap/range), with a largest tension of T = adhesion/range; a constant "
-            "tension T up to the range (\"dugdale\"); or an energy of -adhesion/(1 + "
-            "gap/range)^exponent, with a largest tension of exponent T (\"power\"). Powers 9 and "
-            "3, or 8 and 2, of range/gap in the energy, which is deepest at the range, with a "
-            "largest tension of 1.466 T and 1.026 T; interface.table; or the substrate's atoms "
-            "smeared over their layer (potential, cutoff, tail)")
-        .needs = {needs.wall};
-    schema.removed({"interface.law", "lennard-jones",
-                    "the smeared atoms have whatever potential interface.potential names",
-                    "write law = \"smeared\"; interface.potential is \"lennard-jones\" where the "
-                    "scene does not say"});
-    bind_site_map(
-        schema,
-        schema.number_or_text(
-            "adhesion", interface.adhesion, interface.adhesion_map.source, "meV/Å^2", at_least(0.0),
-            "map.npy",
-            "work of adhesion of flat surfaces, Δγ, for a wall that is not smeared; 0: no "
-            "attraction. A value for each site is given by a map, in a file as for surface.file, "
-            "or by a formula, \"stripes LOW HIGH PERIOD\", \"discs LOW HIGH RADIUS DISTANCE\", "
-            "\"rings MEAN AMPLITUDE PERIOD\" (MEAN (1 + AMPLITUDE cos(2 π r/PERIOD)), r from the "
-            "middle of the box) or \"patches LOW HIGH LENGTH SEED\" (random, with this correlation "
-            "length), for example \"stripes 10 mJ/m^2 50 mJ/m^2 20 nm\" or \"rings 50 mJ/m^2 0.2 "
-            "10 nm\""),
-        interface.adhesion_map, needs.adhesion);
-    bind_site_map(
-        schema,
-        schema.number_or_text(
-            "hardness", interface.hardness, interface.hardness_map.source, "none", "GPa",
-            positive(), "map.npy",
-            "largest net pressure of a site over a wall on a quasi-static path: a site at the "
-            "hardness takes a permanent set (a cap on the pressure, without pile-up and "
-            "hardening); \"none\": the surface does not yield. A value for each site as for "
-            "adhesion"),
-        interface.hardness_map, needs.yielding);
-    schema
-        .number("range", interface.range, "Å", positive(),
-                "range of the laws except smeared and table")
-        .needs = {needs.ranged};
-    schema
-        .number("exponent", interface.exponent, "", io::Range{1.0, 100.0},
-                "exponent of the energy of law = \"power\"; the tension falls with one power more")
-        .needs = {needs.power};
-    schema
-        .number_or("stiffness", interface.stiffness, "auto", "GPa/Å", positive(),
-                   "stiffness of the linear repulsion; \"auto\": nearly a hard wall, 500 π "
-                   "E*/spacing (a thousand times the stiffness of the block for its shortest "
-                   "wave), and at least 50 adhesion/range²")
-        .needs = {needs.touched};
+    bind_wall(schema, scene, needs);
+}
 
+/// Adds the keys of time steps, loads and convergence.
+void bind_motion(io::Schema& schema, Scene& scene, const Needs& needs) {
+    auto& drive = scene.drive;
+    schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
+        .needs = {needs.dynamic};
     schema
-        .choice<EdgePinning>("edge_pinning", interface.edge_pinning,
-                             {{"refuse", EdgePinning::refuse}, {"allow", EdgePinning::allow}},
-                             "allows or refuses the pull-off of a sphere whose force would be more "
-                             "than 1.3 times too large, because the spacing does not resolve the "
-                             "range and rows of sites pin the edge of the contact")
-        .needs = {needs.adhesion};
+        .number("damping", drive.damping, "1/ps", at_least(0.0),
+                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
+                "top plane or the far end of its spring (drive.stiffness)")
+        .needs = {needs.dynamic};
+    schema
+        .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
+                "fraction of the thickness above which damping acts")
+        .needs = {needs.dynamic, needs.damping};
+    schema
+        .number_or("ramp", drive.ramp, "auto", "ps", at_least(0.0),
+                   "duration of smooth changes of the top plane's velocity; \"auto\": one sound "
+                   "transit of the block")
+        .needs = {needs.dynamic};
+    schema.quantity_or(
+        "load", drive.load, "MPa", {"nN", "a force", &scene.force},
+        "pressure, or force on the box (\"20 nN\"), at which an approach ends, or under which "
+        "\"relax\" finds the state; the state after an approach is without load");
+    schema
+        .number("temperature", drive.temperature, "K", at_least(0.0),
+                "temperature; above 0 with a Langevin thermostat")
+        .needs = {needs.dynamic};
+    schema.integer("seed", drive.seed, at_least(0), "seed of the thermal noise").needs = {
+        needs.dynamic, needs.temperature};
+    schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
+                          "largest number of time steps, or points of a quasi-static path, after "
+                          "which the run stops");
+    schema
+        .number("tolerance", drive.tolerance, "", positive(),
+                "largest residual force of a relaxation, as a fraction of the smallest force on a "
+                "site that decides the state (`asperity plan` prints this force); on a "
+                "quasi-static path also the error of the energy per site and Å")
+        .was = {"eV/Å",
+                "it is a fraction of the smallest force on a site that decides the state, "
+                "which `asperity plan` prints",
+                "leave it out, or give the fraction: 2.5e-4 is the default"};
+}
 
+/// Adds the keys of the section [drive].
+void bind_drive(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& drive = scene.drive;
     schema.section("drive", "The motion of the top plane, and the time step.");
     schema.choice<DriveMode>(
@@ -587,45 +666,11 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.dynamic, needs.spring};
     schema.removed({"drive.step", "", "it is called drive.displacement_step",
                     "write displacement_step with the same length"});
-    schema.number("timestep", drive.timestep, "fs", positive(), "time step of velocity Verlet")
-        .needs = {needs.dynamic};
-    schema
-        .number("damping", drive.damping, "1/ps", at_least(0.0),
-                "rate Γ of the damping force -m Γ v, with v relative to the drive, which moves the "
-                "top plane or the far end of its spring (drive.stiffness)")
-        .needs = {needs.dynamic};
-    schema
-        .number("damping_from", drive.damping_from, "", between(0.0, 1.0),
-                "fraction of the thickness above which damping acts")
-        .needs = {needs.dynamic, needs.damping};
-    schema
-        .number_or("ramp", drive.ramp, "auto", "ps", at_least(0.0),
-                   "duration of smooth changes of the top plane's velocity; \"auto\": one sound "
-                   "transit of the block")
-        .needs = {needs.dynamic};
-    schema.quantity_or(
-        "load", drive.load, "MPa", {"nN", "a force", &scene.force},
-        "pressure, or force on the box (\"20 nN\"), at which an approach ends, or under which "
-        "\"relax\" finds the state; the state after an approach is without load");
-    schema
-        .number("temperature", drive.temperature, "K", at_least(0.0),
-                "temperature; above 0 with a Langevin thermostat")
-        .needs = {needs.dynamic};
-    schema.integer("seed", drive.seed, at_least(0), "seed of the thermal noise").needs = {
-        needs.dynamic, needs.temperature};
-    schema.number_or_none("max_steps", drive.max_steps, "", at_least(1),
-                          "largest number of time steps, or points of a quasi-static path, after "
-                          "which the run stops");
-    schema
-        .number("tolerance", drive.tolerance, "", positive(),
-                "largest residual force of a relaxation, as a fraction of the smallest force on a "
-                "site that decides the state (`asperity plan` prints this force); on a "
-                "quasi-static path also the error of the energy per site and Å")
-        .was = {"eV/Å",
-                "it is a fraction of the smallest force on a site that decides the state, "
-                "which `asperity plan` prints",
-                "leave it out, or give the fraction: 2.5e-4 is the default"};
+    bind_motion(schema, scene, needs);
+}
 
+/// Adds the keys of the section [theory].
+void bind_theory(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& theory = scene.theory;
     schema.section("theory", "Persson's theory for the same surface.");
     schema
@@ -659,7 +704,10 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.one_layer};
     schema.removed({"theory.renormalised", "", "the renormalised theory is no part of a run",
                     "leave it out; `asperity theory`, sweeps and reports compute it"});
+}
 
+/// Adds the keys of the section [numerics].
+void bind_numerics(io::Schema& schema, Scene& scene) {
     auto& numerics = scene.numerics;
     schema.section("numerics", "Arithmetic.");
     schema.choice<Precision>("precision", numerics.precision,
@@ -683,7 +731,10 @@ io::Schema bind(Scene& scene) {
                               "devices in turn); \"auto\": on a CUDA device if there is one; "
                               "\"emulated\": a device emulated by the processor, for tests")
         .numerals = true;
+}
 
+/// Adds the keys of the section [output].
+void bind_output(io::Schema& schema, Scene& scene, const Needs& needs) {
     auto& output = scene.output;
     schema.section("output", "The output of a run.");
     schema
@@ -750,6 +801,22 @@ io::Schema bind(Scene& scene) {
         .needs = {needs.dynamic};
     schema.number_or_none("checkpoint", output.checkpoint, "s", positive(),
                           "wall time between checkpoints");
+}
+
+} // namespace
+
+io::Schema bind(Scene& scene) {
+    io::Schema schema;
+    const auto shared_needs =
+        std::make_shared<const Needs>(scene); // the closures of the needs refer to it
+    const Needs& needs = *shared_needs;
+    bind_surface(schema, scene, needs);
+    bind_block(schema, scene, needs);
+    bind_interface(schema, scene, needs);
+    bind_drive(schema, scene, needs);
+    bind_theory(schema, scene, needs);
+    bind_numerics(schema, scene);
+    bind_output(schema, scene, needs);
 
     schema.variations({"sweep",
                        "What `asperity sweep` varies: any key above, with a list of values or a "

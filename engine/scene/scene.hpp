@@ -16,6 +16,7 @@
 #include "engine/options/theory_options.hpp"
 #include "engine/scene/surface.hpp"
 #include "io/scene_reader.hpp"
+#include "io/site_quantities.hpp"
 #include "kernels/pair_potential.hpp"
 
 #include <array>
@@ -56,19 +57,8 @@ inline constexpr std::string_view after_approach = "after-approach:";
 /// Bounds of the numbers of sites and layers.
 inline constexpr int fewest_sites = 4, most_sites = 32768, most_layers = 1 << 20;
 
-/// Quantity of the interface that may differ from site to site; zero or more at each.
-struct SiteQuantity {
-    const char* name;       ///< name of its key, and in results: "adhesion"
-    const char* words;      ///< "work of adhesion"
-    const char* dimension;  ///< "energy per area"
-    const char* unit;       ///< unit of the key
-    const char *low, *high; ///< values of an example: "10 mJ/m^2"
-    const char* negative;   ///< reason why a value is not negative
-};
-
-/// Keys of such a quantity (engine/case/site_map.hpp).
+/// Keys of a quantity that may be a map of the sites (engine/case/site_map.hpp).
 struct SiteMapKeys {
-    SiteQuantity of;
     std::string source{};         ///< file of a map, or a formula; empty: one number for all sites
     std::optional<double> size{}; ///< edge of the map, Å; empty: as surface.file_size
     std::string unit = "auto";    ///< unit of the map; "auto": that of the file, else the key's
@@ -166,15 +156,10 @@ struct Scene {
         bool frictionless = false;
         WallLawKind law = WallLawKind::exponential; ///< law of a wall
         double adhesion = 100.0; ///< work of adhesion, meV/Å^2; laws except "smeared"
-        /// Work of adhesion of each site; in a case `adhesion` is the largest.
-        SiteMapKeys adhesion_map{
-            {"adhesion", "work of adhesion", "energy per area", "meV/Å^2", "10 mJ/m^2", "50 mJ/m^2",
-             "a work of adhesion is zero or more: a site repels at contact alone"}};
         /// Largest net pressure of a site over a wall, GPa; empty: no site yields.
         std::optional<double> hardness;
-        /// Hardness of each site; in a case `hardness` is the largest.
-        SiteMapKeys hardness_map{{"hardness", "hardness", "pressure", "GPa", "1 GPa", "3 GPa",
-                                  "a hardness is above zero"}};
+        /// Keys of the maps of the sites; in a case the number beside a map is its largest value.
+        PerSiteMap<SiteMapKeys> maps;
         double range = 1.0;    ///< range, Å; laws except "smeared" and "table"
         double exponent = 3.0; ///< exponent of the law "power"
         /// Stiffness of the repulsion, GPa/Å, of laws whose shape begins at contact; empty: derived
@@ -182,11 +167,11 @@ struct Scene {
         std::optional<double> stiffness;
         EdgePinning edge_pinning = EdgePinning::refuse;
 
-        /// Returns the keys that are maps of the sites.
-        std::vector<const SiteMapKeys*> site_maps() const {
-            std::vector<const SiteMapKeys*> given;
-            for (const SiteMapKeys* map : {&adhesion_map, &hardness_map})
-                if (map->given()) given.push_back(map);
+        /// Returns the quantities for which the scene has a map of the sites.
+        std::vector<io::SiteQuantity> site_maps() const {
+            std::vector<io::SiteQuantity> given;
+            for (const io::SiteQuantity& of : io::site_quantities)
+                if (maps[of.map].given()) given.push_back(of);
             return given;
         }
         /// Returns true for a wall with a law other than "smeared", which has a work of adhesion as
@@ -264,6 +249,9 @@ struct Scene {
     /// Returns true if the scene sets surface.rms; otherwise maps are not scaled.
     bool gives_rms() const { return positions.is_set("surface.rms"); }
 };
+
+/// Sets the number beside a map of the sites to the largest value of the map, in the key's unit.
+void set_largest(Scene::Interface& interface, SiteMapOf map, double largest);
 
 /// Returns all keys, bound to the fields of this scene, which must outlive the schema.
 io::Schema bind(Scene& scene);

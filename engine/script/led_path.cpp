@@ -55,7 +55,7 @@ LedPath::LedPath(const Case& c)
       interface_(surface_, grid_.tile(0), case_.simulation.block.spacing,
                  case_.simulation.interface),
       block_(case_.simulation.block, Communicator(), !case_.effects.lateral) {
-    remember_set(block_, interface_);
+    remember_sites(block_, interface_);
     before_.mean_height = interface_.reference_height();
 }
 
@@ -166,10 +166,9 @@ LedPath::Point LedPath::now() const {
     if (!points_) return before_;
     Point p{points_->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double edge = case_.simulation.block.sites, sites = edge * edge;
     p.instabilities = points_->dissipation().events;
-    p.contact_fraction = static_cast<double>(p.in_contact) / sites;
-    p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
+    p.contact_fraction = case_.fraction(p.in_contact);
+    p.repulsive_fraction = case_.fraction(p.repulsive);
     return p;
 }
 
@@ -188,11 +187,10 @@ RestState LedPath::release(const Look& look) {
         const std::optional<ZeroLoad> found =
             find_zero_load(block_, interface_, case_.simulation.drive.load_force, case_, watch_);
         if (!found) looking.rethrow();
-        // Branches have relaxed; the set of a surface that yields stays.
-        const bool yields = interface_.yielding_wall() != nullptr;
-        if (yields) block_.end_step();
+        const bool remembers = any_stays_at_rest(block_.memories());
+        if (remembers) block_.end_step();
         State there = copy();
-        if (!yields) there.values.resize(there.displacements());
+        if (!remembers) there.values.resize(there.displacements());
         place(there);
         return {*found, maps()};
     } catch (...) {

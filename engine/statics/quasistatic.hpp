@@ -67,9 +67,10 @@
 
 namespace asperity {
 
-/// Gives a block over a surface that yields the memory of its set (plastic_set.hpp). Keeps
+/// Gives a block the memories of the sites of its interface, such as the set of a surface that
+/// yields (plastic_set.hpp). Keeps
 /// references to both.
-void remember_set(SpectralBlock& block, Interface& interface);
+void remember_sites(SpectralBlock& block, Interface& interface);
 
 /// A quasi-static path of a block over an interface.
 class QuasistaticPath {

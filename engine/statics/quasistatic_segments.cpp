@@ -71,10 +71,10 @@ void refuse_deep(double height, const Interface& interface, const SpectralBlock&
 
 } // namespace
 
-void remember_set(SpectralBlock& block, Interface& interface) {
-    if (!interface.yielding_wall()) return;
-    block.add_memory(std::make_unique<PlasticSet>(interface, block.communicator(),
-                                                  [&block] { return block.lowest_layer(); }));
+void remember_sites(SpectralBlock& block, Interface& interface) {
+    if (interface.yielding_wall())
+        block.add_memory(std::make_unique<PlasticSet>(interface, block.communicator(),
+                                                      [&block] { return block.lowest_layer(); }));
 }
 
 QuasistaticPath::QuasistaticPath(SpectralBlock& block, Interface& interface, PathOptions options)

@@ -9,6 +9,8 @@ from typing import Any, NamedTuple, overload
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from .results.names import Losses
+
 _Array = NDArray[numpy.float64]
 
 class _Components(NamedTuple):
@@ -139,7 +141,7 @@ class Simulation:
     _top_position: Any
     _top_velocity: Any
 
-class Point:
+class Point(Losses):
     @property
     def top(self) -> float: ...
     @property
@@ -156,10 +158,6 @@ class Point:
     def work(self) -> float: ...
     @property
     def dissipated(self) -> float: ...
-    @property
-    def dissipated_in_block(self) -> float: ...
-    @property
-    def dissipated_in_surface(self) -> float: ...
     @property
     def mean_set(self) -> float: ...
     @property

@@ -4,6 +4,10 @@
 
 #include "engine/units.hpp"
 
+#include <fmt/format.h>
+
+#include <string>
+
 namespace asperity::binding {
 
 namespace {
@@ -81,8 +85,14 @@ void bind_records(py::module_& m) {
         .def("__repr__", shown);
 
     using Point = LedPath::Point;
-    py::class_<Point>(m, "Point",
-                      "Point of a quasi-static path: force balance at the held quantity.")
+    py::class_<Point> path_point(
+        m, "Point", "Point of a quasi-static path: force balance at the held quantity.");
+    for (const io::EnergyTerm& row : io::energy_terms)
+        if (row.kind == io::EnergyTerm::dissipated)
+            path_point.def_property_readonly(
+                std::string(row.key).c_str(), [&row](const Point& p) { return p[row.term]; },
+                fmt::format("{}, since the path began, eV", row.meaning).c_str());
+    path_point
         .def_readonly(
             "top", &Point::top,
             "displacement of the top plane since the start, Å; 0 if the mean height is held")
@@ -99,11 +109,6 @@ void bind_records(py::module_& m) {
                                "work of the holder of the block since the path began, eV")
         .def_property_readonly("dissipated", of<Term::lost, Point>,
                                "energy dissipated at instabilities, since the path began, eV")
-        .def_property_readonly(
-            "dissipated_in_block", of<Term::in_block, Point>,
-            "energy dissipated by a viscoelastic block, apart from dissipated, eV")
-        .def_property_readonly("dissipated_in_surface", of<Term::in_surface, Point>,
-                               "plastic work of a surface that yields, eV")
         .def_readonly("mean_set", &Point::mean_set,
                       "mean permanent set of a surface that yields, Å")
         .def_readonly("largest_set", &Point::largest_set,

@@ -20,6 +20,8 @@
 #include <numeric>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 namespace asperity {
 namespace {
@@ -313,6 +315,27 @@ TEST(InterfaceMapsOfState, HoldContactGapAndPressure) {
     EXPECT_EQ(far.contact[0], 0);
     EXPECT_TRUE(std::isinf(far.distance[0]));
     EXPECT_EQ(far.pressure[0], 0.0);
+}
+
+/// A field that a memory keeps is among the maps, with the sites that they are cut to.
+TEST(InterfaceMapsOfState, HoldWhatAMemoryKeeps) {
+    const int n = 6;
+    const Tile tile{0, 0, n, n, n};
+    Interface interface(test::flat_surface(n), tile, a, {});
+    const std::size_t before = interface.bytes();
+    EXPECT_EQ(interface.maps_of_sites(), 0u);
+    Field<double>& age = interface.keep("age");
+    interface.keep("heat").plane(0)(1, 0) = 5.0; // the first one stays where it is
+    for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+            age.plane(0)(x, y) = 10.0 * y + x;
+    EXPECT_EQ(interface.bytes(), before + 2 * age.bytes());
+    Interface moved = std::move(interface);
+    InterfaceMaps maps = moved.maps(VectorField<double>(tile, 1).plane(0));
+    maps.crop(2);
+    EXPECT_EQ(moved.maps_of_sites(), 2u);
+    EXPECT_EQ(maps.of_sites, (std::vector<std::pair<std::string, std::vector<double>>>{
+                                 {"age", {0, 1, 10, 11}}, {"heat", {0, 5, 0, 0}}}));
 }
 
 TEST(InterfaceOptionsCheck, SaysWhatIsWrong) {

@@ -73,7 +73,7 @@ TEST(Quantities, HaveUnitsThatCanBeReadAndNoNameTwice) {
     for (const Quantity& q : result_quantities())
         check(q);
     names.clear();
-    for (const Quantity& q : run_quantities)
+    for (const Quantity& q : run_quantities())
         check(q);
 }
 
@@ -81,6 +81,12 @@ TEST(Quantities, OfRunFilesAreFoundByTheirPaths) {
     EXPECT_EQ(run_quantity("/fields/relaxed/gap")->unit, "Å");
     EXPECT_EQ(run_quantity("/fields/every:5/gap_density")->unit, "1/Å");
     EXPECT_EQ(run_quantity("/fields/pull-off@reference_height")->unit, "Å");
+    for (const SiteQuantity& of : site_quantities) {
+        EXPECT_EQ(run_quantity("/fields/relaxed/" + std::string(of.name))->unit, of.unit);
+        const std::string key = "interface." + std::string(of.name);
+        EXPECT_EQ(result_quantity(key + "_largest").unit, of.unit);
+        EXPECT_EQ(result_quantity(key + "_digest").unit, "");
+    }
     for (const char* none : {"/series/forces", "/fields/gap", "/fields//gap", "/fields/a/b/gap",
                              "/fields/a@b@reference_height"})
         EXPECT_EQ(run_quantity(none), nullptr) << none;

@@ -46,7 +46,7 @@ InterfaceOptions interface_of(const Kind& kind) {
         field->largest = sites * sites;
         for (int i = 1; i <= sites * sites; ++i)
             field->values.push_back(i * 7 % 256 + 1);
-        o.adhesion = field;
+        o.maps[SiteMapOf::adhesion] = field;
     }
     o.slides = kind.slides;
     o.hardness = kind.hardness;
@@ -71,7 +71,7 @@ struct Contact {
           interface(surface, grid.tile(0), options.spacing, interface_of(kind)),
           block(options, ranks, kind.frictionless),
           path(block, interface, path_options(kind.along)), slides(kind.slides) {
-        remember_set(block, interface);
+        remember_sites(block, interface);
     }
 
     static BlockOptions block_of(const Kind& kind) {

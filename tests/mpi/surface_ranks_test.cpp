@@ -219,7 +219,9 @@ TEST(SurfaceRanks, FieldsOfSitesAreTheSame) {
         EXPECT_EQ(one.notes, all.notes);
         const InterfaceOptions &alone = one.simulation.interface,
                                &shared = all.simulation.interface;
-        EXPECT_EQ(alone.mean_adhesion_factor, shared.mean_adhesion_factor) << adhesion;
+        EXPECT_EQ(std::to_array(alone.mean_law_factors.of),
+                  std::to_array(shared.mean_law_factors.of))
+            << adhesion;
         EXPECT_EQ(alone.mean_hardness(), shared.mean_hardness()) << adhesion;
         ASSERT_EQ(shared.site_maps().size(), 2u);
         for (std::size_t i = 0; i < 2; ++i) {

@@ -35,11 +35,8 @@ InterfaceOptions with_field(const WallLaw& wall, const std::vector<double>& part
     field->sites = static_cast<int>(std::lround(std::sqrt(static_cast<double>(part.size()))));
     field->largest = 1.0;
     field->values = part;
-    o.adhesion = field;
-    double sum = 0.0;
-    for (const double of_site : part)
-        sum += o.adhesion_factor(of_site);
-    o.mean_adhesion_factor = sum / static_cast<double>(part.size());
+    o.maps[SiteMapOf::adhesion] = field;
+    o.find_mean_law_factors();
     return o;
 }
 
@@ -58,7 +55,7 @@ Case case_of(const std::vector<std::string>& keys) {
     all.insert(all.end(), keys.begin(), keys.end());
     return read_case_text("[surface]\nsites = 32\nkind = \"flat\"\n", "field.toml", all);
 }
-const SiteMap& field_of(const Case& c) { return *c.simulation.interface.adhesion; }
+const SiteMap& field_of(const Case& c) { return *c.simulation.interface.maps[SiteMapOf::adhesion]; }
 
 /// Returns the text of the problems of a scene; empty if it has none.
 std::string problems_of(const std::vector<std::string>& keys) {
@@ -221,6 +218,19 @@ TEST(AdhesionField, Formulas) {
     const auto notes = case_of({"interface.adhesion=stripes 1 2 30"}).notes;
     ASSERT_EQ(notes.size(), 1u);
     EXPECT_NE(notes[0].find("27.7333 Å, of which 3 fit"), std::string::npos) << notes[0];
+}
+
+/// Each map is told what is wrong with it, and one that is 0 somewhere is refused where nothing
+/// would press or repel there.
+TEST(AdhesionField, EachMapIsTold) {
+    const std::string both =
+        problems_of({"interface.adhesion=none.txt", "interface.hardness=stripes 0 1 20"});
+    EXPECT_NE(both.find("neither a file nor a formula"), std::string::npos) << both;
+    EXPECT_NE(both.find("a hardness above 0 at each site"), std::string::npos) << both;
+    const std::string field = "interface.adhesion=stripes 0 10 20";
+    EXPECT_EQ(problems_of({field}), "");
+    const std::string repels = problems_of({field, "interface.law=9-3", "interface.range=3"});
+    EXPECT_NE(repels.find("nothing would repel there"), std::string::npos) << repels;
 }
 
 /// A pattern that the sites do not resolve is refused, one whose mean they miss is noted, and a

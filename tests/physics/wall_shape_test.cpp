@@ -28,6 +28,13 @@ struct Known {
     std::function<double(double)> f; ///< over the depth and the range
 };
 
+/// Returns factors that leave a law as it is but for its attraction.
+LawFactors<double> attracting(double factor) {
+    LawFactors<double> factors = no_factors;
+    factors[LawFactor::attraction] = factor;
+    return factors;
+}
+
 const std::vector<Known>& known() {
     static const std::vector<Known> all = [] {
         std::vector<Known> list;
@@ -93,7 +100,7 @@ TEST(WallShape, FollowsItsFormula) {
 TEST(WallShape, IsAsDeepAsItSays) {
     for (const Known& k : known())
         for (const double part : {1.0, 0.3}) {
-            const ShapedWall law = law_of(k).scaled(law_of(k).factor_of(part));
+            const ShapedWall law = law_of(k).scaled(attracting(law_of(k).factor_of(part)));
             EXPECT_NEAR(law.energy(law.deepest()), -part * work, 1e-12) << k.name;
             EXPECT_NEAR(law.force(law.deepest()), 0.0, 1e-9) << k.name;
             double least = 0.0, strongest = 0.0;
@@ -132,7 +139,7 @@ TEST(WallShape, DerivativesAreItsOwn) {
 TEST(WallShape, WithAFactorItsForceIsItsSlope) {
     for (const Known& k : known()) {
         const ShapedWall law = law_of(k);
-        const auto part = ShapedWall::Terms<double>(law).scaled(0.4);
+        const auto part = ShapedWall::Terms<double>(law).scaled(attracting(0.4));
         const double h = 1e-7 * range;
         for (const double g : {-0.01 * range, -0.0003 * range, 0.613 * range, 1.501 * range}) {
             if (k.shape.shape().repels && g < 0.0) continue;
@@ -170,7 +177,7 @@ TEST(WallShape, SitesGoDownhill) {
     };
     for (const Known& k : known())
         for (int i = 0; i < 3000; ++i) {
-            const ShapedWall law = law_of(k).scaled(between(0.01, 1.0));
+            const ShapedWall law = law_of(k).scaled(attracting(between(0.01, 1.0)));
             const double spring = std::pow(10.0, between(-3.0, 4.0)), target = between(-3.0, 12.0);
             const auto energy = [&](double g) {
                 return law.energy(g) + 0.5 * spring * (g - target) * (g - target);

@@ -132,7 +132,7 @@ TEST(Yield, SitesBearTheirHardnessAndNoMore) {
         for (int i = 0; i < n * n; ++i)
             hardness->values.push_back(between(0.5, 30.0)); // GPa
         options.hardness = 0.0;
-        options.hardness_map = hardness;
+        options.maps[SiteMapOf::hardness] = hardness;
         const Surface surface = test::scattered(n, n * a, 0.5, 5);
         test::PathCase c(test::paper_block(n, n, 0), surface, options);
         const OverWall& wall = *c.interface.yielding_wall();

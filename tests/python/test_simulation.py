@@ -507,10 +507,13 @@ def test_without_the_module(tmp_path):
 def test_stub_names_what_the_module_has():
     """And the other way round; of each class its public members, read-only ones without a setter."""
     tree = ast.parse((ROOT / "python/asperity/_engine.pyi").read_text())
+    generated = ast.parse((ROOT / "python/asperity/results/names.pyi").read_text(encoding="utf-8"))
+    bases = {node.name: node.body for node in generated.body if isinstance(node, ast.ClassDef)}
     module = sys.modules[asperity.Simulation.__base__.__module__]
     stub = {node.name: node for node in tree.body if isinstance(node, ast.ClassDef) and not node.name.startswith("_")}
     assert stub.keys() == {name for name, value in vars(module).items() if isinstance(value, type)}
     for name, node in stub.items():
+        node.body += [member for base in node.bases for member in bases.get(base.id, ())]
         kind = getattr(module, name)
         there = {member for member in vars(kind) if not member.startswith("__") and member != "_pybind11_conduit_v1_"}
         told = {n.name if isinstance(n, ast.FunctionDef) else n.target.id for n in node.body

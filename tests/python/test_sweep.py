@@ -27,6 +27,7 @@ from asperity.plots import sweep as plots
 from asperity.plots.style import csv, drawn
 from asperity.reports import sentences
 from asperity.running import lock, pool, program
+from asperity.running.scene import inputs_of
 from asperity.studies import grid
 from asperity.studies.sweeps import load_sweep, load_sweeps
 from asperity.studies.tables import text_of
@@ -393,6 +394,16 @@ def test_points_over_another_content_of_any_file_are_refused(place, key):
     np.savetxt("field.txt", 1.5 + np.random.default_rng(1).random((16, 16)))
     with pytest.raises(asperity.SceneError, match="holds the result of another content of field.txt"):
         asperity.sweep({"name": "over a field"}, keys, out="field")
+
+
+def test_inputs_are_all_files_that_a_scene_names(place):
+    """Those of the sites too, but no formula and no word."""
+    for name in ("w.txt", "h.txt", "map.npy"):
+        (place / name).touch()
+    (place / "wall").mkdir()
+    scene = {"surface": {"file": "map.npy", "counter": "none"},
+             "interface": {"kind": "wall", "adhesion": "w.txt", "hardness": "h.txt:/field", "range": "stripes 1 2 20", "tail": False}}
+    assert inputs_of("one.toml", scene) == ["one.toml", "map.npy", "w.txt", "h.txt:/field"]
 
 
 def test_a_map_may_be_given_beside_the_scene(place):

@@ -85,12 +85,11 @@ def file_beside(name: str, scene: str) -> str:
 
 
 def inputs_of(file: str, scene: Mapping[str, Any]) -> list[str]:
-    """Returns the files that a command reads for a scene: its file, maps or atoms, table, and map of the work of adhesion."""
+    """Returns the files that a command reads for a scene: its file, maps or atoms, table, and maps of the sites."""
     named = [scene.get(section, {}).get(key) for section, key in (("surface", "file"), ("surface", "counter"), ("interface", "table"))
              if scene.get(section, {}).get(key) != "none"]
-    field = scene.get("interface", {}).get("adhesion")
-    if isinstance(field, str) and Path(file_beside(field, str(file)).partition(":/")[0]).exists():
-        named.append(field)
+    named += [value for key, value in scene.get("interface", {}).items()
+              if key != "table" and isinstance(value, str) and Path(file_beside(value, str(file)).partition(":/")[0]).is_file()]
     return [str(file), *(file_beside(name, str(file)) for name in named if name)]
 
 
