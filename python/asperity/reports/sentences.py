@@ -11,6 +11,7 @@ from typing import Any
 
 from ..results.losses import losses
 from ..results.result import Result, Values, finite
+from ..studies.estimate import left_out
 from ..terminal import duration, millijoules, minus, number
 from ..units import ATTOJOULE, GIGAPASCAL, NANONEWTON
 
@@ -333,12 +334,6 @@ def results(run: Result) -> list[str]:
 
 CONVERGED = ("“Solver converged to” says by how much an exact solver could change a number. It is not the error of the number: "
              "`asperity estimate` measures the effect of cutoff, spacing, thickness, width, velocity and surface.")
-
-
-def left_out(scene: Values) -> list[str]:
-    """Returns what no effect simulates in a scene that is given by its keys."""
-    return ["deformation of the substrate: it is rigid"] * (scene.number("surface.counter_young") is None) + [
-        "plastic flow: the block is elastic throughout"] * (scene.find("interface.hardness") in (None, "none"))
 
 
 def effects(run: Result, on: bool) -> list[str]:
