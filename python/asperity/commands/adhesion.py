@@ -41,7 +41,7 @@ class Options(Base):
     range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
     size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
-    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
+    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None, own=True)
     line_noise: str | None = option("HOW", "treatment of a scan's noise from line to line: keep, align-rows or isotropic", None,
                                     choices=("keep", "align-rows", "isotropic"))
     counter: str | None = option("MAP2", "map of a second rough solid, turned over onto the first; eight shifts show the error of the "
