@@ -333,7 +333,8 @@ HeightMap read_map_file(const std::string& name, const MapOptions& said) {
     HeightMap map = read_raw(file, dataset, said.quantity, units);
     if (map.source.empty()) map.source = file;
     if (map.rows == 0 || map.columns == 0)
-        refuse(map.source, "the height map is empty", "it holds no numbers", "");
+        refuse(map.source, "the height map is empty", "it holds no numbers",
+               "export the heights again, or name another file");
     if (map.rows > longest_edge || map.columns > longest_edge)
         refuse(map.source, "the height map is too long",
                fmt::format("{} x {} points, {} along an edge at most", map.rows, map.columns,

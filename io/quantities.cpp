@@ -42,6 +42,7 @@ const std::vector<Topic>& result_topics() {
           "repulsive_fraction", "relaxed"}},
         {"Forces, spheres and instruments",
          {"approach_force", "pull_off_force", "jkr", "contact_radius", "instrument"}},
+        {"Summary", {"rows", "sentences"}},
         {"Segments, slides and friction", {"segments"}},
         {"Instabilities", {"dissipated"}},
         {"A surface that yields", {"yielding"}},

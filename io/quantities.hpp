@@ -192,6 +192,18 @@ inline constexpr Quantity written_quantities[] = {
     {"instrument.energy_lost", "aJ", per::block, "dissipated.energy in units of instruments"},
     {"instrument.edge_distance", "nm", "",
      "smallest distance of a contact from a free edge of the box on the path (surface.boundary)"},
+    {"rows[]", "", "",
+     "the main numbers as people read them, in the order of the tables that a run prints; reports "
+     "and notebooks print them too"},
+    {"rows[].table", "", "",
+     "name of the table: of a state, of the path or of its segments; \"\": a table of reports "
+     "alone"},
+    {"rows[].columns", "", "", "names of the columns of the table"},
+    {"rows[].name", "", "", "name of the number"},
+    {"rows[].part", "", "", "true for an error or a share of the number above"},
+    {"rows[].unit", "", "", "unit of the values"},
+    {"rows[].texts", "", "", "the number as text, for each column; \"-\": none"},
+    {"sentences", "", "", "sentences on the meaning of the numbers, as a run prints them"},
     {"segments[]", "", "", "the segments of drive.path that have ended, in order"},
     {"segments[].segment", "1", "", "number of the segment in drive.path, from 0"},
     {"segments[].name", "", "", "the segment's text in drive.path"},

@@ -68,6 +68,11 @@ template <typename... T>
 void print_text(std::FILE* to, fmt::format_string<T...> text, T&&... values) {
     fmt::print(to, "{}", folded(fmt::format(text, std::forward<T>(values)...)));
 }
+/// Appends a text to a list; arguments as of fmt::print().
+template <typename... T>
+void print_text(std::vector<std::string>& to, fmt::format_string<T...> text, T&&... values) {
+    to.push_back(fmt::format(text, std::forward<T>(values)...));
+}
 
 /// Mode of progress reports. "bar" redraws one line, on a terminal; "lines" prints a line
 /// periodically, for logs and under mpirun (where ranks have no terminal); "auto" selects one of

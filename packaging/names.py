@@ -18,13 +18,17 @@ from generate import say
 WHOLE = ("exit_code", "segment", "events", "sites_moved", "atoms", "steps", "iterations", "ranks", "threads", "calls")
 PAIRS = ("slide", "site", "dissipated.jumps[].mean_height", "dissipated.jumps[].force", "dissipated.jumps[].contact_fraction")
 """Numbers of result.json that are whole, and those that are lists of numbers."""
+TEXTS = ("rows[].columns", "rows[].texts", "sentences")
+"""Lists of texts."""
 
 
 def kind_of(path: str, unit: str) -> str:
     """Returns the type of a value of result.json."""
     name = path.rpartition(".")[2]
-    if name in ("on", "converged"):
+    if name in ("on", "converged", "part"):
         return "bool"
+    if path in TEXTS:
+        return "list[str]"
     if name in PAIRS or path in PAIRS:
         return "list[float]"
     return "int" if name in WHOLE else "float" if unit else "str"

@@ -3,6 +3,7 @@
 #include "engine/commands/command_line.hpp"
 
 #include "decomposition/communicator.hpp"
+#include "engine/case/case.hpp"
 #include "engine/commands/help.hpp"
 #include "engine/run/stop_signals.hpp"
 #include "io/error.hpp"
@@ -49,105 +50,73 @@ std::string scene_file(const Arguments& given, std::vector<std::string>& overrid
     return files.front();
 }
 
+Case case_of(const Arguments& given, int ranks) { return case_of(given, ranks, Communicator()); }
+
 Case case_of(const Arguments& given, int ranks, const Communicator& world) {
     std::vector<std::string> overrides;
     const std::string file = scene_file(given, overrides);
     return read_case(file, overrides, ranks, world);
 }
 
-Case surface_case_of(const Arguments& given, int ranks) {
-    std::vector<std::string> overrides;
-    const std::string file = scene_file(given, overrides);
-    io::Problems found;
-    const Scene scene = read_scene_text(
-        io::read_scene_file(file), file == io::standard_input ? "stdin" : file, overrides, found);
-    found.throw_if_any();
-    Case c = resolve(scene, ranks, found);
-    std::vector<io::Problem> of_surface;
-    for (const io::Problem& problem : found.list()) // messages that begin with the name of the key
-        if (problem.what.starts_with("surface.")) of_surface.push_back(problem);
-    if (!of_surface.empty()) throw io::SceneError(of_surface);
-    return c;
-}
-
-RunOptions run_options(const Arguments& given) {
-    RunOptions options;
-    options.out = given.out;
-    options.resume = given.resume;
-    options.restart = given.restart;
-    io::Problems problems;
-    if (options.restart && options.resuming())
-        problems.add(io::Problem{"--restart", "and --resume exclude each other",
-                                 "--restart deletes an unfinished run, --resume continues it",
-                                 "give one of them"});
-    if (!given.wall_limit.empty()) {
-        options.wall_limit = io::parse_duration(given.wall_limit);
-        if (!options.wall_limit)
-            problems.add(io::Problem{"--wall-limit " + given.wall_limit, "is no length of time", "",
-                                     "for example 23h50m, 45m or 90s"});
-    }
-    options.quiet = given.quiet;
-    options.json = given.json;
-    const std::string progress = !given.progress.empty() ? given.progress
-                                 : only_results(given)   ? "off"
-                                                         : "auto";
-    if (const auto mode = io::progress_mode(progress))
-        options.progress = *mode;
-    else
-        problems.add(io::Problem{"--progress " + given.progress, "is none of its choices",
-                                 "the choices are auto, bar, lines, json and off",
-                                 "give one of them"});
-    if (options.resuming() && options.resume != "auto" && !std::filesystem::exists(options.resume))
-        problems.add(io::Problem{"--resume " + options.resume, "there is no such file",
-                                 "a checkpoint file or the word auto is needed",
-                                 "--resume auto takes the checkpoint in the result directory"});
-    problems.throw_if_any();
-    return options;
+int on_root(const Communicator& world, const std::function<int()>& work) {
+    int code = io::exit_code::done;
+    world.on_root([&] { code = work(); });
+    return code;
 }
 
 namespace takes {
 
-const Option scene = {.name = "SCENE",
-                      .value = "",
-                      .explanation = "the scene file (TOML); - is the standard input",
-                      .into = &Arguments::words,
-                      .needed = true};
-const Option set = {"--set", "key=value",
-                    "override a key of the scene: section.key=value; repeatable",
-                    &Arguments::overrides};
-const Option json = {"--json", "", "print the result as one line of JSON, for programs",
-                     &Arguments::json};
-const Option progress = {"--progress", "MODE",
-                         "auto, bar, lines, off, or json for programs (default: auto)",
-                         &Arguments::progress};
-const Option quiet = {"--quiet", "", "print results and errors only", &Arguments::quiet, "-q"};
+namespace {
+constexpr const char *scene_name = "SCENE", *set_name = "--set", *json_name = "--json",
+                     *progress_name = "--progress";
+} // namespace
 
-Option out(const std::string& otherwise) {
-    return {"--out", "DIR", fmt::format("result directory (default: {})", otherwise),
-            &Arguments::out, "-o"};
+Option scene(Arguments& given) {
+    return {.name = scene_name,
+            .value = "",
+            .explanation = "the scene file (TOML); - is the standard input",
+            .into = &given.words,
+            .needed = true};
+}
+Option set(Arguments& given) {
+    return {set_name, "key=value", "override a key of the scene: section.key=value; repeatable",
+            &given.overrides};
+}
+Option json(Arguments& given) {
+    return {json_name, "", "print the result as one line of JSON, for programs", &given.json};
+}
+Option progress(Arguments& given) {
+    return {progress_name, "MODE", "auto, bar, lines, off, or json for programs (default: auto)",
+            &given.progress};
+}
+Option quiet(Arguments& given) {
+    return {"--quiet", "", "print results and errors only", &given.quiet, "-q"};
+}
+Option out(Arguments& given, const std::string& otherwise) {
+    return {"--out", "DIR", fmt::format("result directory (default: {})", otherwise), &given.out,
+            "-o"};
 }
 
 } // namespace takes
 
 namespace {
 
-void add(CLI::App& command, const Option& option, Arguments& given) {
-    const auto add_to = [&](auto& field) -> CLI::Option* {
-        using Field = std::remove_reference_t<decltype(field)>;
+void add(CLI::App& command, const Option& option) {
+    const auto add_to = [&](auto* field) -> CLI::Option* {
+        using Field = std::remove_pointer_t<decltype(field)>;
         const std::string names =
             option.short_name.empty() ? option.name : option.short_name + "," + option.name;
         if constexpr (std::is_same_v<Field, bool>)
-            return command.add_flag(names, field);
+            return command.add_flag(names, *field);
         else
-            return command.add_option(names, field);
+            return command.add_option(names, *field);
     };
-    CLI::Option& added =
-        *std::visit([&](auto member) { return add_to(given.*member); }, option.into);
+    CLI::Option& added = *std::visit(add_to, option.into);
     if (option.needed) added.required();
-    if (option.name == takes::set.name) added.allow_extra_args(false);
-    if (std::holds_alternative<int Arguments::*>(option.into)) added.check(CLI::Range(1, 1 << 20));
+    if (option.name == takes::set_name) added.allow_extra_args(false);
+    if (std::holds_alternative<int*>(option.into)) added.check(CLI::Range(1, 1 << 20));
     // The empty value of a variable that is not set
-    if (std::holds_alternative<std::string Arguments::*>(option.into))
+    if (std::holds_alternative<std::string*>(option.into))
         added.check([](const std::string& text) { return text.empty() ? "is empty" : ""; });
 }
 
@@ -160,10 +129,10 @@ std::vector<std::string> spelt_out(int argc, char** argv) {
     std::vector<std::string> words;
     for (int i = 1; i < argc; ++i) {
         words.emplace_back(argv[i]);
-        if (words.back() != takes::set.name || i + 1 == argc) continue;
+        if (words.back() != takes::set_name || i + 1 == argc) continue;
         words.emplace_back(argv[++i]);
         for (; i + 1 < argc && is_override(argv[i + 1]); ++i) {
-            words.push_back(takes::set.name);
+            words.emplace_back(takes::set_name);
             words.emplace_back(argv[i + 1]);
         }
     }
@@ -172,18 +141,27 @@ std::vector<std::string> spelt_out(int argc, char** argv) {
 
 } // namespace
 
-bool is_for_programs(int argc, char** argv) {
+bool is_for_programs(const std::vector<Command>& commands, int argc, char** argv) {
     for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool progress = i > 1 && argv[i - 1] == takes::progress.name && word == "json";
-        if (word == takes::json.name || word == takes::progress.name + "=json" || progress)
+        const std::string word = argv[i], progress = takes::progress_name;
+        if (word == takes::json_name || word == progress + "=json" ||
+            (i > 1 && argv[i - 1] == progress && word == "json"))
             return true;
     }
-    const std::string_view command = argc > 1 ? argv[1] : "";
-    return command == "theory-points" || command == "stress-below" || command == "hold";
+    return argc > 1 && std::ranges::any_of(commands, [&](const Command& command) {
+               return command.for_programs && command.name == argv[1];
+           });
 }
 
 namespace {
+
+/// Returns true for the words of a call that name the standard input as the scene.
+bool is_standard_input(const Option& option) {
+    return option.name == takes::scene_name &&
+           std::ranges::find(*std::get<std::vector<std::string>*>(option.into),
+                             io::standard_input) !=
+               std::get<std::vector<std::string>*>(option.into)->end();
+}
 
 /// Returns true for a call of --help or -h, of the program or of a command.
 bool asks_for_help(int argc, char** argv) {
@@ -230,7 +208,7 @@ io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Co
                         fmt::format("its options are {}", fmt::join(names, ", ")), fix});
     }
     const bool lacks = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
-    if (lacks && error.what() == takes::scene.name + " is required")
+    if (lacks && error.what() == std::string(takes::scene_name) + " is required")
         return io::SceneError(io::Problem{
             "command line", "no scene is given", "the command needs one",
             fmt::format("for example: asperity {} scenes/first-contact.toml", command)});
@@ -239,8 +217,8 @@ io::SceneError not_understood(const CLI::ParseError& error, const std::vector<Co
 
 } // namespace
 
-int carry_out(const std::vector<Command>& commands, int argc, char** argv,
-              const Communicator& world) {
+int carry_out(const std::vector<Command>& commands, const std::vector<std::string>& of_script,
+              int argc, char** argv, const Communicator& world) {
     CLI::App app("", "asperity");
     app.require_subcommand(1);
     app.set_help_flag();
@@ -254,20 +232,18 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
         return io::exit_code::done;
     }
 
-    Arguments given;
     std::vector<std::string> names;
     for (const Command& command : commands) {
         CLI::App& entry = *app.add_subcommand(command.name, command.purpose);
         entry.set_help_flag();
         for (const Option& option : command.options)
-            add(entry, option, given);
+            add(entry, option);
         names.push_back(command.name);
     }
 
     // The library would only say that a command is missing.
     if (argc > 1 && argv[1][0] != '-' &&
         std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-        const std::vector<std::string> of_script{"test", "bench"}; // ./asperity of the source tree
         std::vector<std::string> all = names;
         all.insert(all.end(), of_script.begin(), of_script.end());
         const std::string near = io::nearest(argv[1], all);
@@ -290,13 +266,12 @@ int carry_out(const std::vector<Command>& commands, int argc, char** argv,
     }
     for (const Command& command : commands)
         if (app.got_subcommand(command.name)) {
-            if (world.size() > 1 && std::find(given.words.begin(), given.words.end(),
-                                              io::standard_input) != given.words.end())
+            if (world.size() > 1 && std::ranges::any_of(command.options, is_standard_input))
                 throw io::SceneError(io::Problem{"stdin", "the scene cannot be read",
                                                  "only rank 0 would have it",
                                                  "write the scene to a file and name that"});
             if (!command.looks_at_signals) stop_signals::release();
-            return command.act(given, world);
+            return command.act(world);
         }
     return io::exit_code::internal;
 }

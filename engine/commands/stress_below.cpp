@@ -1,18 +1,21 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/commands.hpp"
-
 #include "engine/commands/command_line.hpp"
+
+#include "decomposition/communicator.hpp"
+#include "engine/case/case.hpp"
 #include "engine/run/stress_record.hpp"
 #include "io/error.hpp"
 #include "io/files.hpp"
 #include "io/hdf5_file.hpp"
 #include "io/json.hpp"
 #include "io/run_h5.hpp"
+#include "io/scene_reader.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,9 +52,17 @@ Json largest_json(const LargestStress& largest) {
             {"reason", largest.reason}};
 }
 
-} // namespace
+struct Given : Arguments {
+    /// File of JSON, {"file": run.h5, "state": name of a group of /fields, "slid": true for the
+    /// tractions of with_slopes()}.
+    std::string points;
+};
 
-int stress_below_command(const Case& c, const Arguments& given) {
+/// Computes the stresses below a state of a run. The scene has block and output.stress*. Writes the
+/// group /stress/<state> to the file given.out, and prints the largest stresses of each layer as
+/// one line of JSON.
+int stress_below(const Given& given) {
+    const Case c = case_of(given, 1);
     const Json what = io::parse_json(io::read_scene_file(given.points), given.points);
     const std::string group = "/fields/" + what.at("state").get<std::string>();
     const BlockOptions& block = c.simulation.block;
@@ -88,6 +99,23 @@ int stress_below_command(const Case& c, const Arguments& given) {
     }
     fmt::print("{}\n", io::json_text(answer));
     return io::exit_code::done;
+}
+
+} // namespace
+
+Command stress_below_command() {
+    const auto given = std::make_shared<Given>();
+    return {.options = {takes::scene(*given),
+                        takes::set(*given),
+                        {"--points", "FILE",
+                         "the state: {\"file\": run.h5, \"state\": name, \"slid\": false}",
+                         &given->points},
+                        {"--out", "FILE", "the file to write", &given->out}},
+            .act =
+                [given](const Communicator& world) {
+                    return on_root(world, [&] { return stress_below(*given); });
+                },
+            .for_programs = true};
 }
 
 } // namespace asperity

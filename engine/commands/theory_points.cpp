@@ -1,7 +1,17 @@
 // SPDX-FileCopyrightText: 2026 The Asperity authors
 // SPDX-License-Identifier: MIT
-#include "engine/commands/commands.hpp"
+//
+// `asperity theory-points SCENE`, on one rank: many variations of one scene in one call, for
+// programs. The Python package computes its theories with it, and sweeps check their points.
+//
+// Each line of the input is a JSON array of overrides, ["surface.rms=1", "surface.seed=2"]. Each
+// line of the output is a JSON object for the point of the same line, either
+//     {"name", "scene", "units", "delta_gamma", "theory": {...}, "flat", "notes": [...], "rough"}
+// with the keys and units of result.json, the separation (Å) and the largest tension (GPa) of flat
+// on flat, and renormalised_inputs(); or {"problems": [{"where", "what", "why", "fix"}]}.
+#include "engine/commands/command_line.hpp"
 
+#include "decomposition/communicator.hpp"
 #include "engine/run/run_result.hpp"
 #include "engine/theory/rough_interface.hpp"
 #include "engine/theory/theory_case.hpp"
@@ -16,8 +26,11 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
+#include <memory>
 #include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace asperity {
 
@@ -140,9 +153,18 @@ Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     return point;
 }
 
-} // namespace
+struct Given : Arguments {
+    std::string points;    ///< file of the points; "-": standard input; empty: the scene alone
+    bool runnable = false; ///< report also the problems that would stop a run (examine())
+    /// Output also theory.persson.critical_rms, and "profile": [{"name", "unit", "meaning",
+    /// "values"}], the theory at all magnifications.
+    bool profile = false;
+};
 
-int theory_points_command(const TheoryPoints& what) {
+/// Prints the theories of the points. Throws io::FileError if the input cannot be read.
+int theory_points(const Given& what) {
+    std::vector<std::string> of_all; // overrides of every point
+    const std::string scene = scene_file(what, of_all);
     std::ifstream file;
     std::istringstream alone("[]\n");
     if (!what.points.empty() && what.points != "-") {
@@ -153,16 +175,16 @@ int theory_points_command(const TheoryPoints& what) {
                                 "check the path and its permissions");
     }
     std::istream& input = what.points.empty() ? alone : what.points == "-" ? std::cin : file;
-    const std::string text = io::read_scene_file(what.scene);
+    const std::string text = io::read_scene_file(scene);
     SurfaceCache surfaces;
     std::string line;
     for (int number = 1; std::getline(input, line); ++number) {
-        std::vector<std::string> overrides = what.overrides;
+        std::vector<std::string> overrides = of_all;
         for (std::string& one : overrides_of(line, fmt::format("{}:{}", what.points, number)))
             overrides.push_back(std::move(one));
         Json point;
         try {
-            const Case c = read_case_text(text, what.scene, overrides);
+            const Case c = read_case_text(text, scene, overrides);
             if (what.runnable) examine(c);
             point = what.runnable ? simulated_point(c, surfaces, what.profile)
                                   : point_json(c, surfaces, what.profile);
@@ -178,6 +200,27 @@ int theory_points_command(const TheoryPoints& what) {
         fmt::print("{}\n", io::json_text(point));
     }
     return io::exit_code::done;
+}
+
+} // namespace
+
+Command theory_points_command() {
+    const auto given = std::make_shared<Given>();
+    return {
+        .options = {takes::scene(*given),
+                    takes::set(*given),
+                    {"--points", "FILE",
+                     "the variations: a JSON array of overrides a line (-: standard input); a "
+                     "line of JSON for each",
+                     &given->points},
+                    {"--runnable", "", "also check what a run would refuse", &given->runnable},
+                    {"--profile", "", "also everything over magnification, and where adhesion ends",
+                     &given->profile}},
+        .act =
+            [given](const Communicator& world) {
+                return on_root(world, [&] { return theory_points(*given); });
+            },
+        .for_programs = true};
 }
 
 } // namespace asperity

@@ -87,7 +87,7 @@ int RunSession::carry_out(const Path& path, const std::function<void()>& work) {
         storage_.require_in_place();
         print_unless_closed([&] {
             if (options_.json) return fmt::print("{}", result.text(-1));
-            print_summary(stdout, case_, result, path.results(),
+            print_summary(stdout, summary_of(case_, result, path.results()),
                           options_.quiet ? "" : storage_.path());
             if (stopped_ != Stopped::no)
                 fmt::print("  Stopped early ({}): the path is not complete.\n", name(stopped_));
@@ -324,6 +324,7 @@ io::Result RunSession::write_result(const Path& path, const Failure* failure) {
                          .contact_fraction = series["contact_fraction"]},
                         case_.path(), case_.edge(), *case_.radius(), result);
     }
+    if (!failure) add_summary(summary_of(case_, result, path.results()), result);
     io::write_result(storage_.directory(), result);
     if (failure || stopped_ != Stopped::no) return result;
     storage_.remove_checkpoints();

@@ -12,14 +12,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace asperity {
 
 namespace {
+
+using Sentences = std::vector<std::string>;
 
 /// Fraction of the work of adhesion of flat surfaces below which solids do not stick.
 constexpr double no_adhesion = 0.01;
@@ -111,20 +113,20 @@ public:
     std::string uncertainty(Number value) const {
         return value ? fmt::format("{:.1e}", *value * (is_whole() ? whole_ : 1.0)) : "-";
     }
-    std::string_view unit_of_uncertainty() const { return is_whole() ? "aJ" : "meV/Å²"; }
+    std::string unit_of_uncertainty() const { return is_whole() ? "aJ" : "meV/Å²"; }
     std::string height(double value) const {
         return io::number(nanometres_ ? 0.1 * value : value, nanometres_ ? 3 : 2);
     }
     std::string_view unit_of_height() const { return nanometres_ ? "nm" : "Å"; }
-    /// Returns the name of a number of the result with its unit.
-    std::string named(const std::string& name, io::Key key) const {
+    /// Returns the unit of a number of the result; "" of a pure number.
+    std::string unit(io::Key key) const {
         std::string unit(io::unit_of(key));
-        if (unit == "1") return name;
+        if (unit == "1") return "";
         if (unit == "meV/Å^2") unit = is_whole() ? "aJ" : "meV/Å² (mJ/m²)";
         if (unit == "Å") unit = unit_of_height();
         if (const std::size_t at = unit.find("^2"); at != std::string::npos)
             unit.replace(at, 2, "²");
-        return name + ", " + unit;
+        return unit;
     }
 
 private:
@@ -144,7 +146,7 @@ double works_in_cycle(const PathResults& results) {
 }
 
 /// Prints whether the losses of a quasi-static path are those of the box.
-void print_limits_of_losses(std::FILE* to, const Case& c) {
+void print_limits_of_losses(Sentences& to, const Case& c) {
     if (c.effects.dynamic || !c.box_jumps()) return;
     const Form form(c);
     const std::optional<double> loss = c.flat_loss();
@@ -157,7 +159,7 @@ void print_limits_of_losses(std::FILE* to, const Case& c) {
 }
 
 /// Prints works and losses of a whole path.
-void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of,
+void print_cycle(Sentences& to, const Case& c, const PathResults& results, const Numbers& of,
                  double flat) {
     const Form form(c);
     if (c.effects.temperature) {
@@ -184,7 +186,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
                 io::number(*unclear, 2));
         return;
     }
-    if (c.guided()) {
+    if (c.guided() && !results.segments.empty()) {
         if (const Number lost = of("lost.cycle"))
             io::print_text(to, "  From the approach to the end of the pull-off {} are lost.\n",
                            form.with_unit(*lost));
@@ -230,7 +232,7 @@ void print_cycle(std::FILE* to, const Case& c, const PathResults& results, const
 }
 
 /// Prints what became of a surface that yields.
-void print_yielding(std::FILE* to, const Case& c, const PathResults& results, const Numbers& of) {
+void print_yielding(Sentences& to, const Case& c, const PathResults& results, const Numbers& of) {
     const Form form(c);
     const SegmentResults& most =
         *std::max_element(results.segments.begin(), results.segments.end(),
@@ -274,69 +276,53 @@ std::string short_name(const Case& c, const SegmentResults& s) {
     return fmt::format("{} {}", s.number, text);
 }
 
-/// Prints the segments of a path that has others than approach and pull-off, a column each, as many
-/// side by side as a page has room for.
-void print_segments(std::FILE* to, const Case& c, const PathResults& results) {
+/// Returns the segments of a path that has others than approach and pull-off, a column each.
+SummaryTable table_of_segments(const Case& c, const PathResults& results) {
     const Form form(c);
     const bool newtons = c.in_newtons();
-    const double unit = newtons ? units::nanonewton : c.area() * units::megapascal;
-    struct Row {
-        std::string name;
-        std::function<std::string(const SegmentResults&)> of;
+    const double force_unit = newtons ? units::nanonewton : c.area() * units::megapascal;
+    SummaryTable table{"segment"};
+    for (const SegmentResults& s : results.segments)
+        table.columns.push_back(short_name(c, s));
+    const auto add = [&](const std::string& name, const std::string& unit, auto&& value_of) {
+        SummaryRow row{name, unit};
+        for (const SegmentResults& s : results.segments)
+            row.values.push_back(value_of(s));
+        table.rows.push_back(std::move(row));
     };
-    std::vector<Row> rows;
-    rows.push_back({form.named("work of the drive", "segments[].work_of_drive"),
-                    [&](const SegmentResults& s) { return form.energy(s.energies[Term::work]); }});
+    using Of = const SegmentResults&;
+    add("work of the drive", form.unit("segments[].work_of_drive"),
+        [&](Of s) { return form.energy(s.energies[Term::work]); });
     for (const io::EnergyTerm& row : io::energy_terms)
         if (row.is_loss() && c.effects.has(row.effect))
-            rows.push_back({form.named(row.words(), io::Key::of("segments[].", row)),
-                            [&form, term = row.term](const SegmentResults& s) {
-                                return form.energy(s.energies[term]);
-                            }});
+            add(row.words(), form.unit(io::Key::of("segments[].", row)),
+                [&](Of s) { return form.energy(s.energies[row.term]); });
     if (!c.effects.dynamic)
-        rows.push_back({form.named("stored", "segments[].stored"),
-                        [&](const SegmentResults& s) { return form.energy(s.stored); }});
-    rows.push_back(
-        {form.named("ends at",
-                    newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
-         [=](const SegmentResults& s) { return number(s.force / unit, newtons ? 3 : 1); }});
-    rows.push_back({form.named("mean height", "segments[].mean_height"),
-                    [&](const SegmentResults& s) { return form.height(s.mean_height); }});
-    rows.push_back(
-        {"contact", [&](const SegmentResults& s) { return number(c.fraction(s.in_contact), 4); }});
+        add("stored", form.unit("segments[].stored"), [&](Of s) { return form.energy(s.stored); });
+    add("ends at",
+        form.unit(newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
+        [&](Of s) { return number(s.force / force_unit, newtons ? 3 : 1); });
+    add("mean height", form.unit("segments[].mean_height"),
+        [&](Of s) { return form.height(s.mean_height); });
+    add("contact", "", [&](Of s) { return number(c.fraction(s.in_contact), 4); });
     if (c.effects.yielding) {
-        rows.push_back({"at the hardness", [&](const SegmentResults& s) {
-                            return number(c.fraction(s.yielding.at_hardness), 4);
-                        }});
-        rows.push_back({form.named("mean set", "segments[].mean_set"),
-                        [&](const SegmentResults& s) { return form.height(s.yielding.mean_set); }});
+        add("at the hardness", "",
+            [&](Of s) { return number(c.fraction(s.yielding.at_hardness), 4); });
+        add("mean set", form.unit("segments[].mean_set"),
+            [&](Of s) { return form.height(s.yielding.mean_set); });
     }
     if (c.effects.sliding)
-        rows.push_back(
-            {newtons ? std::string("friction, nN") : form.named("friction", "segments[].friction"),
-             [=](const SegmentResults& s) {
-                 const Number f = s.lateral_mean;
-                 return number(f && newtons ? Number(*f / unit) : f, 2);
-             }});
-    constexpr std::size_t side_by_side = 3;
-    const auto& all = results.segments;
-    for (std::size_t first = 0; first < all.size(); first += side_by_side) {
-        const std::size_t end = std::min(all.size(), first + side_by_side);
-        std::vector<std::string> head = {"segment"};
-        for (std::size_t i = first; i < end; ++i)
-            head.push_back(short_name(c, all[i]));
-        io::Table table(head);
-        for (const Row& row : rows) {
-            std::vector<std::string> cells = {row.name};
-            for (std::size_t i = first; i < end; ++i)
-                cells.push_back(row.of(all[i]));
-            table.row(cells);
-        }
-        fmt::print(to, "\n");
-        table.print(to);
-    }
+        add("friction", newtons ? "nN" : form.unit("segments[].friction"), [&](Of s) {
+            const Number f = s.lateral_mean;
+            return number(f && newtons ? Number(*f / force_unit) : f, 2);
+        });
+    return table;
+}
+
+/// Tells the means of steady slides, and which segments ended at another load than their own.
+void print_ends(Sentences& to, const Case& c, const PathResults& results) {
     if (c.effects.dynamic) return;
-    for (const SegmentResults& s : all) {
+    for (const SegmentResults& s : results.segments) {
         if (!s.steady) continue;
         const SteadySlide& mean = *s.steady;
         const double megapascal = 1.0 / (c.area() * units::megapascal);
@@ -377,6 +363,46 @@ std::string progress_phase(const Case& c, const std::string& segment, double for
 }
 
 namespace {
+
+/// Returns a stress, eV/Å^3, in a unit of its size: "0.53", "GPa".
+std::pair<std::string, std::string> stress_text(double stress) {
+    constexpr std::pair<double, const char*> sizes[] = {
+        {units::gigapascal, "GPa"}, {units::megapascal, "MPa"}, {1e-3 * units::megapascal, "kPa"}};
+    for (const auto& [size, unit] : sizes)
+        if (std::abs(stress) >= 0.1 * size || size == sizes[2].first)
+            return {fmt::format("{:.3g}", stress / size), unit};
+    return {};
+}
+
+/// Returns numbers that the sentences of the summary contain, or that an instrument measures: the
+/// terminal has no table of them.
+SummaryTable table_for_pages(const Case& c, const Numbers& of) {
+    const Form form(c);
+    SummaryTable table{"", {""}};
+    table.for_pages = true;
+    const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
+                         bool part = false) {
+        table.rows.push_back({name, unit, {value}, part});
+    };
+    if (const Number radius = of("instrument.contact_radius")) {
+        row("contact radius", "nm", io::cell(*radius));
+        if (const Number error = of("instrument.contact_radius_uncertainty"))
+            row("mesh", "nm", fmt::format("{:.1e}", *error), true);
+    }
+    if (const Number averaged = of("jkr.approach_averaged"))
+        row("largest attraction of the approach as a JKR sphere, averaged over 2 ps",
+            "meV/Å² (mJ/m²)", energies(averaged));
+    if (const Number force = of("pull_off_force"); force && !c.in_newtons()) {
+        const auto [stress, unit] = stress_text(*force / c.area());
+        row("pull-off stress", unit, stress);
+        row("in all", "nN", io::cell(*force / units::nanonewton), true);
+    }
+    for (const io::EnergyTerm& loss : io::energy_terms)
+        if (const Number lost = loss.is_loss() ? of(io::Key::of("", loss, ".cycle")) : Number())
+            row((loss.term == Term::lost ? "energy " : "") + loss.words() + " in a cycle",
+                form.unit(io::Key::of("", loss, ".cycle")), form.energy(lost));
+    return table;
+}
 
 /// Returns the description of a wall, with the field of its work of adhesion.
 std::string wall_text(const Case& c) {
@@ -422,8 +448,8 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     std::fflush(to);
 }
 
-void print_summary(std::FILE* to, const Case& c, const io::Result& result,
-                   const PathResults& results, const std::string& directory) {
+Summary summary_of(const Case& c, const io::Result& result, const PathResults& results) {
+    Summary summary;
     const Numbers of{result};
     const Form form(c);
     const double flat = of("delta_gamma").value_or(0.0);
@@ -437,7 +463,7 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                  interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
     const bool anywhere = c.surface.kind == SurfaceKind::atoms;
     const std::string flat_text =
-        fmt::format("  over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
+        fmt::format("over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
     const auto of_mesh = [](const std::string& error) {
         return error == "-" ? std::string("not included") : error;
     };
@@ -448,40 +474,45 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         return number(v && flat != 0.0 ? Number(*v / flat) : Number(), 4);
     };
     if (state) {
-        io::Table table({"state " + at, ""});
-        const auto row = [&](const std::string& name, io::Key key, const std::string& value) {
-            table.row({form.named(name, key), value});
+        SummaryTable table{"state " + at, {""}};
+        const auto row = [&](const std::string& name, const std::string& unit,
+                             const std::string& value, bool part = false) {
+            table.rows.push_back({name, unit, {value}, part});
         };
-        row("binding energy", "binding_energy", form.energy(state));
-        if (!form.is_whole()) table.row({flat_text, over_flat(state)});
-        table.row({fmt::format("  convergence, {}", form.unit_of_uncertainty()),
-                   form.uncertainty(of("binding_energy_uncertainty"))});
+        row("binding energy", form.unit("binding_energy"), form.energy(state));
+        if (!form.is_whole()) row(flat_text, "", over_flat(state), true);
+        row("convergence", form.unit_of_uncertainty(),
+            form.uncertainty(of("binding_energy_uncertainty")), true);
         if (c.has_mesh())
-            table.row({fmt::format("  mesh, {}", form.unit_of_uncertainty()),
-                       of_mesh(form.uncertainty(of("mesh_error.binding_energy")))});
-        row("energy of the pairs alone", "pair_binding_energy",
+            row("mesh", form.unit_of_uncertainty(),
+                of_mesh(form.uncertainty(of("mesh_error.binding_energy"))), true);
+        row("energy of the pairs alone", form.unit("pair_binding_energy"),
             form.energy(of("pair_binding_energy")));
-        row("elastic energy stored", "relaxed.elastic_energy",
+        row("elastic energy stored", form.unit("relaxed.elastic_energy"),
             form.energy(of("relaxed.elastic_energy")));
-        row("contact fraction", "contact_fraction", number(of("contact_fraction"), 4));
-        if (of("contact_area"))
-            row("  area, less half sites of its edges", "contact_area",
+        row("contact fraction", "", number(of("contact_fraction"), 4));
+        if (const Number area = of("contact_area"))
+            row("area, less half sites of its edges", "",
                 of("contact_area_uncertainty")
-                    ? io::with_error(*of("contact_area"), *of("contact_area_uncertainty"))
-                    : number(of("contact_area"), 4));
-        row("repulsive sites, fraction", "repulsive_fraction", number(of("repulsive_fraction"), 4));
-        fmt::print(to, "\n");
-        table.print(to);
+                    ? io::with_error(*area, *of("contact_area_uncertainty"))
+                    : number(area, 4),
+                true);
+        row("repulsive sites, fraction", "", number(of("repulsive_fraction"), 4));
+        summary.tables.push_back(std::move(table));
     }
     if (drive_in || drive_out || of("approach_force")) {
-        io::Table table({"path", "approach", "pull-off"});
+        SummaryTable table{"path", {"approach", "pull-off"}};
+        const auto add = [&](const std::string& name, const std::string& unit,
+                             const std::string& in, const std::string& out, bool part = false) {
+            table.rows.push_back({name, unit, {in, out}, part});
+        };
         const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
-            if (in || out) table.row({form.named(name, key), form.energy(in), form.energy(out)});
+            if (in || out) add(name, form.unit(key), form.energy(in), form.energy(out));
         };
         const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
             row(name, key, in, out);
             if ((in || out) && !form.is_whole())
-                table.row({flat_text, over_flat(in), over_flat(out)});
+                add(flat_text, "", over_flat(in), over_flat(out), true);
         };
         work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
         work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
@@ -497,34 +528,35 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
         row("energy left in the spring", "spring.approach", of("spring.approach"),
             of("spring.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
-            table.row({fmt::format("convergence of the above, {}", form.unit_of_uncertainty()),
-                       form.uncertainty(of("work_of_drive.uncertainty.approach")),
-                       form.uncertainty(of("work_of_drive.uncertainty.pull_off"))});
-        const Number mesh_in = of("mesh_error.approach_force"),
-                     mesh_out = of("mesh_error.pull_off_force");
+            add("convergence of the above", form.unit_of_uncertainty(),
+                form.uncertainty(of("work_of_drive.uncertainty.approach")),
+                form.uncertainty(of("work_of_drive.uncertainty.pull_off")));
         if (c.has_mesh() && (drive_in || drive_out))
-            table.row({fmt::format("mesh, {}", form.unit_of_uncertainty()),
-                       of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
-                       of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off")))});
+            add("mesh", form.unit_of_uncertainty(),
+                of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
+                of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
         if (c.in_newtons())
-            table.row({form.named("largest attraction", "instrument.pull_off_force"),
-                       number(of("instrument.approach_force"), 3),
-                       number(of("instrument.pull_off_force"), 3)});
+            add("largest attraction", form.unit("instrument.pull_off_force"),
+                number(of("instrument.approach_force"), 3),
+                number(of("instrument.pull_off_force"), 3));
         else
-            table.row({form.named("largest attraction", "pull_off_force"),
-                       number(of("approach_force"), 1), number(of("pull_off_force"), 1)});
+            add("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
+                number(of("pull_off_force"), 1));
         if (c.has_mesh())
-            table.row(
-                {"  mesh", of_mesh(error_of_force(mesh_in)), of_mesh(error_of_force(mesh_out))});
+            add("mesh", "", of_mesh(error_of_force(of("mesh_error.approach_force"))),
+                of_mesh(error_of_force(of("mesh_error.pull_off_force"))), true);
         const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
         if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
-            table.row({"  as a JKR sphere, meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out)});
-        fmt::print(to, "\n");
-        table.print(to);
+            add("as a JKR sphere", "meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out), true);
+        summary.tables.push_back(std::move(table));
     }
-    if (c.guided()) print_segments(to, c, results);
-    if (directory.empty()) return;
-    io::print_text(to, "\nHow to read it\n");
+    if (SummaryTable table = table_for_pages(c, of); !table.rows.empty())
+        summary.tables.push_back(std::move(table));
+    if (c.guided() && !results.segments.empty()) {
+        summary.tables.push_back(table_of_segments(c, results));
+        print_ends(summary.tables.back().sentences, c, results);
+    }
+    Sentences& to = summary.sentences;
     if (state)
         io::print_text(
             to,
@@ -585,6 +617,61 @@ void print_summary(std::FILE* to, const Case& c, const io::Result& result,
                                       "numbers without one do not include it."
                                     : "",
                        c.has_mesh() ? "" : "spacing, ");
+    return summary;
+}
+
+void add_summary(const Summary& summary, io::Result& result) {
+    const auto plain = [](std::string_view text) {
+        text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+        return std::string(text.substr(0, text.find_last_not_of('\n') + 1));
+    };
+    result.set_list("rows[]");
+    Sentences all;
+    std::size_t i = 0;
+    for (const SummaryTable& table : summary.tables) {
+        for (const SummaryRow& row : table.rows) {
+            result.set("rows[].table", i, table.head);
+            result.set("rows[].columns", i, table.columns);
+            result.set("rows[].name", i, row.name);
+            result.set("rows[].part", i, row.part);
+            result.set("rows[].unit", i, row.unit);
+            result.set("rows[].texts", i, row.values);
+            ++i;
+        }
+        for (const std::string& text : table.sentences)
+            all.push_back(plain(text));
+    }
+    for (const std::string& text : summary.sentences)
+        all.push_back(plain(text));
+    result.set("sentences", std::move(all));
+}
+
+void print_summary(std::FILE* to, const Summary& summary, const std::string& directory) {
+    constexpr std::size_t side_by_side = 3;
+    for (const SummaryTable& of : summary.tables) {
+        for (std::size_t first = 0; first < of.columns.size() && !of.for_pages;
+             first += side_by_side) {
+            const auto some = [&](std::vector<std::string> cells, const auto& from) {
+                const std::size_t end = std::min(from.size(), first + side_by_side);
+                for (std::size_t i = first; i < end; ++i)
+                    cells.push_back(from[i]);
+                return cells;
+            };
+            io::Table table(some({of.head}, of.columns));
+            for (const SummaryRow& row : of.rows)
+                table.row(some(
+                    {(row.part ? "  " : "") + row.name + (row.unit.empty() ? "" : ", " + row.unit)},
+                    row.values));
+            fmt::print(to, "\n");
+            table.print(to);
+        }
+        for (const std::string& text : of.sentences)
+            io::print_text(to, "{}", text);
+    }
+    if (directory.empty()) return;
+    io::print_text(to, "\nHow to read it\n");
+    for (const std::string& text : summary.sentences)
+        io::print_text(to, "{}", text);
     io::print_text(
         to, "  Everything is in {}: result.json (these numbers), run.h5 (the path and the maps).\n",
         directory);

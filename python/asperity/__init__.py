@@ -24,6 +24,9 @@ from typing import TYPE_CHECKING
 from .errors import Error, InputOutputError, InternalError, PhysicsError, SceneError, SceneWarning, Stopped, UnknownName, WrongCall
 
 if TYPE_CHECKING:
+    from .commands.cost import cost as cost
+    from .commands.export import export as export
+    from .commands.theory import theory as theory
     from .forms import (
         Adhesion as Adhesion,
         Curves as Curves,
@@ -46,16 +49,8 @@ if TYPE_CHECKING:
         sweep as sweep,
         tip as tip,
     )
-    from .functions import (
-        check as check,
-        convert as convert,
-        cost as cost,
-        defaults as defaults,
-        export as export,
-        plan as plan,
-        surface as surface,
-        theory as theory,
-    )
+    from .functions import check as check, defaults as defaults, plan as plan, surface as surface
+    from .maps.convert import convert as convert
     from .running.engine import Simulation as Simulation, State as State, Statics as Statics
     from .studies.states import states as states
 
@@ -64,13 +59,13 @@ _LAZY = {"run": ".forms", "load": ".forms", "sweep": ".forms", "load_sweep": ".f
          "stress": ".forms", "Tip": ".forms", "Stress": ".forms", "Result": ".forms", "Sweep": ".forms",
          "Estimate": ".forms", "Adhesion": ".forms",
          "Simulation": ".running.engine", "State": ".running.engine", "Statics": ".running.engine", "states": ".studies.states",
-         "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".functions",
-         "cost": ".functions", "convert": ".functions", "prony": ".forms", "export": ".functions"}
+         "check": ".functions", "plan": ".functions", "surface": ".functions", "defaults": ".functions", "theory": ".commands.theory",
+         "cost": ".commands.cost", "convert": ".maps.convert", "prony": ".forms", "export": ".commands.export"}
 """Where each name is, in the order of the reference."""
 _MODULES = {"crack": (".crack",), "plots": (".plots.style", ".plots"), "theories": (".theories.combined", ".theories")}
 """Modules that are there after `import asperity`, each with those that it is to hold."""
 __all__ = ["Error", "InputOutputError", "InternalError", "PhysicsError", "SceneError", "SceneWarning", "Stopped", "UnknownName", "WrongCall",
-           *(name for name, module in _LAZY.items() if module in (".forms", ".functions"))]
+           *(name for name, module in _LAZY.items() if module != ".running.engine" and name != "states")]
 
 
 def __getattr__(name: str):

@@ -17,17 +17,14 @@ from .commands.curve import curve
 from .commands.stress import stress
 from .commands.tip import tip
 from .files import store
-from .results.frames import Frames
-from .results.result import Group, Result, Values, load
+from .results.result import Result, load
 from .running.runs import run
-from .studies.cost import Cost
 from .studies.curves import Curves, load_curve
-from .studies.estimates import Estimate, estimate, load_estimate
+from .studies.estimate import Estimate, load_estimate
+from .studies.estimates import estimate
 from .studies.prony import Prony, prony
-from .studies.stated_number import Number
 from .studies.stress import Stress
 from .studies.sweeps import Sweep, load_sweep, sweep
-from .studies.tables import Columns, text_of
 from .studies.tip import Tip, load_tip
 from .terminal import html_table
 
@@ -130,51 +127,6 @@ def _plot_of_prony(self: Prony, ax=None):
     return drawn_into(ax, lambda a: moduli(self, a), self.source, "moduli", "it has no branches")
 
 
-def _quote(self: Estimate, path: str = "") -> str:
-    """Returns a number as it is published, with its error and the parts of the error.
-
-    Parameters
-    ----------
-    path : str
-        Path of the number in result.json; "": the first number.
-
-    Returns
-    -------
-    str
-        Sentence with the number, mJ/m² and meV/Å² for energies per area.
-    """
-    from .reports.estimate import quote
-
-    return quote(self.number(path))
-
-
-def _html_of_run(self: Result) -> str:
-    from .reports.sentences import key_numbers
-
-    return html_table(self.title, (), [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in key_numbers(self)],
-                       self.failure_text or ("stopped early: " + self.stopped if self.stopped else ""))
-
-
-def _html_of_sweep(self: Sweep) -> str:
-    heads, rows, meaning = text_of(self.table)
-    return html_table(self.name, heads, rows, meaning)
-
-
-def _html_of_estimate(self: Estimate) -> str:
-    return html_table(self.name, (), [[_quote(self, path)] for path in self.numbers],
-                       f"not measured: {'; '.join(self.unseen)}" if self.unseen else "")
-
-
-def _html_of_adhesion(self: Adhesion) -> str:
-    return _html_of_estimate(self.estimate)
-
-
-def _text_of_estimate(self: Estimate) -> str:
-    from .reports.estimate import text_of
-
-    return text_of(self)
-
-
 def _report_of_estimate(self: Estimate, out: str | os.PathLike | None = None) -> Path:
     """Writes report.html into a directory.
 
@@ -195,46 +147,18 @@ def _report_of_estimate(self: Estimate, out: str | os.PathLike | None = None) ->
     return page.path
 
 
-def _html_of_group(self: Group) -> str:
-    rows = [(name, self.unit(name), " x ".join(map(str, self[name].shape))) for name in self]
-    return html_table(self._called.strip("/"), ("array", "unit", "shape"), rows)
+def _html_of_run(self: Result) -> str:
+    from .reports.sentences import key_numbers
+
+    return html_table(self.title, (), [(n.name, f"{n.value} {n.unit}".strip(), n.note) for n in key_numbers(self)],
+                      self.failure_text or ("stopped early: " + self.stopped if self.stopped else ""))
 
 
-def _html_of_columns(self: Columns) -> str:
-    names, rows = list(self)[:8], max((len(column) for column in self.values()), default=0)
-    def text(value: object) -> str:
-        return f"{value:.5g}" if isinstance(value, float) else str(value)
-
-    return html_table(f"{rows} rows, {len(self)} columns", [f"{name}, {self.units[name]}".removesuffix(", ") for name in names],
-                       [[text(self[name][i]) for name in names] for i in range(min(rows, 12))])
-
-
-def _html_of_values(self: Values) -> str:
-    return html_table(self._called, (), [(name, f"{value:.6g}") for name, value in self.numbers().items()])
-
-
-def _html_of_cost(self: Cost) -> str:
-    rows = [(row.parameter, row.label, f"{row.seconds:.3g}", *(f"{error:.2g}" for error in row.error.values())) for row in self.rows]
-    return html_table("Cost of accuracy", ("parameter", "value", "s", *(f"error, {question}" for question in self.rows[0].error)), rows)
-
-
-def _html_of_frames(self: Frames) -> str:
-    return html_table(repr(self).strip("<>"), ("step", "time, ps"), [(str(a), f"{b:.6g}") for a, b in zip(self.steps[:12], self.times)])
-
-
-def _html_of_numbers(self: Number) -> str:
-    return html_table(self.name, (), [(str(self),)])
-
-
+# A result does not import what draws it.
 for kind, name, form in (
-        (Group, "_repr_html_", _html_of_group), (Columns, "_repr_html_", _html_of_columns), (Values, "_repr_html_", _html_of_values),
-        (Cost, "_repr_html_", _html_of_cost), (Frames, "_repr_html_", _html_of_frames), (Number, "_repr_html_", _html_of_numbers),
-        (Estimate, "plot", _plot_of_estimate), (Estimate, "quote", _quote), (Estimate, "report", _report_of_estimate),
-                         (Estimate, "__str__", _text_of_estimate), (Estimate, "_repr_html_", _html_of_estimate),
-                         (Adhesion, "_repr_html_", _html_of_adhesion), (Result, "_repr_html_", _html_of_run),
-                         (Sweep, "_repr_html_", _html_of_sweep), (Result, "plot", property(_plot_of_run)),
-                         (Prony, "plot", _plot_of_prony),
-                         (Result, "report", _report_of_run), (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep)):
+        (Result, "plot", property(_plot_of_run)), (Result, "report", _report_of_run), (Result, "_repr_html_", _html_of_run),
+        (Sweep, "plot", _plot_of_sweep), (Sweep, "report", _report_of_sweep),
+        (Estimate, "plot", _plot_of_estimate), (Estimate, "report", _report_of_estimate), (Prony, "plot", _plot_of_prony)):
     if not isinstance(form, property) and not name.startswith("_"):
         form.__qualname__ = f"{kind.__name__}.{name}"
         form = checks_call(form)

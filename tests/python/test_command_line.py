@@ -13,8 +13,6 @@ import pytest
 import asperity
 from conftest import command
 
-COMMANDS = "run init plan check surface theory sweep report export convert defaults info".split()
-
 
 @pytest.fixture()
 def place(place):
@@ -26,10 +24,7 @@ def keys(text):
     return re.findall("^[a-z_0-9]+ = ", text, re.M)
 
 
-def test_help_and_information():
-    command("--help", says=[f"  {name}" for name in COMMANDS])
-    for name in COMMANDS:
-        command(name, "--help")
+def test_information():
     command("--version", says="asperity 0.")
     command("info", says="version git compiler flags MPI HDF5 FFTW threads ranks processor".split())
 

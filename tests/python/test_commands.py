@@ -3,6 +3,7 @@
 """A walk over all commands: the form of their help, exit codes, -o, --json, --quiet, tables of at most 100 columns."""
 
 import argparse
+import importlib
 import inspect
 import json
 import os
@@ -24,10 +25,10 @@ sys.path.insert(0, str(ROOT / "packaging"))
 from generate import commands_of, completion, options_of, say, zsh_completion
 
 PROGRAM = os.environ["ASPERITY_PROGRAM"]
-COMMANDS = [name for name, _ in commands_of(say(PROGRAM, "--help"))]
+PURPOSES = dict(commands_of(say(PROGRAM, "--help")))
+COMMANDS = list(PURPOSES)
 HELPS = {name: say(PROGRAM, name, "--help") for name in COMMANDS}
-FOR_PROGRAMS = {"theory-points", "stress-below", "hold"}
-WRITES_NOTHING = {"check", "plan", "defaults", "info"}
+FOR_PROGRAMS = {name for name, purpose in PURPOSES.items() if purpose.startswith("for programs:")}
 RUNS_SEVERAL = {name for name in OF_PYTHON if "jobs" in of_package(name).options.about()}
 EXIT = "exit codes: 0 done, 1 internal error, 2 usage or scene, 3 physics guard,\n            4 files, 75 stopped early\n"
 SCENE = '[surface]\nsites = 16\nrms = 0.3\n[block]\nthickness = 16\n[drive]\npath = ["relax"]\n'
@@ -104,7 +105,7 @@ def test_help_has_one_form(name):
     if name in FOR_PROGRAMS:
         return
     assert {"-q", "--quiet", "--json"} <= options.keys()
-    assert ("-o" in options and "--out" in options) == (name not in WRITES_NOTHING)
+    assert ("-o" in options) == ("--out" in options) == bool(words_of(name)[1])
     assert ("-j" in options and "--jobs" in options) == (name in RUNS_SEVERAL)
 
 
@@ -117,7 +118,7 @@ def test_a_misspelt_option_is_refused_with_the_right_one(name):
         assert code == 2 and json.loads(said)["error"]["problems"][0]["fix"] == "did you mean --help?"
 
 
-@pytest.mark.parametrize("name", [name for name in COMMANDS if name not in FOR_PROGRAMS and words_of(name)[0] is not None])
+@pytest.mark.parametrize("name", [name for name in COMMANDS if name not in FOR_PROGRAMS])
 def test_json_quiet_and_out(work, light, name):
     words, out, file = words_of(name)
     made = ["-o", out] if out else []
@@ -135,8 +136,7 @@ def test_json_quiet_and_out(work, light, name):
                    for path in before), before
     code, said, other = called(name, *words, *(["-o", "q-" + out] if out else []), "--quiet")
     assert code == 0 and other == "" and "note:" not in said, said + other
-    if said and name in ("run", "sweep", "cost", "estimate", "adhesion", "tip", "states", "theory"):
-        assert not re.search("written:|going on|begins|points in|runs, about", said), said
+    assert not re.search("written:|going on|begins|points in|runs, about", said), said
 
 
 def rows(text):
@@ -211,14 +211,16 @@ def test_every_command_of_the_package_has_a_module():
 
 @pytest.mark.parametrize("name", OF_PYTHON)
 def test_an_option_is_in_the_help_and_in_the_function(name):
-    """Of a function with the name of its command, the arguments are the options and their aliases, but for what only a terminal has."""
+    """The arguments of a function that stands beside its command are the options and their aliases, without those of a terminal alone."""
     text, about = " ".join(HELPS[name].split()), of_package(name).options.about()
     for field, (one, kind, needed) in about.items():
         if one.help != argparse.SUPPRESS:
             assert " ".join(one.help.split()) in text and (one.word or "--" + (one.name or field).replace("_", "-") in text), field
-    if name in ("adhesion", "curve", "tip"):
-        arguments = set(inspect.signature(getattr(asperity, name)).parameters)
-        assert arguments == {word for field in about.keys() - {"plan"} for word in (field, *ALIASES.get(field, ()))}
+    if (function := getattr(importlib.import_module(of_package(name).options.__module__), name, None)):
+        of_scene = {"words": "scene", "sets": "overrides"}
+        fields = [of_scene.get(field, field) for field, (one, _, _) in about.items() if not one.terminal and one.help != argparse.SUPPRESS]
+        assert set(inspect.signature(function).parameters) == {word for field in fields for word in (field, *ALIASES.get(field, ()))}
+        assert getattr(asperity, name) is function
 
 
 def test_a_page_elsewhere_writes_nothing_into_the_result(work, light, results):

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import tomllib
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -132,6 +133,12 @@ def error(call):
     with pytest.raises(asperity.Error) as raised:
         call()
     return str(raised.value)
+
+
+def a_tip(**more):
+    """What `asperity tip` is given, with its defaults."""
+    return asdict(options.command("tip").options(**{"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2",
+                                                    "stiffness": "2 N/m", **more}))
 
 
 def sim(**sets):
@@ -463,9 +470,7 @@ def test_a_fix_of_a_tip(bad, good):
     x, y = np.meshgrid(*[np.linspace(-20, 20, 41)] * 2)
     for name, heights in (("tip.txt", -(x * x + y * y) / 40), ("slope.txt", 0.1 * x)):
         np.savetxt(name, heights, header="Width: 41 nm\nHeight: 41 nm\nValue units: nm")
-    given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "load": None, "range": None,
-             "size": None, "unit": "Å", "channel": None, "sites": None, "hardness": None, "shape": "sphere", "angle": None,
-             "tip_map": None, "error": None}
+    given = a_tip(unit="Å")
 
     def plan(file=None, **more):
         return tip.plan_of(file, Path("tip"), {**given, **more})
@@ -477,8 +482,7 @@ def test_a_fix_of_a_tip(bad, good):
 
 
 def test_an_error_that_the_memory_holds(monkeypatch):
-    given = {"radius": "20 nm", "young": "3 GPa", "poisson": 0.3, "adhesion": "50 mJ/m2", "stiffness": "2 N/m", "shape": "sphere",
-             **dict.fromkeys(("load", "range", "size", "unit", "channel", "sites", "angle", "tip_map", "hardness"))}
+    given = a_tip()
     monkeypatch.setattr("os.sysconf", {"SC_PHYS_PAGES": 2**14, "SC_PAGE_SIZE": 2**12}.get)
     with pytest.raises(asperity.SceneError) as error:
         tip.plan_of(None, Path("tip"), {**given, "error": "0.6%"})

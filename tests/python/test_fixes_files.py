@@ -118,6 +118,7 @@ OF_SCENES = [
     ("correct the attribute, or remove it", ("m.h5", hdf5(scale=0.0)), ("m.h5", hdf5(scale=1.0)), {}),
     ("convert it first: (asperity convert .*)", ("m.txt", text(above="# Width: 8.32 nm\n# Height: 8.32 nm\n# Value units: Å\n")), "convert", {}),
     ("convert it first: (asperity convert .*)", ("m.txt", text(separator=";")), "convert", {}),
+    ("export the heights again", ("m.txt", "# nothing\n"), ("m.txt", text()), {}),
     ("give every row as many numbers", ("m.txt", text() + "1 2\n"), ("m.txt", text()), {}),
     (r"convert it first: (asperity convert .* --channel 1)", ("m.txt", text(HEIGHTS[:16, :16]) + "\n" + text(HEIGHTS[16:, :16])), "convert", {"surface.resample": "band-limited"}),
     ("or take those lines out", ("m.txt", text(HEIGHTS[:16]) + "\n" + text(HEIGHTS[16:])), ("m.txt", text()), {}),

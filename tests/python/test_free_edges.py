@@ -96,7 +96,7 @@ def test_a_tip_is_read_in_nanonewtons(place):
     page = (place / "tip" / "report.html").read_text()
     table = page[page.rindex("Segments of the path"):].split("</table>")[0]
     assert "mean height, nm" in table and "work of the drive, aJ" in table and "MPa" not in table and "meV" not in table
-    assert all(f"{s.force:.5g}" in table for s in tip.segments if s.force > 0)
+    assert all(f"{s.force:.3f}" in table for s in tip.segments if s.force > 0)
     # The sphere is between DMT and JKR.
     pull = math.pi * 20 * 0.05
     assert 1.5 * pull < tip.instrument.pull_off_force < 2 * pull

@@ -88,8 +88,6 @@ def test_a_further_loss_is_wherever_losses_are(rubber, tmp_path):
     run = with_another_loss(tmp_path / "run", asperity.run(scene, out=tmp_path / "one"))
     assert losses(run) == losses(run.series) == {"block": "dissipated_in_block", "sites": "dissipated_in_sites"}
     assert {q.path for q in quantities.quantities_of(run, False)} >= {name + ".cycle" for name in losses(run).values()}
-    words = " ".join(sentences.results(run))
-    shown = {number.name for number in sentences.key_numbers(run)}
     page = report.write_run_page(run, ())
     assert page is not None
     html = (run.directory / "report.html").read_text()
@@ -100,8 +98,6 @@ def test_a_further_loss_is_wherever_losses_are(rubber, tmp_path):
     table = tables.Table(["drive.velocity"], [point], True)
     heads, traces = tables.text_of(table)[0], sweep_plots.losses_of([table])
     for where in losses(run):
-        assert f"The {where} dissipates" in words
-        assert f"dissipated in the {where} in a cycle" in shown
         assert f"dissipated in the {where}" in html and f" + dissipated in the {where}" in html
         assert f"dissipated in the {where}" in drawn
         assert f"in the {where}{tables.BOTH}" in heads
@@ -127,8 +123,8 @@ def test_every_page_has_all_losses(rubber):
     for value in shown.values():
         assert any(value in sentence for sentence in words), (value, words)
     numbers = {n.name: n.value for n in sentences.key_numbers(run)}
-    assert numbers["lost at instabilities in a cycle"] == f"{run.lost.cycle:.4g}"
-    assert numbers["dissipated in the block in a cycle"] == f"{run.dissipated_in_block.cycle:.4g}"
+    assert numbers["energy lost at instabilities in a cycle"].startswith(f"{run.lost.cycle:.2f} (")
+    assert numbers["dissipated in the block in a cycle"].startswith(f"{run.dissipated_in_block.cycle:.2f} (")
     page = report.write_run_page(run, ())
     assert page is not None
     html = (place / "run" / "report.html").read_text()
@@ -214,5 +210,5 @@ def test_each_area_and_radius_over_a_wall_has_the_error_of_the_mesh(place):
             f"contact_radius.{'uncertainty.' * ('unc' in name)}relaxed"), rel=1e-12)
     for segment in run.segments:
         assert 0 < segment.number("contact_area_uncertainty") < 0.2 * segment.number("contact_area")
-    number = {one.name: one for one in sentences.key_numbers(run)}["contact radius at zero load"]
-    assert "± " in number.note and "by the mesh" in number.note
+    number = {one.name: one for one in sentences.key_numbers(run)}["contact radius"]
+    assert number.unit == "nm" and "mesh: " in number.note

@@ -95,7 +95,7 @@ def test_every_form_says_the_same(place):
     texts = [report_estimate.quote(n) for n in again.numbers.values()]
     assert texts == [report_estimate.quote(n) for n in numbers.values()] and "(+0, -0.20)" in texts[0] and str(again.first) in repr(again)
     assert [text.split(" ")[1] for text in texts] == ["=", "below", "is", "is", "below"]
-    whole, page = report_estimate.text_of(again), again.report().read_text()
+    whole, page = str(again), again.report().read_text()
     for text in [*texts[:2], "n2 is not stated: its parts correct it to 9.2", "n3 is not stated: no reason", "n4 below 0.12 here: above all"]:
         assert text in whole and text in page
 

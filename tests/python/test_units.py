@@ -108,21 +108,16 @@ def test_forces_are_read():
         assert load in asperity.check(scene).scene.drive.path[1]
 
 
-# What stands for no key of a scene: what a command does with the result, the error that decides its settings, and the form of a tip,
-# of which it makes a map.
-OF_COMMANDS = {"out", "jobs", "plan", "progress", "quiet", "json", "help", "channel", "error", "shape", "angle", "tip-map"}
-
-
 def test_options_and_arguments_have_the_words_of_the_scene():
     """Each option of a command that makes a scene itself, and each argument of the function, is the last word of a key."""
     words = {key.partition(".")[2] for key in program.schema()}
     for name in ("adhesion", "tip"):
-        for action in of_package(name).parser()._actions:
-            if action.option_strings and not {o.strip("-") for o in action.option_strings if o.startswith("--")} & OF_COMMANDS:
-                names = {o.strip("-").replace("-", "_") for o in action.option_strings}
-                assert names & words, f"asperity {name}: {names} are no words of a scene"
-                first = action.option_strings[0].strip("-").replace("-", "_")
-                assert names == {first, *ALIASES.get(first, ())}, names
+        options = {field: about for field, (about, _, _) in of_package(name).options.about().items() if not about.word}
+        made = {field for field, about in options.items() if not about.own}
+        assert {"young", "poisson", "adhesion", "hardness", "range", "size", "unit", "sites"} <= made
+        for field in options:
+            names = {field, *ALIASES.get(field, ())}
+            assert bool(names & words) == (field in made), f"asperity {name}: {names} and the words of a scene"
     arguments = set(inspect.signature(asperity.adhesion).parameters)
     known = {"map", "out", "jobs", "channel", *words, *(alias for aliases in ALIASES.values() for alias in aliases), *ALIASES}
     assert arguments <= known, arguments - known

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import asperity
-from asperity.reports import estimate as report_estimate, tip as report_tip
+from asperity.reports import tip as report_tip
 from asperity.studies.tip import Contact, plan_of
 from asperity.theories.indentation import Indenter, path
 from asperity.theories.yielding import EPSILON, YieldingSphere, oliver_pharr
@@ -139,7 +139,7 @@ def test_a_map_yields_under_its_attraction(tmp_path):
     assert share.value == max(one["yielding_fraction"] for one in run["segments"]) > 0
     assert largest.value == run.number("yielding.largest_set") > 0 and plastic.value == run.number("dissipated_in_surface.cycle") > 0
     assert all(number.parts and number.error > 0 for number in (share, largest, plastic)) and "pull_off_stress" in soft.estimate.numbers
-    assert "A_H/A₀" in report_estimate.text_of(soft.estimate)
+    assert "A_H/A₀" in str(soft.estimate)
     # A preload leaves a larger set, and a contact that sticks more strongly; its numbers say after which load.
     pressed = asperity.adhesion(tmp_path / "map.npy", **given, hardness="0.5 GPa", load="0.2 GPa", out=tmp_path / "pressed")
     assert max(one["pressure"] for one in pressed.result["segments"]) == pytest.approx(200, rel=1e-3)

@@ -41,7 +41,7 @@ class Options(Base):
     range: str | None = option("3Å", "of the attraction (default: 3 Å, or what the spacing resolves)", None)
     size: str | None = option("100nm", "the map's shorter edge; holds over what the file says", None)
     unit: str | None = option("nm", "of the heights; holds over what the file says", None)
-    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None)
+    channel: str | None = option("NAME", "of a file with several maps: this one, by name or number", None, own=True)
     line_noise: str | None = option("HOW", "treatment of a scan's noise from line to line: keep, align-rows or isotropic", None,
                                     choices=("keep", "align-rows", "isotropic"))
     counter: str | None = option("MAP2", "map of a second rough solid, turned over onto the first; eight shifts show the error of the "
@@ -84,9 +84,10 @@ class Adhesion(Named):
         SceneError
             The estimate has no number of this name.
         """
-        from ..reports import estimate as report_estimate
+        return self.estimate.quote(path)
 
-        return report_estimate.quote(self.estimate.number(path))
+    def _repr_html_(self) -> str:
+        return self.estimate._repr_html_()
 
     def __repr__(self) -> str:
         return f"<Adhesion {self.directory}: {self.quote()}>"
@@ -212,7 +213,6 @@ def _carried_out(making: Estimating) -> tuple[Estimate | None, bool]:
 
 def _carry_out(given: Options, voice: Voice) -> int:
     """Carries out `asperity adhesion`. Returns the exit code."""
-    from ..reports import estimate as report_estimate
     from ..running.pool import DONE, PHYSICS, STOPPED, PoolOptions
 
     _, making = _estimating(given, PoolOptions(given.jobs, progress=voice.progress), voice.say)
@@ -226,7 +226,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     if found is None or outcome.status != DONE:
         voice.show(f"The run of the map failed: {outcome.reason}")
         return outcome.exit_code or PHYSICS
-    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in making.said])))
+    voice.show(str(replace(found, notes=[note for note in found.notes if note not in making.said])))
     voice.tell({**found.json(), "directory": making.place})
     voice.say(f"in {making.place}: report.html (the estimate), scene/report.html (the run), estimate.json, estimate.png")
     return 0

@@ -43,7 +43,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     if not complete or found is None:
         voice.show(EARLY)
         return STOPPED
-    voice.show(report_estimate.text_of(replace(found, notes=[note for note in found.notes if note not in making.said])))
+    voice.show(str(replace(found, notes=[note for note in found.notes if note not in making.said])))
     voice.tell({**found.json(), "directory": making.place})
     voice.say(f"in {making.place}: {', '.join(written)}")
     return 0

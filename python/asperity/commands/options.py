@@ -54,6 +54,10 @@ class About(NamedTuple):
     commas: bool = False
     limits: Limits | None = None
     choices: tuple[str, ...] | None = None
+    own: bool = False
+    """The option stands for no key of the scene that the command makes."""
+    terminal: bool = False
+    """The function of Python has no such argument."""
 
 
 def option(value: str, help: str, default: Any = MISSING, **more: Any) -> Any:
@@ -67,25 +71,25 @@ def word(value: str, help: str, default: Any = MISSING, **more: Any) -> Any:
     return option(value, help, default, word=True, **more)
 
 
-def out(otherwise: str, what: str = "result directory") -> Any:
+def out(otherwise: str, what: str = "result directory", **more: Any) -> Any:
     """Returns the field of --out. otherwise: the default, in words; what: what is named."""
-    return option("DIR", f"{what} (default: {otherwise})", None, short="-o")
+    return option("DIR", f"{what} (default: {otherwise})", None, short="-o", own=True, **more)
 
 
 def jobs(what: str = "runs side by side; they share the processors (default: 1)") -> Any:
     """Returns the field of --jobs."""
-    return option("N", what, 1, short="-j", limits=COUNT)
+    return option("N", what, 1, short="-j", limits=COUNT, own=True)
 
 
 def plan() -> Any:
     """Returns the field of --plan."""
-    return option("", "say what would be run, how long it takes and what it will not state; run nothing", False)
+    return option("", "say what would be run, how long it takes and what it will not state; run nothing", False, own=True, terminal=True)
 
 
 def executor() -> Any:
     """Returns the field of --executor."""
     return option("WHERE", "run them on workers instead: mpi (the ranks of `mpirun -n 3 asperity ... --executor mpi`, the first of which "
-                  "leads) or dask:tcp://HOST:PORT; one thread each, unless OMP_NUM_THREADS says more there", "")
+                  "leads) or dask:tcp://HOST:PORT; one thread each, unless OMP_NUM_THREADS says more there", "", terminal=True)
 
 
 def _kind(hint: Any) -> Any:

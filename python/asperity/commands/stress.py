@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 class Options(Base):
     """Options of `asperity stress`."""
 
-    directory: str = word("DIR", "the result directory")
+    result: str = word("DIR", "the result directory")
     state: str | None = option("NAME", "the state (default: relaxed, or the last one)", None)
     solid: str = option("WHICH", "below the surface of which solid: block, or the second one, counter", "block", choices=SOLIDS)
     friction: float | None = option("0.3", "coefficient of a friction in phase with the pressure (default: that of a slide)", None)
@@ -110,7 +110,7 @@ def _carry_out(given: Options, voice: Voice) -> int:
     from ..reports import stress as report_stress
     from ..results.result import Result
 
-    run = Result(Path(given.directory))
+    run = Result(Path(given.result))
     found, page = _computed(run, given.state, given.friction, given.depth, given.volume, given.out, given.solid)
     voice.tell({**report_stress.answer_of(found), "directory": page.parent})
     voice.show(report_stress.text_of(found))

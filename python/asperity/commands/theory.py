@@ -9,16 +9,18 @@ import json
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 from .. import terminal
-from ..errors import SceneError
+from ..arguments import checks_call
+from ..errors import Named, SceneError
 from ..files import store
 from ..running import lock, program
-from ..running.scene import inputs_of
+from ..running.scene import Overrides, SceneLike, assignments, inputs_of, scene_file
 from .options import Command, OfScene, option, out
 
 if TYPE_CHECKING:
+    from ..results.names import Theory
     from ..results.result import Values
 
 
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
 class Options(OfScene):
     """Options of `asperity theory`."""
 
-    out: str | None = out("results/<scene>-theory")
+    out: str | None = out("results/<scene>-theory", terminal=True)
     points: str | None = option("FILE", argparse.SUPPRESS, None)
 
 
@@ -173,6 +175,54 @@ def computed(file: str, overrides: list[str]) -> Computed:
             point["units"]["theory"][part] = _units(point["theory"][part], "theory." + part)
     point.setdefault("run", {})["wall_seconds"] = time.monotonic() - start
     return Computed(Values(json.loads(json.dumps(point), object_hook=Values)), profile, [note for note in notes if note], text)
+
+
+@dataclass
+class TheoryOfScene(Named):
+    """Theories of a scene: numbers by their names in result.json (energies in meV/Å²), Δγ (meV/Å²), notes, and the text that the
+    command prints."""
+
+    name: str
+    theory: Theory
+    delta_gamma: float
+    notes: list[str]
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        return terminal.html_table(self.name, (), [(name, f"{value:.6g}") for name, value in self.theory.numbers().items()], "; ".join(self.notes))
+
+
+@checks_call
+def theory(scene: SceneLike, overrides: Overrides | None = None) -> TheoryOfScene:
+    """Computes the theories of a scene without simulating it.
+
+        found = asperity.theory("scene.toml", {"surface.rms": 2.0})
+        found.theory.persson.gamma_eff, found.theory.renormalised.contact_fraction
+
+    Parameters
+    ----------
+    scene : SceneLike
+        Scene file or dictionary.
+    overrides : Overrides, optional
+        Values of keys in place of the scene's.
+
+    Returns
+    -------
+    TheoryOfScene
+        Numbers of Persson's theory, of the renormalised theory, and of smooth spheres.
+
+    Raises
+    ------
+    SceneError
+        The scene is refused.
+    """
+    with scene_file(scene, overrides=overrides) as file:
+        found = computed(file, assignments(overrides))
+    return TheoryOfScene(found.values.text("name"), cast("Theory", found.values.part("theory")), found.values.number("delta_gamma", 0.0),
+                         found.notes, found.text)
 
 
 def _carry_out(given: Options, voice: terminal.Voice) -> int:

@@ -14,7 +14,7 @@ from matplotlib.axes import Axes
 from ..arguments import checks_call, checks_calls
 from ..errors import UnknownName
 from ..results.losses import losses
-from ..results.result import Result, State
+from ..results.result import Plots, Result, State
 from ..theories import combined
 from ..units import ATTOJOULE, GIGAPASCAL, MILLIJOULE, NANONEWTON
 from .style import (
@@ -530,7 +530,7 @@ OF_STATE = {f.__name__: f for f in (gaps, pressures)}
 
 
 @checks_calls
-class RunPlots:
+class RunPlots(Plots):
     """Plots of a result, result.plot: each method draws into axes, or makes new ones, and returns them.
 
     Of the run: separation, loading, contact, friction, energy, balance, spectrum, roughness, sliding, height. Of a state:
@@ -547,20 +547,7 @@ class RunPlots:
         return drawn_into(ax, partial(draw, *of), str(self._run.directory), name, "the run wrote no such data",
                           "see drive.path, output.series and output.fields")
 
-    if TYPE_CHECKING:
-        def separation(self, ax: Axes | None = None) -> Axes: ...
-        def loading(self, ax: Axes | None = None) -> Axes: ...
-        def contact(self, ax: Axes | None = None) -> Axes: ...
-        def friction(self, ax: Axes | None = None) -> Axes: ...
-        def energy(self, ax: Axes | None = None) -> Axes: ...
-        def balance(self, ax: Axes | None = None) -> Axes: ...
-        def spectrum(self, ax: Axes | None = None) -> Axes: ...
-        def roughness(self, ax: Axes | None = None) -> Axes: ...
-        def sliding(self, ax: Axes | None = None) -> Axes: ...
-        def height(self, ax: Axes | None = None) -> Axes: ...
-        def gaps(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
-        def pressures(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
-    else:
+    if not TYPE_CHECKING:  # type checkers know the names (Plots)
         def __getattr__(self, name: str) -> Callable[..., Axes]:
             if name in OF_RUN:
                 def draw(ax=None):

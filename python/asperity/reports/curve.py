@@ -13,8 +13,7 @@ from .. import terminal
 from ..files import store
 from ..plots.curve import histogram, over_places, residuals, with_fit, with_simulation
 from ..studies.curves import FIT, POINTS, RESULT, Curves, FittedCurve, missed, points_of
-from ..studies.stated_number import Number, finite, rounded, saved
-from .estimate import lines_of
+from ..studies.stated_number import Number, finite, lines_of, rounded, saved
 from .page import Page, page_files
 
 TABLE = "curves.csv"

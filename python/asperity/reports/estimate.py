@@ -10,110 +10,14 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import terminal
 from ..files import store
 from ..plots import style as figures
 from ..plots.style import BLUE, INK, Curve, drawn, finish
 from ..results.result import Values
-from ..studies.estimate_parts import GROUPS
-from ..studies.estimates import Estimate
-from ..studies.stated_number import Found, Number, rounded
-from ..units import shown
+from ..studies.estimate import Estimate, heads_of, left_out, names_of, rows_of, tables_of
+from ..studies.stated_number import Found, lines_of, quote
 from .page import Page, page_files
 from .run import end
-from .sentences import left_out
-
-SMALL = 0.1
-"""Of the whole error: contributions below it are not quoted."""
-
-
-def quote(n: Number) -> str:
-    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds;
-    corrected by +27 (tail)."""
-    text, (factor, _) = str(n), n.units[0]
-    if n.reason or n.below == n.below:
-        return text
-    large = sorted(((f.error, name) for name, f in n.parts.items() if f.error > SMALL * n.error), reverse=True)
-    if large:
-        text += ", of which " + ", ".join(f"± {rounded(0.0, factor * e)[1]} {name}" for e, name in large)
-    moved = [(f.shift, name) for name, f in n.parts.items() if abs(f.shift) > SMALL * n.error and f.shift]
-    if moved:
-        text += "; corrected by " + ", ".join(f"{signed(factor * shift)} ({name})" for shift, name in moved)
-    return text
-
-
-def lines_of(numbers: list[Number]) -> list[str]:
-    """Spells a line to quote for each number, and one line for all numbers that are not stated for the same reason."""
-    lines = [quote(n) for n in numbers if not n.reason]
-    for reason in dict.fromkeys(n.reason for n in numbers if n.reason):
-        some = [n.symbol for n in numbers if n.reason == reason]
-        lines.append(f"{', '.join(some)} {'is' if len(some) == 1 else 'are'} not stated: {reason}")
-    return lines
-
-
-def names_of(estimate: Estimate) -> list[str]:
-    """Explains the symbols of an estimate; each number has the sign that it has in result.json."""
-    return [f"{n.symbol}: {n.name}" for n in estimate.numbers.values()]
-
-
-def two_digits(value: float) -> str:
-    """Spells a number with two digits."""
-    return f"{float(f'{value:.2g}'):g}"
-
-
-def signed(value: float) -> str:
-    """Spells a number with its sign and two digits."""
-    return ("+" if value > 0 else "−" if value < 0 else "") + two_digits(abs(value))
-
-
-def _cell(n: Number, part: str, what: str) -> str:
-    if part not in n.parts:
-        return ""
-    value = getattr(n.parts[part], what)
-    if abs(value) < 1e-7 * abs(n.value):  # rounding
-        return "0"
-    return signed(value) if what == "shift" else two_digits(value)
-
-
-def rows_of(estimate: Estimate, columns: list[Number]) -> list[list[str]]:
-    """Returns the rows of the budget of some numbers: the scene, each part and the sum."""
-    rows: list[list[str]] = [["the scene as it is", "", "", *(c for n in columns for c in (f"{n.value:.5g}", ""))], []]
-    last = ""
-    for group in GROUPS:
-        for part in (p for p in estimate.parts if p["group"] == group):
-            rows.append([group if group != last else "", part["name"] if part["name"] != group else "", part["failed"] and "failed" or part["what"],
-                         *(_cell(n, part["name"], what) for n in columns for what in ("shift", "error"))])
-            last = group
-    rows.append([])
-    rows.append(["estimate", "", "", *(c for n in columns for c in n.cells)])
-    return rows
-
-
-def heads_of(columns: list[Number]) -> list[str]:
-    """Returns the heads of the budget's columns, with units."""
-    return ["", "part", "varied", *(h for n in columns for h in (f"{n.symbol}{', ' * bool(n.unit)}{shown(n.unit)}", "±"))]
-
-
-def tables_of(estimate: Estimate) -> list[list[Number]]:
-    """Returns the numbers in groups of three, one table each."""
-    numbers = list(estimate.numbers.values())
-    return [numbers[i:i + 3] for i in range(0, len(numbers), 3)]
-
-
-def text_of(estimate: Estimate) -> str:
-    """Returns the estimate as text for the terminal."""
-    parts = ["\nShift: to be added to the number of the scene as it is. ±: one standard error of the shift, or of the mean over surfaces.\n"]
-    varied = [row for row in rows_of(estimate, []) if row][1:-1]
-    parts += [terminal.table(heads_of([]), varied, left=(0, 1, 2)), ""] * bool(varied)
-    for columns in tables_of(estimate):
-        rows = [[row[1] or row[0].removesuffix(" as it is"), *row[3:]] if row else [] for row in rows_of(estimate, columns)]
-        parts += [terminal.table(["part", *heads_of(columns)[3:]], rows), ""]
-    parts += ["To quote:", *(f"  {line}" for line in lines_of(list(estimate.numbers.values())))]
-    parts.append("Names: " + "; ".join(names_of(estimate)) + ".")
-    failed = [f"failed: {p['name']}: {p['failed']}" for p in estimate.parts if p["failed"]]
-    parts += ["Not in the error: " + "; ".join([*estimate.unseen, *left_out(Values(estimate.scene))]) + ".", *failed,
-              *(f"note: {note}" for note in estimate.notes)]
-    return "\n".join(parts)
 
 
 def chart(estimate: Estimate, ax: Axes) -> bool:

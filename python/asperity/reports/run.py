@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 
 from .. import terminal
 from ..plots import run as plots
@@ -19,10 +18,10 @@ from ..results.losses import losses
 from ..results.result import Result, State, Values
 from ..running import program, scene
 from ..studies.stress import stresses_in
-from ..studies.tables import AREA, BOTH
+from ..studies.tables import AREA
 from ..terminal import minus
 from ..theories import combined
-from ..units import ATTOJOULE, NANONEWTON, shown
+from ..units import shown
 from . import sentences, stress as report_stress
 from .page import Page, file_name, page_files
 
@@ -68,10 +67,6 @@ DISTRIBUTIONS = (
     ("pressures", "Distribution of pressure", "Probability density of the pressure on a site; negative is attraction. Sites "
      "beyond the interaction range are left out: the integral is the fraction of the others."),
     ("gaps", "Distribution of gaps", "Probability density of the gaps of all sites; the integral is one."))
-SEGMENT_COLUMNS = {"name": "segment", "work_of_drive": "work of the drive" + BOTH, "lost": "lost" + BOTH,
-                   "stored": "stored" + BOTH,
-                   "pressure": "ends at, MPa", "mean_height": "mean height, Å", "contact_fraction": "contact",
-                   "friction": "friction, eV/Å"}
 
 
 def _words(run: Result) -> dict[str, str]:
@@ -122,8 +117,6 @@ def _top(page: Page, run: Result) -> None:
     for sentence in sentences.results(run):
         page.add("paragraph", sentence)
     page.table(["number", "value", "unit", ""], [[one.name, one.value, one.unit, one.note] for one in numbers[1:]])
-    if any("converged" in number.note for number in numbers):
-        page.add("paragraph", sentences.CONVERGED)
     if not run.part("scene"):
         return
     # A result without a path or a state came from the theory alone.
@@ -162,45 +155,10 @@ def _stresses(page: Page, run: Result) -> None:
         report_stress.figures(page, found, f"-{name}")
 
 
-def _table(page: Page, heads: dict[str, str], lines: list[Values], digits: int,
-           units: Mapping[str, float] = MappingProxyType({})) -> None:
-    """Adds a table of numbers by column, each divided by its unit."""
-    def cell(line: Values, name: str, head: str) -> str:
-        if name not in line:  # the friction of a segment that is no slide
-            return "–"
-        value = line.number(name)
-        if units and value is not None:
-            return minus(f"{value / units.get(name, 1.0):.{digits}g}")
-        text = line.text(name) or minus(sentences.general(line.find(name), digits))
-        return f"{text} ({minus(terminal.millijoules(value))})" if head.endswith(BOTH) and value is not None else text
-
-    page.table([*heads.values()], [[cell(line, *head) for head in heads.items()] for line in lines])
-
-
-def _segment_columns(run: Result, lines: list[Values]) -> tuple[dict[str, str], dict[str, float]]:
-    """Returns the heads of the columns of segments and the divisors of their numbers."""
-    heads: dict[str, str] = {}
-    for name, head in SEGMENT_COLUMNS.items():
-        heads[name] = head
-        if name == "lost":
-            heads |= {other: f"dissipated in the {place}" + BOTH for place, other in losses(n for line in lines for n in line).items()}
-    if not run.in_newtons:
-        return heads, {}
-    others = {"pressure": ("force", "ends at, nN", 1.0), "mean_height": ("mean_height", "mean height, nm", 10.0),
-              "friction": ("friction", "friction, nN", NANONEWTON)}
-    columns = [others.get(name, (name, head.replace(BOTH, ", aJ"), 1e3 * ATTOJOULE / run.edge**2 if head.endswith(BOTH) else 1.0))
-               for name, head in heads.items()]
-    return {name: head for name, head, _ in columns}, {name: unit for name, _, unit in columns}
-
-
 def _segments(page: Page, run: Result) -> None:
     """Adds the segments of a path with segments other than approach and pull-off."""
-    if set(run.segment_names) <= {"approach", "pull-off", "relax"}:
-        return
-    lines = run.listed("segments", dict)
     page.section("segments", "Segments of the path")
-    heads, units = _segment_columns(run, lines)
-    _table(page, {n: head for n, head in heads.items() if any(n in line for line in lines)}, lines, 5, units)
+    page.table(*sentences.segment_table(run))
 
 
 def _numbers(page: Page, run: Result) -> None:

@@ -5,14 +5,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+import re
 from dataclasses import dataclass
 from typing import Any
 
-from ..results.losses import losses
 from ..results.result import Result, Values, finite
+from ..studies.estimate import left_out
 from ..terminal import duration, millijoules, minus, number
-from ..units import ATTOJOULE, GIGAPASCAL, NANONEWTON
+from ..units import NANONEWTON
 
 
 @dataclass
@@ -25,8 +25,10 @@ class KeyNumber:
     note: str = ""
 
 
-FEW = 99.5
-"""Sites in contact that are counted beside their fraction."""
+SEGMENTS = "segment"
+"""Table of the rows of segments."""
+NONE = "-"
+"""Value of a row that a column does not have."""
 
 
 def percent(fraction: float) -> str:
@@ -35,14 +37,14 @@ def percent(fraction: float) -> str:
     return minus(f"{number(100 * fraction, digits)}\u00a0%")
 
 
+def minus_signs(text: str) -> str:
+    """Replaces the minus signs before the numbers of a sentence."""
+    return re.sub(r"(?<![\w.])-(?=\d)", "−", text)
+
+
 def energy(gamma: float, more: str = "") -> str:
     """Spells an energy over an area: "69.91 meV/Å² (1120 mJ/m²)"."""
     return minus(f"{number(gamma, 2)} meV/Å²") + f" ({minus(millijoules(gamma))} mJ/m²" + f"; {more}" * bool(more) + ")"
-
-
-def whole(run: Result, gamma: float) -> str:
-    """Spells the energy of a whole contact: "1.29 aJ"."""
-    return minus(f"{gamma * run.edge**2 / 1e3 / ATTOJOULE:.4g} aJ")
 
 
 def general(value: Any, digits: int = 4) -> str:
@@ -110,14 +112,6 @@ def pair(run: Result) -> str:
             f"ones), and their bands overlap by {run.number('surface.band_overlap', 0.0):.2g} (1 of proportional spectra).")
 
 
-def _stress(gigapascal: float) -> tuple[str, str]:
-    """Converts a stress, GPa, to a unit of its size. Returns number and unit."""
-    for scale, unit in ((1.0, "GPa"), (1e-3, "MPa")):
-        if abs(gigapascal) >= 0.1 * scale:
-            return f"{gigapascal / scale:.3g}", unit
-    return f"{gigapascal / 1e-6:.3g}", "kPa"
-
-
 def smooth_pull_off(run: Result, gamma: float) -> float:
     """Returns the force that stands for a work of adhesion of a sphere in result.json (JKR: 3πγR/2)."""
     return 1.5 * math.pi * (run.radius or 0.0) * gamma / 1e3
@@ -129,183 +123,63 @@ def reference(run: Result, key: str) -> float:
     return (own and run.number("theory.persson.delta_gamma")) or run.number("delta_gamma", 0.0)
 
 
-def of_mesh(run: Result, key: str, scale: float, unit: str) -> str:
-    """Returns the words on the error of a number by the spacing; "" if the sites are no mesh. key: the error; scale: unit over that of the
-    result."""
-    if run.key("interface.kind") != "wall" or run.key("interface.law") == "smeared":
-        return ""
-    error = run.number(key)
-    return "; mesh not included" if error is None else f"; ± {error / scale:.2g} {unit} by the mesh"
-
-
-def _of_area(error: float | None, theory: str) -> str:
-    """Returns the note on an area in contact with a wall: that of a theory, and the error."""
-    return "; ".join(filter(None, [theory, "mesh not included" if error is None else f"± {percent(error)}"]))
-
-
-def key_numbers(run: Result) -> list[KeyNumber]:
-    """Returns the numbers that stand at the top of a page."""
+def _rows(run: Result) -> list[KeyNumber]:
+    """Returns the numbers of the run that are not those of segments, with their errors and shares as notes."""
     found: list[KeyNumber] = []
-    at, pressed = run.load_words
+    above: list[KeyNumber] = []
+    for row in map(Values, run.listed("rows", dict)):
+        if row.text("table") == SEGMENTS:
+            continue
+        columns, values = row.listed("columns", str), row.listed("texts", str)
+        if not row.find("part"):
+            above = [KeyNumber(minus_signs(value), row.text("unit"), ", ".join(filter(None, [row.text("name"), column or row.text("table")])))
+                     for column, value in zip(columns, values)]
+            found += above
+            continue
+        for one, value in zip(above, values):
+            if value != NONE:
+                one.note += "; " * bool(one.note) + f"{row.text('name')}: {minus_signs(value)} {row.text('unit')}".rstrip()
+    return [one for one in found if one.value != NONE]
 
-    def add(value: str, unit: str, name: str, note: str = "") -> None:
-        found.append(KeyNumber(minus(value), unit, name, note))
 
-    def gamma(key: str, name: str, symbol: str = "Δγ") -> None:
-        sign, key = (-1.0, key[1:]) if key.startswith("-") else (1.0, key)  # of works on the solids
+def segment_table(run: Result) -> tuple[list[str], list[list[str]]]:
+    """Returns the table of the segments of a path that has others than approach and pull-off: heads and rows, [] for other paths."""
+    rows = [row for row in map(Values, run.listed("rows", dict)) if row.text("table") == SEGMENTS]
+    heads = [", ".join(filter(None, [row.text("name"), row.text("unit")])) for row in rows]
+    names = rows[0].listed("columns", str) if rows else []
+    return [SEGMENTS, *heads], [[name, *map(minus_signs, cells)] for name, *cells in zip(names, *(row.listed("texts", str) for row in rows))]
+
+
+def _theories(run: Result) -> list[KeyNumber]:
+    """Returns the numbers of the theories of a run."""
+    found: list[KeyNumber] = []
+    pressed = run.load_words[1]
+    for key, name in (("theory.persson.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved),
+                      ("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")):
         value, flat = run.number(key), reference(run, key)
         if value is not None and flat > 0:
-            value *= sign
-            parent, _, leaf = key.rpartition(".")
-            error = run.number(key + "_uncertainty") or run.number(f"{parent}.uncertainty.{leaf}")
-            add(number(value / flat, 3), symbol, name,
-                energy(value) + (f"; solver converged to {error:.2g} meV/Å²" if error else "")
-                + of_mesh(run, f"mesh_error.{key}", 1.0, "meV/Å²") * key.startswith(("binding_energy", "work_of_")))
-
-    force = run.number("pull_off_force")
-    if run.curved:  # energies over the nominal area mean nothing
-        pinning = run.number("jkr.edge_pinning")
-        gamma("jkr.pull_off", "from the pull-off force, by JKR" + (
-            f": about {pinning:.3g} times too large, for rows of sites hold the edge of the contact" if pinning else ""), "Δγ")
-        gamma("jkr.approach_averaged", "from the attraction on the approach, by JKR, averaged over 2 ps")
-        if force is not None:
-            jkr, maugis = (smooth_pull_off(run, run.number(k, 0.0)) / NANONEWTON
-                           for k in ("delta_gamma", "theory.sphere.maugis_images"))
-            smooth = f"smooth sphere: JKR {jkr:.4g} nN, Maugis-Dugdale with images {maugis:.4g} nN"
-            add(f"{force / NANONEWTON:.4g}", "nN", "pull-off force",
-                (smooth * (jkr > 0 and maugis > 0) + of_mesh(run, "mesh_error.pull_off_force", NANONEWTON, "nN")).removeprefix("; "))
-        if (radius := run.number("instrument.contact_radius")) is not None:
-            add(f"{radius:.4g}", "nm", f"contact radius {at}",
-                "√(area in contact / π)" + of_mesh(run, "instrument.contact_radius_uncertainty", 1.0, "nm"))
-    else:
-        gamma("binding_energy", f"binding energy {at}")
-        area, theory = run.number("contact_area"), run.number("theory.persson.contact_fraction")
-        contact = run.number("contact_fraction") if area is None else area
-        if contact is not None:
-            of_theory = f"theory{pressed}: {percent(theory)}" if theory is not None else ""
-            add(percent(contact), "", f"of the {'sites' if area is None else 'area'} in contact {at}",
-                of_theory if area is None else _of_area(run.number("contact_area_uncertainty"), of_theory))
-        slide = next((s for s in reversed(run.listed("segments", dict)) if {"friction_coefficient", "steady_contact_area"} <= set(s)), None)
-        if slide is not None:
-            theories = [run.number(f"theory.sliding.{name}") for name in ("friction_coefficient", "contact_fraction")]
-            error = slide.get("friction_coefficient_error")
-            add(f"{slide['friction_coefficient']:.3g}" + (f" ± {error:.1g}" if error else ""), "", "friction coefficient of the slide",
-                f"Persson’s theory of rubber friction: {theories[0]:.3g}" if theories[0] is not None else "")
-            add(percent(slide["steady_contact_area"]), "", "of the area in contact while it slides",
-                _of_area(slide.get("steady_contact_area_uncertainty"),
-                         f"Persson’s theory of rubber friction: {percent(theories[1])}" if theories[1] is not None else ""))
-        if force is not None and run.edge:
-            add(*_stress(force / run.edge**2 / GIGAPASCAL),
-                "pull-off stress, the largest attraction of the pull-off",
-                f"{force / NANONEWTON:.4g} nN in all" + of_mesh(run, "mesh_error.pull_off_force", NANONEWTON, "nN"))
-    others = _cycle_losses(run)
-    for key, name, note in (
-            ("lost.cycle", "lost at instabilities in a cycle" if others else "lost in a cycle (hysteresis)", _loss(run)),
-            *((loss + ".cycle", f"dissipated in the {place} in a cycle", "plastic work" if place == "surface" else f"by the {place}, with time")
-              for place, loss in others.items())):
-        if (value := run.number(key)) is not None:
-            if run.in_newtons:
-                energy_lost, unit = whole(run, value).split()
-                add(energy_lost, unit, name, note)
-            else:
-                add(f"{value:.4g}", "meV/Å²", name, f"{millijoules(value)} mJ/m²; {note}")
-    if not run.in_newtons:
-        gamma("work_of_interface.approach", "work of the interface, approach")
-        gamma("-work_of_interface.pull_off", "work against the interface, pull-off")
-        gamma("-work_of_drive.approach", "work that the drive takes up, approach")
-        gamma("work_of_drive.pull_off", "work that the drive gives, pull-off")
-    gamma("theory.persson.gamma_eff", f"Persson’s theory{pressed}" + ", of the flat surface" * run.curved)
-    gamma("theory.renormalised.gamma_eff", f"renormalised theory{pressed}")
-    theory = run.number("theory.persson.contact_fraction")
-    if theory is not None and run.number("contact_fraction") is None:
-        add(percent(theory), "", f"contact area in theory{pressed}")
-    residual = run.number("energy.balance_error")
-    if residual is not None and not run.failure_text:
-        add(f"{abs(residual):.1e}", "", "energy balance error", "of the largest work or energy; below 1e-3 is good")
+            found.append(KeyNumber(minus(number(value / flat, 3)), "Δγ", name, energy(value)))
+    for key, name in (("persson.contact_fraction", f"contact area in theory{pressed}"),
+                      ("sliding.contact_fraction", "contact area in Persson’s theory of rubber friction")):
+        if (area := run.number(f"theory.{key}")) is not None:
+            found.append(KeyNumber(percent(area), "", name))
+    if (friction := run.number("theory.sliding.friction_coefficient")) is not None:
+        found.append(KeyNumber(f"{friction:.3g}", "", "friction coefficient in Persson’s theory of rubber friction"))
+    for name, key in (("JKR", "delta_gamma"), ("Maugis-Dugdale with images", "theory.sphere.maugis_images")):
+        if run.curved and (force := smooth_pull_off(run, run.number(key, 0.0)) / NANONEWTON) > 0:
+            found.append(KeyNumber(f"{force:.4g}", "nN", f"pull-off force of a smooth sphere, {name}"))
     return found
 
 
-def _state_sentence(run: Result, state: float, flat: float) -> str:
-    bonds, contact, pushed = map(run.number, ("pair_binding_energy", "contact_fraction", "repulsive_fraction"))
-    at = run.load_words[0]
-    at = "Without external force" if at == "at zero load" else "U" + at[1:]
-    known, sites = run.number("binding_energy_uncertainty", 0.0), run.number("scene.surface.sites", 0.0) ** 2
-    if abs(state) <= known:
-        text = f"{at} the solids do not stick: the binding energy is below {energy(abs(state) + known)}."
-    elif run.in_newtons:
-        text = f"{at} the {'sphere is' if run.curved else 'solids are'} bound by {whole(run, state)}."
-    else:
-        unit = "one flat layer of the block’s lattice" if run.key("surface.kind") == "atoms" else "two flat surfaces"
-        text = (f"{at} the solids are bound by {energy(state)}. That is {percent(state / flat)} of the binding energy "
-                f"Δγ of {unit}, {energy(flat)}.")
-        if bonds is not None:
-            text += (f" The bonds across the interface give {energy(bonds)}; bending the block into contact costs "
-                     f"{energy(bonds - state)} of it.")
-    if contact is not None:
-        count = f" ({round(contact * sites)} of {round(sites)})" * (contact * sites < FEW)
-        text += f" {percent(contact)} of the sites{count} are in contact"
-        if pushed is not None:
-            text += f"; the force on {percent(pushed)} of the sites is repulsive"
-        text += "."
-    return text
-
-
-def _loss(run: Result) -> str:
-    """Tells as which quantity the loss of a cycle was measured."""
-    return "damped, or still moving at the end" if run.find("dissipated") is None else "dissipated at instabilities"
-
-
-def _cycle_losses(run: Result) -> dict[str, str]:
-    """Returns the losses of a cycle beside `lost`: {"block": "dissipated_in_block"}."""
-    return {place: name for place, name in losses(run).items() if run.number(name + ".cycle") is not None}
-
-
-def _relaxing_sentence(run: Result, energy: Callable[[float], str]) -> str:
-    """Tells the energies that are dissipated in a cycle beside the loss; "" if the solids are elastic."""
-    return "".join(f" The {place} dissipates {energy(run.number(name + '.cycle', 0.0))}."
-                   for place, name in _cycle_losses(run).items())
-
-
-def _cycle_sentence(run: Result, into: float, out: float, flat: float) -> str:
-    lost, *parts = (run.number("lost." + k) for k in ("cycle", "approach", "pull_off"))
-    if lost is None:
-        lost = into + out
-    if run.in_newtons:
-        loop, *ways = ("" if p is None else whole(run, p) for p in (lost, *parts))
-        return f"A cycle of approach and pull-off loses {loop}" + (
-            f": {ways[0]} on the way in, where the contact spreads by itself, and {ways[1]} on the way out, where it "
-            "detaches." if all(ways) else ".") + _relaxing_sentence(run, lambda e: whole(run, e))
-    text = f"On the approach the drive takes up {energy(-into)}; on the pull-off it gives {energy(out)}."
-    if relaxing := _relaxing_sentence(run, energy):
-        text += f" Of these works {energy(lost)} are lost at instabilities." + relaxing
-    elif abs(lost) < 0.01 * flat:
-        text += f" The two agree to {energy(abs(lost))}: hardly any energy is lost."
-    else:
-        text += f" The difference, {energy(lost)}, is lost (hysteresis): {_loss(run)}."
-    if run.number("box.softness") is not None:
-        loss = run.number("box.flat_loss")
-        text += (" These works, and what is lost, are those of a box of this width, not of the surface: its longest waves jump, however "
-                 "smooth the surfaces are" + ("." if loss is None else f", and flat surfaces lose about {energy(loss)} in it."))
-    inwards, outwards = (run.number("work_of_interface." + k) for k in ("approach", "pull_off"))
-    if inwards is not None and outwards is not None and run.find("dissipated") is None:  # dynamic; quasi-static it is the same work
-        text += (f" The interface’s force does the work {energy(inwards)} on the approach and {energy(outwards)} on the "
-                 "pull-off (its integral over the mean height); a jump of the block as a whole does not change it.")
-    return text
+def key_numbers(run: Result) -> list[KeyNumber]:
+    """Returns the numbers that stand at the top of a page: those of the summary of the run, and those of the theories."""
+    return _rows(run) + _theories(run)
 
 
 def results(run: Result) -> list[str]:
-    """Tells the results of a run in sentences."""
-    text: list[str] = []
-    flat = run.number("delta_gamma", 0.0)
-    state, into, out = (run.number(k) for k in ("binding_energy", "work_of_drive.approach", "work_of_drive.pull_off"))
-    if state is not None and flat > 0:
-        text.append(_state_sentence(run, state, flat))
-    kinds = {name.split()[0] for name in run.segment_names}
-    if into is not None and out is not None and flat > 0 and kinds <= {"approach", "hold", "pull-off", "relax"}:
-        text.append(_cycle_sentence(run, into, out, flat))
-    if (pinning := run.number("jkr.edge_pinning")) is not None:
-        text.append("Rows of sites hold the edge of the contact: the pull-off force, and the work of adhesion by "
-                    f"JKR from it, are about {pinning:.3g} times too large.")
+    """Tells the results of a run in sentences: those of its summary, and one of the theories."""
+    text = [minus_signs(sentence) for sentence in run.listed("sentences", str)]
+    flat, state = run.number("delta_gamma", 0.0), run.number("binding_energy")
     theory = run.number("theory.persson.gamma_eff")
     if theory is not None and flat > 0:
         (at, pressed), given = run.load_words, reference(run, "theory.persson.gamma_eff")
@@ -329,16 +203,6 @@ def results(run: Result) -> list[str]:
         if note:
             text.append(f"{'Note on the theory' if known else 'The theory has no number for this scene'}: {note}.")
     return [t for t in text if t]
-
-
-CONVERGED = ("“Solver converged to” says by how much an exact solver could change a number. It is not the error of the number: "
-             "`asperity estimate` measures the effect of cutoff, spacing, thickness, width, velocity and surface.")
-
-
-def left_out(scene: Values) -> list[str]:
-    """Returns what no effect simulates in a scene that is given by its keys."""
-    return ["deformation of the substrate: it is rigid"] * (scene.number("surface.counter_young") is None) + [
-        "plastic flow: the block is elastic throughout"] * (scene.find("interface.hardness") in (None, "none"))
 
 
 def effects(run: Result, on: bool) -> list[str]:

@@ -24,7 +24,7 @@ from ..plots.style import COLOURS, CONTACT, DASHES, GREY, KINDS, curve, finish
 from ..results.result import KINDS as RESULTS, LISTED, Result, Values, expect, kinds_in, results_below
 from ..running.pool import DONE, FAILED
 from ..running.scene import toml_of
-from ..studies.estimates import RESULT, load_estimate
+from ..studies.estimate import RESULT, load_estimate
 from ..studies.grid import is_seed, shown
 from ..studies.sweeps import Sweep, load_sweeps
 from ..studies.tables import Table, text_of

@@ -15,10 +15,9 @@ from .. import terminal
 from ..files import store
 from ..plots.run import map_of
 from ..plots.tip import force_curve, indentation
-from ..studies.stated_number import Number, finite, rounded, saved
+from ..studies.stated_number import Number, finite, lines_of, rounded, saved
 from ..studies.tip import CURVE, RESULT, RUN_OF, Tip
 from ..theories.yielding import EPSILON, UPPER, YieldingSphere
-from .estimate import lines_of
 from .page import Page, page_files
 from .run import end
 

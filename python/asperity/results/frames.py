@@ -7,14 +7,13 @@ from __future__ import annotations
 import functools
 import importlib
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import Any, overload
 
 import numpy as np
 
 from ..errors import Named, SceneError, UnknownName, to_install
-
-if TYPE_CHECKING:
-    from .result import RunFile
+from ..terminal import html_table
+from .run_file import RunFile
 
 TRAJECTORY = "/particles/trajectory"
 
@@ -104,6 +103,9 @@ class Frames(Named, Sequence):
             arrays["velocity"] = (dims, np.array([self.velocity(i) for i in range(len(self))]).reshape(len(self), -1, 3))
         return data_set(arrays, {"position": "Å", "velocity": "Å/ps"}, None, {
             "component": ["x", "y", "z"], "step": ("frame", self.steps), "time": ("frame", self.times, {"units": "ps"})})
+
+    def _repr_html_(self) -> str:
+        return html_table(repr(self).strip("<>"), ("step", "time, ps"), [(str(a), f"{b:.6g}") for a, b in zip(self.steps[:12], self.times)])
 
     def __repr__(self) -> str:
         return f"<Frames: {len(self)} of the lowest layer>"

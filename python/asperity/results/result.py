@@ -11,30 +11,27 @@ from __future__ import annotations
 import contextlib
 import functools
 import json
-import math
 import os
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-import h5py
 import numpy as np
 
 from ..arguments import checks_call, checks_calls
-from ..errors import InputOutputError, UnknownName, meant
+from ..errors import InputOutputError, meant
 from ..files import store
+from ..terminal import html_table
 from .frames import Frames, data_frame, data_set
+from .run_file import RunFile
 from .values import Attributes, Values, finite as finite
 
 if TYPE_CHECKING:
-    from ..plots.run import RunPlots
+    from matplotlib.axes import Axes
+
     from .names import Numbers, Scene, Segment, SeriesArrays, StateMaps, SubstrateMaps, Units
 else:
     Numbers = SeriesArrays = StateMaps = SubstrateMaps = object
-
-LARGEST_ARRAY = 2**28
-"""Largest number of values of a data set that is read."""
-
 
 def load_words(scene: Any, swept: bool = False) -> tuple[str, str]:
     """Returns the load of a scene's state and the load of its theory as text. They differ after an approach, whose state is without load."""
@@ -109,71 +106,6 @@ def results_below(directory: Path) -> dict[Path, list[str]]:
     return found
 
 
-class RunFile:
-    """File run.h5 of a directory. All reads raise InputOutputError on failure.
-
-    The first read checks the digest at the end of the file, if the file has one.
-    """
-
-    def __init__(self, path: Path, unread: str = ""):
-        """Stores the path. unread: reason why the file must not be read; "": none."""
-        self.path, self.unread = path, unread
-
-    def lacks(self, where: str, name: object, there: Iterable[str], what: str) -> UnknownName:
-        """Returns the error for a part that the file lacks."""
-        return UnknownName.among(where, name, there, self.unread or "it is empty", what)
-
-    @functools.cached_property
-    def _whole(self) -> bool | None:
-        return store.hdf5_is_whole(self.path)
-
-    @contextlib.contextmanager
-    def _opened(self) -> Iterator[h5py.File]:
-        if not self.path.exists():
-            raise InputOutputError(str(self.path), "cannot be read", "there is no such file",
-                                   "the theory alone and a run that failed early have none")
-        try:
-            if self._whole is False:
-                raise ValueError("its content does not match its digest")
-            with h5py.File(self.path, "r") as file:
-                if self._whole is None and "asperity_digest" in file.attrs:
-                    raise ValueError("the digest at its end is missing")
-                yield file
-        except Exception as error:  # h5py raises OSError, KeyError, RuntimeError, ValueError, TypeError
-            why = str(error).splitlines()[0] if str(error) else type(error).__name__
-            if self.path.is_file() and not h5py.is_hdf5(self.path):
-                why = "it is not an HDF5 file"
-            raise InputOutputError(str(self.path), "cannot be read", why,
-                                   "run the scene again, or resume it from its checkpoint") from None
-
-    def members(self, group: str) -> list[str]:
-        """Returns the names in a group; [] if there is no such group."""
-        if not self.path.exists():
-            return []
-        with self._opened() as file:
-            found = file.get(group)
-            return list(found) if isinstance(found, h5py.Group) else []
-
-    def array(self, name: str, dimensions: int, frame: int | None = None) -> np.ndarray:
-        """Reads a data set of numbers. Raises ValueError, InputOutputError."""
-        with self._opened() as file:
-            found = file[name]
-            if not isinstance(found, h5py.Dataset) or found.dtype.kind not in "fiub":
-                raise ValueError(f"{name} is no data set of numbers")
-            shape = found.shape if frame is None else (found.shape or ())[1:]
-            if shape is None or len(shape) != dimensions:
-                raise ValueError(f"{name} has the shape {found.shape}, not {dimensions} dimensions")
-            if math.prod(shape) > LARGEST_ARRAY:
-                raise ValueError(f"{name} has {math.prod(shape)} values")
-            return np.asarray(found[()] if frame is None else found[frame])
-
-    def attribute(self, name: str, key: str) -> Any:
-        """Reads an attribute of a data set or group."""
-        with self._opened() as file:
-            found = file[name].attrs.get(key)
-            return found.decode() if isinstance(found, bytes) else found
-
-
 @checks_calls
 class Group(Attributes, Mapping):
     """Arrays of a group of run.h5, read on demand.
@@ -223,6 +155,9 @@ class Group(Attributes, Mapping):
         """Returns arrays of one dimension; None unless all exist."""
         return [self._file.array(f"{self._path}/{n}", 1) for n in names] if set(names) <= set(self._all) else None
 
+    def _repr_html_(self) -> str:
+        rows = [(name, self.unit(name), " x ".join(map(str, self[name].shape))) for name in self]
+        return html_table(self._called.strip("/"), ("array", "unit", "shape"), rows)
 
     def __repr__(self) -> str:
         return f"<{type(self).__name__} {self._called}: {', '.join(self)}>"
@@ -323,6 +258,25 @@ class States(dict[str, "State"]):
         raise self._file.lacks("/fields", name, self, "state")
 
 
+class Plots:
+    """Plots of a result, result.plot: each method draws into axes, or makes new ones, and returns them."""
+
+    if TYPE_CHECKING:
+        def separation(self, ax: Axes | None = None) -> Axes: ...
+        def loading(self, ax: Axes | None = None) -> Axes: ...
+        def contact(self, ax: Axes | None = None) -> Axes: ...
+        def friction(self, ax: Axes | None = None) -> Axes: ...
+        def energy(self, ax: Axes | None = None) -> Axes: ...
+        def balance(self, ax: Axes | None = None) -> Axes: ...
+        def spectrum(self, ax: Axes | None = None) -> Axes: ...
+        def roughness(self, ax: Axes | None = None) -> Axes: ...
+        def sliding(self, ax: Axes | None = None) -> Axes: ...
+        def height(self, ax: Axes | None = None) -> Axes: ...
+        def gaps(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+        def pressures(self, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+        def map(self, name: str, ax: Axes | None = None, state: str | None = None) -> Axes: ...
+
+
 @checks_calls
 class Result(Values, Numbers):
     """Result of one run: the keys of result.json are attributes.
@@ -344,7 +298,7 @@ class Result(Values, Numbers):
         Positions of the lowest layer at the steps of output.trajectory: frames[0] (Å, [site, xyz]), frames.times (ps).
     units : Values
         Units of the numbers, by the same names.
-    plot : RunPlots
+    plot : Plots
         Plots into axes: plot.separation(ax), plot.map("gap", ax=ax), ...
     notes : list of str
         Parts that could not be read.
@@ -358,7 +312,7 @@ class Result(Values, Numbers):
     if TYPE_CHECKING:
         scene: Scene
         @property
-        def plot(self) -> RunPlots: ...
+        def plot(self) -> Plots: ...
         def report(self, out: str | os.PathLike | None = None) -> Path: ...
 
     def __init__(self, directory: str | os.PathLike):

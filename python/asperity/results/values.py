@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, cast, overload
 
 from ..errors import UnknownName
+from ..terminal import html_table
 
 
 @overload
@@ -51,6 +52,9 @@ class Values(Attributes, dict):
 
     def __repr__(self) -> str:
         return json.dumps(self, indent=2, ensure_ascii=False)
+
+    def _repr_html_(self) -> str:
+        return html_table(self._called, (), [(name, f"{value:.6g}") for name, value in self.numbers().items()])
 
     def find(self, name: str) -> Any:
         """Returns a value by its path, None if there is none.

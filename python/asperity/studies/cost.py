@@ -18,6 +18,7 @@ import numpy as np
 
 from ..errors import Named, SceneError
 from ..running.pool import FAILED, Outcome, PoolOptions
+from ..terminal import html_table
 from .cost_parameters import ASKED, Base, CostCase, Row, cost_case
 from .forecast import Forecast
 from .variations import NAN, Study, joined
@@ -56,6 +57,10 @@ class Cost(Named):
         self.rows = [Row("reference", "reference", case.reference, compared=False), Row("scene", "as it is", []),
                      *(row for parameter in case.parameters for row in parameter.rows)]
         self.cheapest: dict[str, list[Row | None]] = {}
+
+    def _repr_html_(self) -> str:
+        rows = [(row.parameter, row.label, f"{row.seconds:.3g}", *(f"{error:.2g}" for error in row.error.values())) for row in self.rows]
+        return html_table("Cost of accuracy", ("parameter", "value", "s", *(f"error, {question}" for question in self.rows[0].error)), rows)
 
     @property
     def candidates(self) -> list[tuple[float, Row]]:

@@ -12,33 +12,30 @@ import re
 import tempfile
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from numbers import Integral
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arguments import checks_call, checks_calls, spoken
-from ..errors import BY_CODE, InputOutputError, InternalError, Named, SceneError, SceneWarning, Stopped, UnknownName
+from ..arguments import checks_call, spoken
+from ..errors import BY_CODE, InternalError, SceneError, SceneWarning, Stopped
 from ..files import store
 from ..maps import height_map, missing_waves
-from ..results.result import Values, read_json
+from ..results.result import Values
 from ..running import lock, program
 from ..running.pool import DONE, PoolOptions, refuse_jobs, require_free_runs
 from ..running.scene import Overrides, SceneLike, assignments, file_beside, inputs_of, scene_file, toml_of
 from ..units import GIGAPASCAL
+from .estimate import RESULT, Estimate
 from .estimate_parts import Part, Plan, SpacingAlso, edges, finer, places, plan_of, stated
 from .forecast import Forecast
 from .quantities import CURVED, FLAT, YIELDING, number_of, quantities_of
 from .stated_number import Found, Number
 from .variations import Study, Variation
 
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
-
-RESULT = "estimate.json"
 SURFACES = {False: 8, True: 4}
 """Surfaces of a scene without and with a path."""
 NO_ADHESION = 0.01
@@ -50,114 +47,6 @@ OF_A_PATH = ("work_of_drive.approach", "work_of_drive.pull_off", "lost.cycle", "
 OF_YIELD = (*(one.path for one in YIELDING), "dissipated_in_surface.cycle")
 """Numbers that the range of the attraction decides."""
 
-
-@checks_calls
-@dataclass
-class Estimate(Named):
-    """Numbers of a scene with their errors. numbers: by their names in result.json, the most important first; parts: parts of the
-    error in order, with name, group, what was varied (or the reason why nothing was) and failed; notes."""
-
-    if TYPE_CHECKING:
-        def plot(self, ax: Axes | None = None) -> Axes: ...
-        def quote(self, path: str = "") -> str: ...
-        def report(self, out: str | os.PathLike | None = None) -> Path: ...
-
-    name: str
-    numbers: dict[str, Number]
-    parts: list[dict[str, str]]
-    notes: list[str]
-    scene: dict[str, Any]
-    run: dict[str, Any]
-    directory: Path
-
-    @property
-    def first(self) -> Number:
-        """The main number of the estimate: the binding energy, or the first number of the scene."""
-        return next(iter(self.numbers.values()))
-
-    def number(self, path: str = "") -> Number:
-        """Returns a number with its error.
-
-        Parameters
-        ----------
-        path : str
-            Path of the number in result.json; "" for the first one.
-
-        Returns
-        -------
-        Number
-            The number with its estimate, standard error and the parts of the error.
-
-        Raises
-        ------
-        UnknownName
-            The estimate has no number of this path.
-        """
-        if path and path not in self.numbers:
-            raise UnknownName.among(self.name, path, self.numbers, what="number")
-        return self.numbers[path] if path else self.first
-
-    @property
-    def unseen(self) -> list[str]:
-        """Parts that were not measured and are not included in the error."""
-        return [f"{p['name']}: {p['failed'] or p['what']}" for p in self.parts
-                if p["failed"] or p["what"].startswith(("not varied", "left out"))]
-
-    def json(self) -> dict[str, Any]:
-        """Returns the content of estimate.json."""
-        return {"name": self.name, "numbers": {path: {
-            "symbol": n.symbol, "meaning": n.name, "unit": n.unit, "scene": n.value, "estimate": _finite(n.estimate),
-            "standard_error": _finite(n.error), "below": _finite(n.below), "least": _finite(n.least), "most": _finite(n.most),
-            "least_error": n.grain, "withheld": n.withheld, "condition": n.condition, "unresolved": n.unresolved, "bounded": n.bounded,
-            "parts": {part: {"shift": f.shift, "standard_error": f.error}
-                      for part, f in n.parts.items()}} for path, n in self.numbers.items()},
-            "parts": self.parts, "notes": self.notes, "scene": self.scene, "run": self.run}
-
-    def __repr__(self) -> str:
-        return f"<Estimate {self.name}: {self.first}>"
-
-
-def _finite(value: float) -> float | None:
-    """Returns the value for JSON; None if it is not finite."""
-    return value if math.isfinite(value) else None
-
-
-@checks_call
-def load_estimate(directory: str | os.PathLike) -> Estimate:
-    """Loads the estimate in a directory.
-
-    Parameters
-    ----------
-    directory : str or os.PathLike
-        Directory with estimate.json.
-
-    Returns
-    -------
-    Estimate
-        The numbers with their errors.
-
-    Raises
-    ------
-    InputOutputError
-        The directory has no estimate, or it cannot be read.
-    """
-    if not (Path(directory) / RESULT).exists():
-        raise InputOutputError(str(directory), "holds no estimate", f"{RESULT} is not in it" if Path(directory).is_dir() else
-                               "there is no such directory", "name a directory that asperity estimate or adhesion has written")
-    found = read_json(Path(directory) / RESULT)
-    numbers = {}
-    for path, n in found.part("numbers").items():
-        one = Values(n)
-        parts = {name: Found(Values(f).number("shift", math.nan), Values(f).number("standard_error", math.nan))
-                 for name, f in one.part("parts").items()}
-        numbers[path] = Number(path, one.text("symbol"), one.text("meaning"), one.text("unit"), one.number("scene", math.nan), parts,
-                               one.number("least", -math.inf), one.number("most", math.inf), one.number("least_error", 0.0),
-                               one.text("withheld"), one.text("condition"), one.text("unresolved"), one.text("bounded"))
-    return Estimate(found.text("name"), numbers, found.listed("parts", dict), found.listed("notes", str), found.part("scene"),
-                    found.part("run"), Path(directory))
-
-
-# Planning.
 
 MAP_FILES = ["flat.npy"] + [f"{stem}.{kind}" for stem in ("finer", "mirrored", *(f"quarter-{i}" for i in range(1, 5))) for kind in ("npy", "toml")]
 """What the parts of a measured map are written to, in the folder maps."""

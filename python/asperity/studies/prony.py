@@ -28,6 +28,7 @@ from ..errors import SceneError
 from ..files import store
 from ..maps.channels import refuse
 from ..maps.master_curve import MasterCurve, read_master_curve
+from ..theories import viscoelastic
 from ..units import quantity
 
 if TYPE_CHECKING:
@@ -79,8 +80,6 @@ class Prony:
 
     def modulus(self, frequency: float | np.ndarray) -> np.ndarray:
         """Returns the fitted modulus."""
-        from ..theories import viscoelastic
-
         return self.young * viscoelastic.modulus(self.prony, 1e-12 * np.asarray(frequency, float))
 
     @property

@@ -13,12 +13,15 @@ from typing import Any, NamedTuple
 
 from ..arguments import checks_calls
 from ..errors import Named, UnknownName
-from ..terminal import minus
+from ..terminal import html_table, minus
 from ..units import MILLIJOULE, NANONEWTON, shown
 
 NAN, INFINITE = math.nan, math.inf
 COVERED = 2.0
 """Errors within which a number is: bounds are so many from the estimate."""
+
+SMALL = 0.1
+"""Of the whole error: contributions below it are not quoted."""
 
 
 class Found(NamedTuple):
@@ -120,6 +123,9 @@ class Number(Named):
         return (f"{self.symbol} = {text[0]} (" + "".join(t + "; " for t in text[1:]) + "one standard error)"
                 + f" {self.condition}".rstrip())
 
+    def _repr_html_(self) -> str:
+        return html_table(self.name, (), [(str(self),)])
+
     @property
     def units(self) -> list[tuple[float, str]]:
         """Factors and units that people quote, the one to be quoted first."""
@@ -170,6 +176,40 @@ def upwards(factor: float, bound: float) -> str:
     size = factor * abs(bound)
     step = 10.0 ** (math.floor(math.log10(size)) - 1)
     return ("-" if bound < 0.0 else "") + f"{float(f'{step * math.ceil(size / step * (1 - 1e-12)):.2g}'):g}"
+
+
+def two_digits(value: float) -> str:
+    """Spells a number with two digits."""
+    return f"{float(f'{value:.2g}'):g}"
+
+
+def signed(value: float) -> str:
+    """Spells a number with its sign and two digits."""
+    return ("+" if value > 0 else "−" if value < 0 else "") + two_digits(abs(value))
+
+
+def quote(n: Number) -> str:
+    """Spells a number with its parts: "γ_eff = 1170 ± 14 mJ/m² (73.0 ± 0.9 meV/Å²; one standard error), of which ± 13 seeds;
+    corrected by +27 (tail)."""
+    text, (factor, _) = str(n), n.units[0]
+    if n.reason or n.below == n.below:
+        return text
+    large = sorted(((f.error, name) for name, f in n.parts.items() if f.error > SMALL * n.error), reverse=True)
+    if large:
+        text += ", of which " + ", ".join(f"± {rounded(0.0, factor * e)[1]} {name}" for e, name in large)
+    moved = [(f.shift, name) for name, f in n.parts.items() if abs(f.shift) > SMALL * n.error and f.shift]
+    if moved:
+        text += "; corrected by " + ", ".join(f"{signed(factor * shift)} ({name})" for shift, name in moved)
+    return text
+
+
+def lines_of(numbers: list[Number]) -> list[str]:
+    """Spells a line to quote for each number, and one line for all numbers that are not stated for the same reason."""
+    lines = [quote(n) for n in numbers if not n.reason]
+    for reason in dict.fromkeys(n.reason for n in numbers if n.reason):
+        some = [n.symbol for n in numbers if n.reason == reason]
+        lines.append(f"{', '.join(some)} {'is' if len(some) == 1 else 'are'} not stated: {reason}")
+    return lines
 
 
 def finite(value: float) -> float | None:

@@ -13,7 +13,8 @@ import numpy as np
 from ..arguments import checks_calls
 from ..errors import Named, SceneError, UnknownName
 from ..files import store
-from ..results.result import Result, RunFile, State
+from ..results.result import Result, State
+from ..results.run_file import RunFile
 from ..running import program
 from ..running.scene import scene_file
 

@@ -120,6 +120,10 @@ class Sweep(Named):
         places = [self.directory / str(p.get("directory", "")) for p in self.points]
         return [Result(place) if self.simulated and (place / "result.json").exists() else None for place in places]
 
+    def _repr_html_(self) -> str:
+        heads, rows, meaning = text_of(self.table)
+        return terminal.html_table(self.name, heads, rows, meaning)
+
     def json(self, table: Table) -> dict[str, Any]:
         """Returns the content of sweep.json, from which the report and the plots of a sweep are made.
 

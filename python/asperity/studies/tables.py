@@ -19,7 +19,7 @@ from ..results.losses import losses
 from ..results.result import Values, finite
 from ..running import program
 from ..running.pool import DONE
-from ..terminal import millijoules, number
+from ..terminal import html_table, millijoules, number
 from .grid import is_seed, shown
 
 RENAMED = {"surface.rms": "realised_rms", "surface.rms_slope": "realised_rms_slope"}
@@ -101,6 +101,14 @@ class Columns(Named, UserDict):
         rows = len(next(iter(self.data.values()), ()))
         some = ", ".join(list(self)[:6]) + ", ..." * (len(self) > 6)
         return f"<{type(self).__name__}: {rows} rows, {len(self)} columns: {some}>"
+
+    def _repr_html_(self) -> str:
+        names, rows = list(self)[:8], max((len(column) for column in self.values()), default=0)
+        def text(value: object) -> str:
+            return f"{value:.5g}" if isinstance(value, float) else str(value)
+
+        return html_table(f"{rows} rows, {len(self)} columns", [f"{name}, {self.units[name]}".removesuffix(", ") for name in names],
+                          [[text(self[name][i]) for name in names] for i in range(min(rows, 12))])
 
     def __missing__(self, name: str) -> Any:
         raise UnknownName.among("the table", name, self, what="column")

@@ -21,6 +21,7 @@ from ..errors import Error
 from ..results.result import Result, Values
 from ..running import program, scene
 from ..units import ANGSTROM_PER_PS, GIGAPASCAL, MEGAPASCAL
+from .sphere import Sphere
 
 COMPARED_SLOPE = 0.6
 """The steepest roughness at which the renormalised theory was held against simulations."""
@@ -90,8 +91,6 @@ def _modulus(keys: Values) -> float:
 def _spheres(point: Values) -> tuple[Any, float, Any, float]:
     """Returns the smooth sphere of a point and the largest tension of its interface, and both with the renormalised law (None
     without adhesion), in eV and Å."""
-    from .sphere import Sphere
-
     keys = point.part("scene")
     modulus = _modulus(keys)
     edge = keys.number("surface.sites", 0.0) * keys.number("surface.spacing", 0.0)
