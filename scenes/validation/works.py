@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: MIT
 """How often works and losses of quasi-static paths lie within their standard errors (docs/explanation/relaxation.md).
 
-    scenes/validation/works.py [--walls 40] [--atoms 8] [--first 200] [--sites 64] [--out results/works] [--csv FILE]
+    scenes/validation/works.py [--walls 30] [--atoms 8] [--first 200] [--sites 64] [--out results/works] [--csv FILE]
 
 Walls: scenes of 16 sites, whose modulus, roughness, work and range of an exponential wall are drawn at random, at a held mean height
 or a held top. Atoms: surfaces of the paper, by rms height and seed, at the tolerances of the paper's scenes and a smaller one. Works and
@@ -51,7 +51,7 @@ def numbers(run: asperity.Result) -> list[tuple[float, float]]:
 
 def main() -> None:
     words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    words.add_argument("--walls", type=int, default=40, help="scenes over soft walls")
+    words.add_argument("--walls", type=int, default=30, help="scenes over soft walls")
     words.add_argument("--atoms", type=int, default=8, help="surfaces of each rms height over atoms")
     words.add_argument("--first", type=int, default=200, help="number of the first scene over a wall")
     words.add_argument("--sites", type=int, default=64, help="sites across the surfaces over atoms")
@@ -65,7 +65,7 @@ def main() -> None:
         surfaces = [atoms(asked.sites, rms, seed) for seed in range(1, asked.atoms + 1)]
         kinds += [(f"atoms, rms {rms:g} Å", f"{loose:g}", {"drive.tolerance": loose}, {"drive.tolerance": 2e-5}, surfaces)
                   for loose in (2.5e-3, 1e-3)]
-    table = Printed("scenes", "tolerance, eV/Å", "numbers", "within 1", "within 2", "rms of error/standard error", "largest",
+    table = Printed("scenes", "tolerance", "numbers", "within 1", "within 2", "rms of error/standard error", "largest",
                     "mean standard error", "rms error")
     for name, tolerance, loose, tight, scenes in kinds:
         ratios, errors, stated = [], [], []
