@@ -125,6 +125,11 @@ AvailableMemory memory_of_process() {
     return least.get();
 }
 
+std::string AvailableMemory::shortage(double needed, std::string_view of) const {
+    return fmt::format("{:.3g} GB are needed {}, and {:.3g} GB are available ({})", needed / 1e9,
+                       of, bytes / 1e9, because);
+}
+
 AvailableMemory available_memory() {
     const AvailableMemory machine = memory_of_machine(), process = memory_of_process();
     return process.bytes < machine.bytes ? process : machine;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace asperity::io {
 
@@ -30,6 +31,10 @@ std::string machine();
 struct AvailableMemory {
     double bytes = 0.0;  ///< memory left, bytes; infinite without a limit
     std::string because; ///< name of the limit, for messages: "MemAvailable", "ulimit -v"
+
+    /// Returns in words that more is needed: "3 GB are needed by a process, and 2 GB are available
+    /// (ulimit -v)". needed: bytes; of: who or what needs them, "by a process".
+    std::string shortage(double needed, std::string_view of) const;
 };
 /// Returns the memory left to all processes of the machine together: the smaller of its free memory
 /// (MemAvailable of /proc/meminfo, without swap) and the memory left in the control groups of this

@@ -37,9 +37,7 @@ void require_memory(const std::string& where, const char* what, double bytes) {
     const AvailableMemory there = available_memory();
     if (bytes > there.bytes)
         refuse(where, fmt::format("{} is larger than the memory", what),
-               fmt::format("it needs {:.3g} GB, and {:.3g} GB are free", bytes / 1e9,
-                           there.bytes / 1e9),
-               "cut a piece out of it before");
+               there.shortage(bytes, "for it"), "cut a piece out of it before");
 }
 
 bool is_hdf5(const std::string& file) {

@@ -4,15 +4,13 @@
 
 #include "io/machine.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
 namespace asperity {
 
 std::string MemoryShortage::text() const {
-    return fmt::format("{:.3g} GB are needed {}, and {:.3g} GB are available ({})", needed / 1e9,
-                       of_process ? "by a process" : "on this machine", available / 1e9, because);
+    return io::AvailableMemory{available, because}.shortage(needed, of_process ? "by a process"
+                                                                               : "on this machine");
 }
 
 std::optional<MemoryShortage> memory_shortage(const Communicator& ranks, double bytes) {

@@ -166,10 +166,9 @@ LedPath::Point LedPath::now() const {
     if (!points_) return before_;
     Point p{points_->now()};
     if (*held_ != Held::top) p.top = 0.0;
-    const double edge = case_.simulation.block.sites, sites = edge * edge;
     p.instabilities = points_->dissipation().events;
-    p.contact_fraction = static_cast<double>(p.in_contact) / sites;
-    p.repulsive_fraction = static_cast<double>(p.repulsive) / sites;
+    p.contact_fraction = case_.fraction(p.in_contact);
+    p.repulsive_fraction = case_.fraction(p.repulsive);
     return p;
 }
 
