@@ -23,7 +23,7 @@ namespace io {
 
 /// Description of such a quantity, which is zero or more at each site.
 struct SiteQuantity {
-    /// Whether a map may be 0 at some sites.
+    /// Rule for a map that is 0 at some sites.
     enum Zero {
         taken,
         taken_without_repulsion, ///< refused with a law that includes a repulsion

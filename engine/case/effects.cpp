@@ -106,7 +106,7 @@ Effects effects_of(const Case& c) {
     e.sliding.why = fmt::format("drive.path has {} \"slide\"", e.sliding ? "a" : "no");
     e.tail = pairs(s.interface.tail, fmt::format("interface.tail = {}", s.interface.tail),
                    ": a part of its law");
-    std::vector<std::string> keys, fields; // that may be fields, and that are
+    std::vector<std::string> keys, fields; // keys that may be fields, and those that are
     for (const io::SiteQuantity& of : io::site_quantities) {
         keys.push_back(fmt::format("interface.{}", of.name));
         if (const SiteMapKeys& map = s.interface.maps[of.map]; map.given())

@@ -304,7 +304,7 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
     record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
     if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
     if (step.of_energies) course_.work_left_out += step.gap;
-    if (options_.reversible() && !any_stays_at_rest(block_.memories())) // none keeps an error
+    if (options_.reversible() && !any_stays_at_rest(block_.memories())) // no error is kept
         course_.errors.end_at(step.gap);
     else // An extension that is wrong acts on with the larger ones that follow: twice.
         course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
