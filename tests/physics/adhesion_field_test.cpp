@@ -224,7 +224,8 @@ TEST(AdhesionField, Formulas) {
 /// would press or repel there.
 TEST(AdhesionField, EachMapIsTold) {
     const std::string both =
-        problems_of({"interface.adhesion=none.txt", "interface.hardness=stripes 0 1 20"});
+        problems_of({"interface.adhesion=none.txt", "interface.hardness=stripes 0 1 20",
+                     "drive.path=[\"approach\"]", "drive.mode=quasistatic"});
     EXPECT_NE(both.find("neither a file nor a formula"), std::string::npos) << both;
     EXPECT_NE(both.find("a hardness above 0 at each site"), std::string::npos) << both;
     const std::string field = "interface.adhesion=stripes 0 10 20";
