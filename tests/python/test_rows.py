@@ -32,7 +32,7 @@ NUMBERS = {"binding energy": ["binding_energy"], "energy of the pairs alone": ["
            "repulsive sites, fraction": ["repulsive_fraction"], "convergence": ["binding_energy_uncertainty"],
            **{f"work of the {who}": [f"work_of_{who}.{way}" for way in ("approach", "pull_off")] for who in ("interface", "drive")},
            "largest attraction": ["approach_force", "pull_off_force"], "pull-off stress": ["pull_off_force"],
-           "contact radius": ["contact_radius.relaxed"], "energy lost at instabilities in a cycle": ["lost.cycle"]}
+           "contact radius": ["contact_radius.relaxed"], "energy lost in a cycle": ["lost.cycle"]}
 """Numbers of the result behind some of the rows."""
 
 
