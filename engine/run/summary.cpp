@@ -381,8 +381,8 @@ SummaryTable table_for_pages(const Case& c, const Numbers& of) {
     SummaryTable table{"", {""}};
     table.for_pages = true;
     const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
-                         bool part = false) {
-        table.rows.push_back({name, unit, {value}, part});
+                         bool detail = false) {
+        table.rows.push_back({name, unit, {value}, detail});
     };
     if (const Number radius = of("instrument.contact_radius")) {
         row("contact radius", "nm", io::cell(*radius));
@@ -476,8 +476,8 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
     if (state) {
         SummaryTable table{"state " + at, {""}};
         const auto row = [&](const std::string& name, const std::string& unit,
-                             const std::string& value, bool part = false) {
-            table.rows.push_back({name, unit, {value}, part});
+                             const std::string& value, bool detail = false) {
+            table.rows.push_back({name, unit, {value}, detail});
         };
         row("binding energy", form.unit("binding_energy"), form.energy(state));
         if (!form.is_whole()) row(flat_text, "", over_flat(state), true);
@@ -503,8 +503,8 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
     if (drive_in || drive_out || of("approach_force")) {
         SummaryTable table{"path", {"approach", "pull-off"}};
         const auto add = [&](const std::string& name, const std::string& unit,
-                             const std::string& in, const std::string& out, bool part = false) {
-            table.rows.push_back({name, unit, {in, out}, part});
+                             const std::string& in, const std::string& out, bool detail = false) {
+            table.rows.push_back({name, unit, {in, out}, detail});
         };
         const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
             if (in || out) add(name, form.unit(key), form.energy(in), form.energy(out));
@@ -633,7 +633,7 @@ void add_summary(const Summary& summary, io::Result& result) {
             result.set("rows[].table", i, table.head);
             result.set("rows[].columns", i, table.columns);
             result.set("rows[].name", i, row.name);
-            result.set("rows[].part", i, row.part);
+            result.set("rows[].detail", i, row.detail);
             result.set("rows[].unit", i, row.unit);
             result.set("rows[].texts", i, row.values);
             ++i;
@@ -659,9 +659,9 @@ void print_summary(std::FILE* to, const Summary& summary, const std::string& dir
             };
             io::Table table(some({of.head}, of.columns));
             for (const SummaryRow& row : of.rows)
-                table.row(some(
-                    {(row.part ? "  " : "") + row.name + (row.unit.empty() ? "" : ", " + row.unit)},
-                    row.values));
+                table.row(some({(row.detail ? "  " : "") + row.name +
+                                (row.unit.empty() ? "" : ", " + row.unit)},
+                               row.values));
             fmt::print(to, "\n");
             table.print(to);
         }

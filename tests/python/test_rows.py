@@ -70,7 +70,7 @@ def test_the_terminal_the_page_and_the_notebook_say_the_same_numbers(place, ligh
                 continue
             if row["table"] == sentences.SEGMENTS:
                 assert value in cells[column], (row, cells[column])
-            elif row["part"]:
+            elif row["detail"]:
                 assert f"{row['name']}: {value} {row['unit']}".rstrip() in notebook, row
             else:
                 number = numbers[", ".join(filter(None, [row["name"], column or row["table"]]))]
