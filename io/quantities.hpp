@@ -200,7 +200,7 @@ inline constexpr Quantity written_quantities[] = {
      "alone"},
     {"rows[].columns", "", "", "names of the columns of the table"},
     {"rows[].name", "", "", "name of the number"},
-    {"rows[].part", "", "", "true for an error or a share of the number above"},
+    {"rows[].detail", "", "", "true for an error or a share of the number above"},
     {"rows[].unit", "", "", "unit of the values"},
     {"rows[].texts", "", "", "the number as text, for each column; \"-\": none"},
     {"sentences", "", "", "sentences on the meaning of the numbers, as a run prints them"},

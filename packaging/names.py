@@ -25,7 +25,7 @@ TEXTS = ("rows[].columns", "rows[].texts", "sentences")
 def kind_of(path: str, unit: str) -> str:
     """Returns the type of a value of result.json."""
     name = path.rpartition(".")[2]
-    if name in ("on", "converged", "part"):
+    if name in ("on", "converged", "detail"):
         return "bool"
     if path in TEXTS:
         return "list[str]"

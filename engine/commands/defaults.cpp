@@ -18,7 +18,7 @@ namespace asperity {
 
 namespace {
 
-struct Given : Arguments {
+struct DefaultsArguments : Arguments {
     bool markdown = false; ///< prints the page docs/reference/scene.md
     bool plain = false;    ///< leaves out the explanations
     bool results = false;  ///< prints the page docs/reference/result.md
@@ -48,7 +48,7 @@ int print_schema(bool results) {
     return io::exit_code::done;
 }
 
-int print_defaults(const Given& given) {
+int print_defaults(const DefaultsArguments& given) {
     if (given.json) return print_schema(given.results);
     fmt::print("{}", given.results    ? io::result_markdown(series_quantities())
                      : given.markdown ? scene_markdown()
@@ -59,7 +59,7 @@ int print_defaults(const Given& given) {
 } // namespace
 
 Command defaults_command() {
-    const auto given = std::make_shared<Given>();
+    const auto given = std::make_shared<DefaultsArguments>();
     return {.options = {{"--markdown", "", "as the reference page docs/reference/scene.md",
                          &given->markdown},
                         {"--plain", "", "without explanations", &given->plain},

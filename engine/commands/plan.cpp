@@ -21,12 +21,12 @@ namespace asperity {
 
 namespace {
 
-struct Given : Arguments {
+struct PlanArguments : Arguments {
     int ranks = 0;               ///< number of ranks to plan for; 0: the ranks of this call
     std::string memory_per_node; ///< memory of a node to plan for; empty: none
 };
 
-int plan(const Given& given, const Communicator& world) {
+int plan(const PlanArguments& given, const Communicator& world) {
     const Case c = case_of(given, given.ranks > 0 ? given.ranks : world.size());
     double node = 0.0;
     if (!given.memory_per_node.empty()) {
@@ -57,7 +57,7 @@ int plan(const Given& given, const Communicator& world) {
 } // namespace
 
 Command plan_command() {
-    const auto given = std::make_shared<Given>();
+    const auto given = std::make_shared<PlanArguments>();
     return {.options = {takes::scene(*given),
                         takes::set(*given),
                         {"--ranks", "N", "for so many ranks (default: as started)", &given->ranks},

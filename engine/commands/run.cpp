@@ -16,14 +16,14 @@ namespace asperity {
 
 namespace {
 
-struct Given : Arguments {
+struct RunArguments : Arguments {
     std::string resume;
     bool restart = false;
     std::string wall_limit;
 };
 
 /// Returns the options of a run. Throws io::SceneError.
-RunOptions options_of(const Given& given) {
+RunOptions options_of(const RunArguments& given) {
     RunOptions options;
     options.out = given.out;
     options.resume = given.resume;
@@ -58,7 +58,7 @@ RunOptions options_of(const Given& given) {
     return options;
 }
 
-int run_scene(const Given& given, const Communicator& world) {
+int run_scene(const RunArguments& given, const Communicator& world) {
     const RunOptions options = options_of(given);
     const Case c = case_of(given, world.size(), world);
     require_memory(c, world);
@@ -68,7 +68,7 @@ int run_scene(const Given& given, const Communicator& world) {
 } // namespace
 
 Command run_command() {
-    const auto given = std::make_shared<Given>();
+    const auto given = std::make_shared<RunArguments>();
     return {.options = {takes::scene(*given),
                         takes::set(*given),
                         takes::out(*given, "results/<scene>"),

@@ -52,7 +52,7 @@ Json largest_json(const LargestStress& largest) {
             {"reason", largest.reason}};
 }
 
-struct Given : Arguments {
+struct StressArguments : Arguments {
     /// File of JSON, {"file": run.h5, "state": name of a group of /fields, "slid": true for the
     /// tractions of with_slopes()}.
     std::string points;
@@ -61,7 +61,7 @@ struct Given : Arguments {
 /// Computes the stresses below a state of a run. The scene has block and output.stress*. Writes the
 /// group /stress/<state> to the file given.out, and prints the largest stresses of each layer as
 /// one line of JSON.
-int stress_below(const Given& given) {
+int stress_below(const StressArguments& given) {
     const Case c = case_of(given, 1);
     const Json what = io::parse_json(io::read_scene_file(given.points), given.points);
     const std::string group = "/fields/" + what.at("state").get<std::string>();
@@ -104,7 +104,7 @@ int stress_below(const Given& given) {
 } // namespace
 
 Command stress_below_command() {
-    const auto given = std::make_shared<Given>();
+    const auto given = std::make_shared<StressArguments>();
     return {.options = {takes::scene(*given),
                         takes::set(*given),
                         {"--points", "FILE",

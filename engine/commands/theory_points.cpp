@@ -153,7 +153,7 @@ Json simulated_point(const Case& c, SurfaceCache& surfaces, bool profile) {
     return point;
 }
 
-struct Given : Arguments {
+struct PointsArguments : Arguments {
     std::string points;    ///< file of the points; "-": standard input; empty: the scene alone
     bool runnable = false; ///< report also the problems that would stop a run (examine())
     /// Output also theory.persson.critical_rms, and "profile": [{"name", "unit", "meaning",
@@ -162,7 +162,7 @@ struct Given : Arguments {
 };
 
 /// Prints the theories of the points. Throws io::FileError if the input cannot be read.
-int theory_points(const Given& what) {
+int theory_points(const PointsArguments& what) {
     std::vector<std::string> of_all; // overrides of every point
     const std::string scene = scene_file(what, of_all);
     std::ifstream file;
@@ -205,7 +205,7 @@ int theory_points(const Given& what) {
 } // namespace
 
 Command theory_points_command() {
-    const auto given = std::make_shared<Given>();
+    const auto given = std::make_shared<PointsArguments>();
     return {
         .options = {takes::scene(*given),
                     takes::set(*given),

@@ -284,35 +284,35 @@ SummaryTable table_of_segments(const Case& c, const PathResults& results) {
     SummaryTable table{"segment"};
     for (const SegmentResults& s : results.segments)
         table.columns.push_back(short_name(c, s));
-    const auto add = [&](const std::string& name, const std::string& unit, auto&& value_of) {
+    const auto put = [&](const std::string& name, const std::string& unit, auto&& value_of) {
         SummaryRow row{name, unit};
         for (const SegmentResults& s : results.segments)
             row.values.push_back(value_of(s));
         table.rows.push_back(std::move(row));
     };
     using Of = const SegmentResults&;
-    add("work of the drive", form.unit("segments[].work_of_drive"),
+    put("work of the drive", form.unit("segments[].work_of_drive"),
         [&](Of s) { return form.energy(s.energies[Term::work]); });
     for (const io::EnergyTerm& row : io::energy_terms)
         if (row.is_loss() && c.effects.has(row.effect))
-            add(row.words(), form.unit(io::Key::of("segments[].", row)),
+            put(row.words(), form.unit(io::Key::of("segments[].", row)),
                 [&](Of s) { return form.energy(s.energies[row.term]); });
     if (!c.effects.dynamic)
-        add("stored", form.unit("segments[].stored"), [&](Of s) { return form.energy(s.stored); });
-    add("ends at",
+        put("stored", form.unit("segments[].stored"), [&](Of s) { return form.energy(s.stored); });
+    put("ends at",
         form.unit(newtons ? io::Key("segments[].force") : io::Key("segments[].pressure")),
         [&](Of s) { return number(s.force / force_unit, newtons ? 3 : 1); });
-    add("mean height", form.unit("segments[].mean_height"),
+    put("mean height", form.unit("segments[].mean_height"),
         [&](Of s) { return form.height(s.mean_height); });
-    add("contact", "", [&](Of s) { return number(c.fraction(s.in_contact), 4); });
+    put("contact", "", [&](Of s) { return number(c.fraction(s.in_contact), 4); });
     if (c.effects.yielding) {
-        add("at the hardness", "",
+        put("at the hardness", "",
             [&](Of s) { return number(c.fraction(s.yielding.at_hardness), 4); });
-        add("mean set", form.unit("segments[].mean_set"),
+        put("mean set", form.unit("segments[].mean_set"),
             [&](Of s) { return form.height(s.yielding.mean_set); });
     }
     if (c.effects.sliding)
-        add("friction", newtons ? "nN" : form.unit("segments[].friction"), [&](Of s) {
+        put("friction", newtons ? "nN" : form.unit("segments[].friction"), [&](Of s) {
             const Number f = s.lateral_mean;
             return number(f && newtons ? Number(*f / force_unit) : f, 2);
         });
@@ -381,8 +381,8 @@ SummaryTable table_for_pages(const Case& c, const Numbers& of) {
     SummaryTable table{"", {""}};
     table.for_pages = true;
     const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
-                         bool part = false) {
-        table.rows.push_back({name, unit, {value}, part});
+                         bool detail = false) {
+        table.rows.push_back({name, unit, {value}, detail});
     };
     if (const Number radius = of("instrument.contact_radius")) {
         row("contact radius", "nm", io::cell(*radius));
@@ -476,8 +476,8 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
     if (state) {
         SummaryTable table{"state " + at, {""}};
         const auto row = [&](const std::string& name, const std::string& unit,
-                             const std::string& value, bool part = false) {
-            table.rows.push_back({name, unit, {value}, part});
+                             const std::string& value, bool detail = false) {
+            table.rows.push_back({name, unit, {value}, detail});
         };
         row("binding energy", form.unit("binding_energy"), form.energy(state));
         if (!form.is_whole()) row(flat_text, "", over_flat(state), true);
@@ -502,17 +502,17 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
     }
     if (drive_in || drive_out || of("approach_force")) {
         SummaryTable table{"path", {"approach", "pull-off"}};
-        const auto add = [&](const std::string& name, const std::string& unit,
-                             const std::string& in, const std::string& out, bool part = false) {
-            table.rows.push_back({name, unit, {in, out}, part});
+        const auto put = [&](const std::string& name, const std::string& unit,
+                             const std::string& in, const std::string& out, bool detail = false) {
+            table.rows.push_back({name, unit, {in, out}, detail});
         };
         const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
-            if (in || out) add(name, form.unit(key), form.energy(in), form.energy(out));
+            if (in || out) put(name, form.unit(key), form.energy(in), form.energy(out));
         };
         const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
             row(name, key, in, out);
             if ((in || out) && !form.is_whole())
-                add(flat_text, "", over_flat(in), over_flat(out), true);
+                put(flat_text, "", over_flat(in), over_flat(out), true);
         };
         work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
         work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
@@ -528,26 +528,26 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
         row("energy left in the spring", "spring.approach", of("spring.approach"),
             of("spring.pull_off"));
         if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
-            add("convergence of the above", form.unit_of_uncertainty(),
+            put("convergence of the above", form.unit_of_uncertainty(),
                 form.uncertainty(of("work_of_drive.uncertainty.approach")),
                 form.uncertainty(of("work_of_drive.uncertainty.pull_off")));
         if (c.has_mesh() && (drive_in || drive_out))
-            add("mesh", form.unit_of_uncertainty(),
+            put("mesh", form.unit_of_uncertainty(),
                 of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
                 of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
         if (c.in_newtons())
-            add("largest attraction", form.unit("instrument.pull_off_force"),
+            put("largest attraction", form.unit("instrument.pull_off_force"),
                 number(of("instrument.approach_force"), 3),
                 number(of("instrument.pull_off_force"), 3));
         else
-            add("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
+            put("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
                 number(of("pull_off_force"), 1));
         if (c.has_mesh())
-            add("mesh", "", of_mesh(error_of_force(of("mesh_error.approach_force"))),
+            put("mesh", "", of_mesh(error_of_force(of("mesh_error.approach_force"))),
                 of_mesh(error_of_force(of("mesh_error.pull_off_force"))), true);
         const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
         if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
-            add("as a JKR sphere", "meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out), true);
+            put("as a JKR sphere", "meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out), true);
         summary.tables.push_back(std::move(table));
     }
     if (SummaryTable table = table_for_pages(c, of); !table.rows.empty())
@@ -633,7 +633,7 @@ void add_summary(const Summary& summary, io::Result& result) {
             result.set("rows[].table", i, table.head);
             result.set("rows[].columns", i, table.columns);
             result.set("rows[].name", i, row.name);
-            result.set("rows[].part", i, row.part);
+            result.set("rows[].detail", i, row.detail);
             result.set("rows[].unit", i, row.unit);
             result.set("rows[].texts", i, row.values);
             ++i;
@@ -659,9 +659,9 @@ void print_summary(std::FILE* to, const Summary& summary, const std::string& dir
             };
             io::Table table(some({of.head}, of.columns));
             for (const SummaryRow& row : of.rows)
-                table.row(some(
-                    {(row.part ? "  " : "") + row.name + (row.unit.empty() ? "" : ", " + row.unit)},
-                    row.values));
+                table.row(some({(row.detail ? "  " : "") + row.name +
+                                (row.unit.empty() ? "" : ", " + row.unit)},
+                               row.values));
             fmt::print(to, "\n");
             table.print(to);
         }

@@ -29,7 +29,7 @@ struct SummaryRow {
     std::string name;
     std::string unit = {};                ///< "meV/Å² (mJ/m²)"; empty: a pure number
     std::vector<std::string> values = {}; ///< "55.60 (891)"; "-": none
-    bool part = false;                    ///< an error or a share of the number above
+    bool detail = false;                  ///< an error or a share of the number above
 };
 
 /// Numbers of a state, of approach and pull-off, or of the segments of a path.

@@ -14,9 +14,10 @@ from asperity.running import program
 from asperity.running.pool import DONE, FAILED, Outcome
 from asperity.running.scene import scene_file
 from asperity.studies import estimate_parts
+from asperity.studies.estimate import load_estimate
 from asperity.studies.estimate_parts import coarser, finer, limit, mean, plan_of, solved, standard_error, widened
-from asperity.studies.estimates import Found, Number, load_estimate
 from asperity.studies.quantities import FLAT
+from asperity.studies.stated_number import Found, Number, rounded
 from asperity.studies.variations import Variation, Variations
 from conftest import command
 
@@ -120,7 +121,7 @@ def test_a_part_whose_run_failed_is_named():
 def test_a_number_is_quoted_with_two_digits_of_its_error():
     for value, error, text in ((71.44, 1.94, ("71.4", "1.9")), (1163.4, 16.2, ("1163", "16")), (-0.00123, 0.0000456, ("-0.001230", "0.000046")),
                                (12345.0, 1234.0, ("12300", "1200")), (5.0, 0.0, ("5", "0"))):
-        assert report_estimate.rounded(value, error) == text
+        assert rounded(value, error) == text
     n = Number("binding_energy", "γ_eff", "", "meV/Å^2", 70.0, {"tail": Found(1.5, 0.01), "seeds": Found(0.0, 1.0)})
     assert report_estimate.quote(n) == ("γ_eff = 1146 ± 16 mJ/m² (71.5 ± 1.0 meV/Å²; one standard error), of which ± 16 seeds; "
                                         "corrected by +24 (tail)")
@@ -196,7 +197,7 @@ def test_what_a_solver_leaves_is_no_error_of_a_number(place):
                    says=["convergence, meV/Å²", "are not included: asperity estimate"])
     assert "±" not in said and "uncertainty" not in said
     page = asperity.load("run").report().read_text()
-    assert "solver converged to" in page and "effect of cutoff, spacing" in page and "±" not in page
+    assert "convergence: " in page and "Cutoff, spacing, thickness" in page and "±" not in page
 
 
 def test_what_cannot_be_asked_for_is_refused(place):

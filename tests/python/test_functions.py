@@ -138,7 +138,7 @@ def test_convert_and_export(place, state_run):
 
 def test_results_are_tables_in_a_notebook(place, state_run, light):
     html = state_run._repr_html_()
-    assert html.count("<tr>") == 3 and "binding energy" in html and f"{state_run.binding_energy / state_run.delta_gamma:.3f}" in html
+    assert html.count("<tr>") == 7 and "binding energy" in html and f"{state_run.binding_energy / state_run.delta_gamma:.4f}" in html
     sweep = asperity.sweep(SCENE, {"surface.rms": [0.2, 0.4]}, out="sweep")
     html = sweep._repr_html_()
     assert html.count("<tr>") == 3 and "surface.rms" in html and "2 done" not in html

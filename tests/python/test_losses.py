@@ -123,7 +123,7 @@ def test_every_page_has_all_losses(rubber):
     for value in shown.values():
         assert any(value in sentence for sentence in words), (value, words)
     numbers = {n.name: n.value for n in sentences.key_numbers(run)}
-    assert numbers["energy lost at instabilities in a cycle"].startswith(f"{run.lost.cycle:.2f} (")
+    assert numbers["energy lost in a cycle"].startswith(f"{run.lost.cycle:.2f} (")
     assert numbers["dissipated in the block in a cycle"].startswith(f"{run.dissipated_in_block.cycle:.2f} (")
     page = report.write_run_page(run, ())
     assert page is not None

@@ -32,7 +32,7 @@ NUMBERS = {"binding energy": ["binding_energy"], "energy of the pairs alone": ["
            "repulsive sites, fraction": ["repulsive_fraction"], "convergence": ["binding_energy_uncertainty"],
            **{f"work of the {who}": [f"work_of_{who}.{way}" for way in ("approach", "pull_off")] for who in ("interface", "drive")},
            "largest attraction": ["approach_force", "pull_off_force"], "pull-off stress": ["pull_off_force"],
-           "contact radius": ["contact_radius.relaxed"], "energy lost at instabilities in a cycle": ["lost.cycle"]}
+           "contact radius": ["contact_radius.relaxed"], "energy lost in a cycle": ["lost.cycle"]}
 """Numbers of the result behind some of the rows."""
 
 
@@ -70,7 +70,7 @@ def test_the_terminal_the_page_and_the_notebook_say_the_same_numbers(place, ligh
                 continue
             if row["table"] == sentences.SEGMENTS:
                 assert value in cells[column], (row, cells[column])
-            elif row["part"]:
+            elif row["detail"]:
                 assert f"{row['name']}: {value} {row['unit']}".rstrip() in notebook, row
             else:
                 number = numbers[", ".join(filter(None, [row["name"], column or row["table"]]))]

@@ -131,7 +131,7 @@ def _rows(run: Result) -> list[KeyNumber]:
         if row.text("table") == SEGMENTS:
             continue
         columns, values = row.listed("columns", str), row.listed("texts", str)
-        if not row.find("part"):
+        if not row.find("detail"):
             above = [KeyNumber(minus_signs(value), row.text("unit"), ", ".join(filter(None, [row.text("name"), column or row.text("table")])))
                      for column, value in zip(columns, values)]
             found += above
