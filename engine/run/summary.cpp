@@ -448,115 +448,128 @@ void print_opening(std::FILE* to, const Case& c, const Surface& surface, const P
     std::fflush(to);
 }
 
-Summary summary_of(const Case& c, const io::Result& result, const PathResults& results) {
-    Summary summary;
-    const Numbers of{result};
-    const Form form(c);
-    const double flat = of("delta_gamma").value_or(0.0);
-    const bool loaded = c.has(Segment::relax) && c.simulation.drive.load_force != 0.0;
-    const std::string at =
-        loaded ? "under " + (c.in_newtons() ? force_text(c, c.simulation.drive.load_force)
-                                            : fmt::format("{:.6g} MPa", c.load_in_megapascal()))
-               : std::string("at zero load");
-    const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off"),
-                 interface_in = of("work_of_interface.approach"),
-                 interface_out = of("work_of_interface.pull_off"), state = of("binding_energy");
-    const bool anywhere = c.surface.kind == SurfaceKind::atoms;
-    const std::string flat_text =
-        fmt::format("over {}, {}", anywhere ? "one flat layer" : "flat on flat", energies(flat));
-    const auto of_mesh = [](const std::string& error) {
+namespace {
+
+/// A run whose numbers are summarised.
+struct Run {
+    const Case& c;
+    Numbers of;
+    Form form{c};
+    double flat = of("delta_gamma").value_or(0.0); ///< binding energy of flat surfaces, meV/Å²
+    bool has_atoms = c.surface.kind == SurfaceKind::atoms;
+
+    /// Returns the load of the state in words: "at zero load".
+    std::string at() const {
+        const double load = c.simulation.drive.load_force;
+        if (!c.has(Segment::relax) || load == 0.0) return "at zero load";
+        return "under " + (c.in_newtons() ? force_text(c, load)
+                                          : fmt::format("{:.6g} MPa", c.load_in_megapascal()));
+    }
+    /// Returns the name of the row of a number over flat().
+    std::string flat_text() const {
+        return fmt::format("over {}, {}", has_atoms ? "one flat layer" : "flat on flat",
+                           energies(flat));
+    }
+    std::string over_flat(Number value) const {
+        return number(value && flat != 0.0 ? Number(*value / flat) : Number(), 4);
+    }
+    /// Returns an error by the spacing, or that there is none.
+    static std::string of_mesh(const std::string& error) {
         return error == "-" ? std::string("not included") : error;
+    }
+};
+
+/// Returns the numbers of the state without a load, or under drive.load.
+SummaryTable table_of_state(const Run& run) {
+    const auto& [c, of, form, flat, has_atoms] = run;
+    SummaryTable table{"state " + run.at(), {""}};
+    const auto row = [&](const std::string& name, const std::string& unit, const std::string& value,
+                         bool detail = false) {
+        table.rows.push_back({name, unit, {value}, detail});
     };
+    row("binding energy", form.unit("binding_energy"), form.energy(of("binding_energy")));
+    if (!form.is_whole()) row(run.flat_text(), "", run.over_flat(of("binding_energy")), true);
+    row("convergence", form.unit_of_uncertainty(),
+        form.uncertainty(of("binding_energy_uncertainty")), true);
+    if (c.has_mesh())
+        row("mesh", form.unit_of_uncertainty(),
+            Run::of_mesh(form.uncertainty(of("mesh_error.binding_energy"))), true);
+    row("energy of the pairs alone", form.unit("pair_binding_energy"),
+        form.energy(of("pair_binding_energy")));
+    row("elastic energy stored", form.unit("relaxed.elastic_energy"),
+        form.energy(of("relaxed.elastic_energy")));
+    row("contact fraction", "", number(of("contact_fraction"), 4));
+    if (const Number area = of("contact_area"))
+        row("area, less half sites of its edges", "",
+            of("contact_area_uncertainty") ? io::with_error(*area, *of("contact_area_uncertainty"))
+                                           : number(area, 4),
+            true);
+    row("repulsive sites, fraction", "", number(of("repulsive_fraction"), 4));
+    return table;
+}
+
+/// Returns the numbers of approach and pull-off.
+SummaryTable table_of_path(const Run& run) {
+    const auto& [c, of, form, flat, has_atoms] = run;
     const auto error_of_force = [&](Number v) {
         return v ? fmt::format("{:.1e}", *v / (c.in_newtons() ? units::nanonewton : 1.0)) : "-";
     };
-    const auto over_flat = [&](Number v) {
-        return number(v && flat != 0.0 ? Number(*v / flat) : Number(), 4);
+    SummaryTable table{"path", {"approach", "pull-off"}};
+    const auto put = [&](const std::string& name, const std::string& unit, const std::string& in,
+                         const std::string& out, bool detail = false) {
+        table.rows.push_back({name, unit, {in, out}, detail});
     };
-    if (state) {
-        SummaryTable table{"state " + at, {""}};
-        const auto row = [&](const std::string& name, const std::string& unit,
-                             const std::string& value, bool detail = false) {
-            table.rows.push_back({name, unit, {value}, detail});
-        };
-        row("binding energy", form.unit("binding_energy"), form.energy(state));
-        if (!form.is_whole()) row(flat_text, "", over_flat(state), true);
-        row("convergence", form.unit_of_uncertainty(),
-            form.uncertainty(of("binding_energy_uncertainty")), true);
-        if (c.has_mesh())
-            row("mesh", form.unit_of_uncertainty(),
-                of_mesh(form.uncertainty(of("mesh_error.binding_energy"))), true);
-        row("energy of the pairs alone", form.unit("pair_binding_energy"),
-            form.energy(of("pair_binding_energy")));
-        row("elastic energy stored", form.unit("relaxed.elastic_energy"),
-            form.energy(of("relaxed.elastic_energy")));
-        row("contact fraction", "", number(of("contact_fraction"), 4));
-        if (const Number area = of("contact_area"))
-            row("area, less half sites of its edges", "",
-                of("contact_area_uncertainty")
-                    ? io::with_error(*area, *of("contact_area_uncertainty"))
-                    : number(area, 4),
-                true);
-        row("repulsive sites, fraction", "", number(of("repulsive_fraction"), 4));
-        summary.tables.push_back(std::move(table));
-    }
-    if (drive_in || drive_out || of("approach_force")) {
-        SummaryTable table{"path", {"approach", "pull-off"}};
-        const auto put = [&](const std::string& name, const std::string& unit,
-                             const std::string& in, const std::string& out, bool detail = false) {
-            table.rows.push_back({name, unit, {in, out}, detail});
-        };
-        const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
-            if (in || out) put(name, form.unit(key), form.energy(in), form.energy(out));
-        };
-        const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
-            row(name, key, in, out);
-            if ((in || out) && !form.is_whole())
-                put(flat_text, "", over_flat(in), over_flat(out), true);
-        };
-        work("work of the interface", "work_of_interface.approach", interface_in, interface_out);
-        work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
-        for (const io::EnergyTerm& loss : io::energy_terms)
-            if (loss.is_loss())
-                row((loss.term == Term::lost ? "energy " : "") + loss.words(),
-                    io::Key::of("", loss, ".approach"), of(io::Key::of("", loss, ".approach")),
-                    of(io::Key::of("", loss, ".pull_off")));
-        if (c.effects.branches)
-            row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
-        row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
-            of("kinetic.pull_off"));
-        row("energy left in the spring", "spring.approach", of("spring.approach"),
-            of("spring.pull_off"));
-        if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
-            put("convergence of the above", form.unit_of_uncertainty(),
-                form.uncertainty(of("work_of_drive.uncertainty.approach")),
-                form.uncertainty(of("work_of_drive.uncertainty.pull_off")));
-        if (c.has_mesh() && (drive_in || drive_out))
-            put("mesh", form.unit_of_uncertainty(),
-                of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
-                of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
-        if (c.in_newtons())
-            put("largest attraction", form.unit("instrument.pull_off_force"),
-                number(of("instrument.approach_force"), 3),
-                number(of("instrument.pull_off_force"), 3));
-        else
-            put("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
-                number(of("pull_off_force"), 1));
-        if (c.has_mesh())
-            put("mesh", "", of_mesh(error_of_force(of("mesh_error.approach_force"))),
-                of_mesh(error_of_force(of("mesh_error.pull_off_force"))), true);
-        const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
-        if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
-            put("as a JKR sphere", "meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out), true);
-        summary.tables.push_back(std::move(table));
-    }
-    if (SummaryTable table = table_for_pages(c, of); !table.rows.empty())
-        summary.tables.push_back(std::move(table));
-    if (c.guided() && !results.segments.empty()) {
-        summary.tables.push_back(table_of_segments(c, results));
-        print_ends(summary.tables.back().sentences, c, results);
-    }
-    Sentences& to = summary.sentences;
+    const auto row = [&](const std::string& name, io::Key key, Number in, Number out) {
+        if (in || out) put(name, form.unit(key), form.energy(in), form.energy(out));
+    };
+    const auto work = [&](const std::string& name, io::Key key, Number in, Number out) {
+        row(name, key, in, out);
+        if ((in || out) && !form.is_whole())
+            put(run.flat_text(), "", run.over_flat(in), run.over_flat(out), true);
+    };
+    const Number drive_in = of("work_of_drive.approach"), drive_out = of("work_of_drive.pull_off");
+    work("work of the interface", "work_of_interface.approach", of("work_of_interface.approach"),
+         of("work_of_interface.pull_off"));
+    work("work of the drive", "work_of_drive.approach", drive_in, drive_out);
+    for (const io::EnergyTerm& loss : io::energy_terms)
+        if (loss.is_loss())
+            row((loss.term == Term::lost ? "energy " : "") + loss.words(),
+                io::Key::of("", loss, ".approach"), of(io::Key::of("", loss, ".approach")),
+                of(io::Key::of("", loss, ".pull_off")));
+    if (c.effects.branches)
+        row("energy stored", "stored.approach", of("stored.approach"), of("stored.pull_off"));
+    row("energy left in motion", "kinetic.approach", of("kinetic.approach"),
+        of("kinetic.pull_off"));
+    row("energy left in the spring", "spring.approach", of("spring.approach"),
+        of("spring.pull_off"));
+    if (of("work_of_drive.uncertainty.approach") || of("work_of_drive.uncertainty.pull_off"))
+        put("convergence of the above", form.unit_of_uncertainty(),
+            form.uncertainty(of("work_of_drive.uncertainty.approach")),
+            form.uncertainty(of("work_of_drive.uncertainty.pull_off")));
+    if (c.has_mesh() && (drive_in || drive_out))
+        put("mesh", form.unit_of_uncertainty(),
+            Run::of_mesh(form.uncertainty(of("mesh_error.work_of_drive.approach"))),
+            Run::of_mesh(form.uncertainty(of("mesh_error.work_of_drive.pull_off"))));
+    if (c.in_newtons())
+        put("largest attraction", form.unit("instrument.pull_off_force"),
+            number(of("instrument.approach_force"), 3), number(of("instrument.pull_off_force"), 3));
+    else
+        put("largest attraction", form.unit("pull_off_force"), number(of("approach_force"), 1),
+            number(of("pull_off_force"), 1));
+    if (c.has_mesh())
+        put("mesh", "", Run::of_mesh(error_of_force(of("mesh_error.approach_force"))),
+            Run::of_mesh(error_of_force(of("mesh_error.pull_off_force"))), true);
+    const Number jkr_in = of("jkr.approach"), jkr_out = of("jkr.pull_off");
+    if (jkr_in || jkr_out) // a work of adhesion, over the area in contact
+        put("as a JKR sphere", "meV/Å² (mJ/m²)", energies(jkr_in), energies(jkr_out), true);
+    return table;
+}
+
+/// Tells what the numbers mean.
+void tell_meaning(Sentences& to, const Run& run, const PathResults& results) {
+    const auto& [c, of, form, flat, has_atoms] = run;
+    const std::string at = run.at();
+    const Number state = of("binding_energy"), drive_in = of("work_of_drive.approach");
     if (state)
         io::print_text(
             to,
@@ -565,8 +578,8 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
             at, form.with_unit(*state),
             flat > 0.0 && !form.is_whole()
                 ? fmt::format(", {} % of that of {}", io::number(100.0 * *state / flat, 1),
-                              anywhere ? "one flat layer of the block's lattice"
-                                       : "two flat surfaces")
+                              has_atoms ? "one flat layer of the block's lattice"
+                                        : "two flat surfaces")
                 : std::string(),
             form.part(*of("pair_binding_energy")), form.part(*of("relaxed.elastic_energy")),
             c.simulation.block.counter ? "the two solids" : "the block",
@@ -594,7 +607,7 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
             "ends: it is that of this piece. A contact that is to end by itself takes "
             "a wider box (surface.sites).\n",
             io::cell(*edge));
-    if (drive_in && drive_out) print_cycle(to, c, results, of, flat);
+    if (drive_in && of("work_of_drive.pull_off")) print_cycle(to, c, results, of, flat);
     if (c.effects.yielding && !results.segments.empty()) print_yielding(to, c, results, of);
     if (const Number residual = of("energy.balance_error")) {
         std::string losses = of("dissipated.energy") ? "dissipated" : "damped";
@@ -617,6 +630,24 @@ Summary summary_of(const Case& c, const io::Result& result, const PathResults& r
                                       "numbers without one do not include it."
                                     : "",
                        c.has_mesh() ? "" : "spacing, ");
+}
+
+} // namespace
+
+Summary summary_of(const Case& c, const io::Result& result, const PathResults& results) {
+    Summary summary;
+    const Run run{c, {result}};
+    const Numbers& of = run.of;
+    if (of("binding_energy")) summary.tables.push_back(table_of_state(run));
+    if (of("work_of_drive.approach") || of("work_of_drive.pull_off") || of("approach_force"))
+        summary.tables.push_back(table_of_path(run));
+    if (SummaryTable table = table_for_pages(c, of); !table.rows.empty())
+        summary.tables.push_back(std::move(table));
+    if (c.guided() && !results.segments.empty()) {
+        summary.tables.push_back(table_of_segments(c, results));
+        print_ends(summary.tables.back().sentences, c, results);
+    }
+    tell_meaning(summary.sentences, run, results);
     return summary;
 }
 
