@@ -308,7 +308,10 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         course_.errors.end_at(step.gap);
     else // An extension that is wrong acts on with the larger ones that follow: twice.
         course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
-    course_.errors.add_step(step.sigma);
+    if (step.uncertain > 0.0)
+        course_.errors.add_bracketed(step.sigma);
+    else
+        course_.errors.add_smooth(step.sigma, step.lost);
     const double way = std::abs(at - this->at());
     if (jumped && !step.smooth) course_.errors.add_instability(at, way, step.lost);
     if (options_.velocity > 0.0) record_.time += time_of(way);

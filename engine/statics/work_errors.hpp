@@ -8,7 +8,8 @@
 // of it, work less energy gained, is summed as lost; it differs from the energy lost by the error
 // of the work. Small patches that jump at unknown places in the steps make errors of either sign,
 // which add up as the root of their squares (ForceTrail, StepDecision::sigma), so that the error
-// for each site falls with the size of the box.
+// for each site falls with the size of the box. It is no larger than what all these steps miss:
+// where nothing jumps they miss less than the polynomials might.
 //
 // On a path on which nothing is lost the work of a step is the difference of the energies of its
 // ends. The works add up to the difference of the energies of the ends of the segment, and the
@@ -41,8 +42,14 @@ public:
     void end_at(double error) { end_ = error; }
     /// Adds an error of a step that has the same sign in all steps, eV.
     void add_gap(double gap) { gap_ += std::abs(gap); }
-    /// Adds the standard deviation of the work of a step, eV.
-    void add_step(double sigma) { squares_ += sigma * sigma; }
+    /// Adds a step without an instability that could be told. sigma: standard deviation of its
+    /// work, eV; missing: work less energy gained, eV.
+    void add_smooth(double sigma, double missing) {
+        smooth_ += sigma * sigma;
+        missing_ += std::abs(missing);
+    }
+    /// Adds the standard deviation of the work of a step that passes an instability, eV.
+    void add_bracketed(double sigma) { squares_ += sigma * sigma; }
     /// Adds what an instability may have taken along, or left to others. at: end of its step, Å;
     /// step: length of the step, Å; lost: energy lost, eV.
     void add_instability(double at, double step, double lost) {
@@ -55,13 +62,17 @@ public:
     }
     /// Returns the standard error, eV: the gaps, the errors of both ends, and the root of the sum
     /// of the variances.
-    double total() const { return gap_ + start_ + end_ + std::sqrt(squares_); }
+    double total() const {
+        return gap_ + start_ + end_ + std::sqrt(std::min(smooth_, missing_ * missing_) + squares_);
+    }
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("gap", gap_);
         v("start", start_);
         v("end", end_);
+        v("smooth", smooth_);
+        v("missing", missing_);
         v("squares", squares_);
         v("first", first_);
         v("before", before_);
@@ -71,7 +82,9 @@ private:
     double gap_ = 0.0;     ///< sum of the errors that have the same sign in all steps, eV
     double start_ = 0.0;   ///< error of the energy at the beginning, eV
     double end_ = 0.0;     ///< error of the energy at the last point, eV
-    double squares_ = 0.0; ///< sum of the variances, eV^2
+    double smooth_ = 0.0;  ///< sum of the variances of smooth steps, eV^2
+    double missing_ = 0.0; ///< sum of what smooth steps miss, without sign, eV
+    double squares_ = 0.0; ///< sum of the other variances, eV^2
     double first_ = 0.0;   ///< place of the first instability, Å
     double before_ = 0.0;  ///< number of instabilities so far
 };

@@ -201,14 +201,14 @@ TEST(WorkErrors, CountWhatAnInstabilityMayTakeAlong) {
     const auto total = [](double step) {
         WorkErrors errors;
         for (int i = 0; i < 5; ++i) {
-            errors.add_step(1e-4);
+            errors.add_bracketed(1e-4);
             errors.add_instability(0.5 * i, step, 2.0);
         }
         return errors.total();
     };
     WorkErrors one;
     one.add_gap(-1e-3);
-    one.add_step(3e-4);
+    one.add_bracketed(3e-4);
     one.add_instability(3.0, 0.01, 2.0);
     EXPECT_NEAR(one.total(), 1e-3 + 3e-4, 1e-12);
     // One every 0.5 Å before the fifth, counted from the first: p = 0.01 i / (0.5 i).
@@ -250,7 +250,7 @@ TEST(WorkErrors, OfManySmallPatchesAreStandardErrors) {
                     decide(last, next, trail, {.missing = 1.0, .uncertain = 1.0});
                 ASSERT_EQ(d.verdict, StepDecision::accept);
                 lost += d.lost;
-                errors.add_step(d.sigma);
+                errors.add_smooth(d.sigma, d.lost);
                 trail.add(next.at, next.force);
                 last = next;
             }
@@ -262,6 +262,28 @@ TEST(WorkErrors, OfManySmallPatchesAreStandardErrors) {
         EXPECT_GT(squares, 0.5) << patches;
         EXPECT_LT(squares, 1.2) << patches;
     }
+}
+
+/// Without patches the error is no larger than what the steps miss, and covers it.
+TEST(WorkErrors, OfASmoothForceAreWhatItsStepsMiss) {
+    const auto wave = [](double x) { return PathPoint{x, std::sin(x), std::cos(x)}; };
+    WorkErrors errors;
+    ForceTrail trail;
+    trail.begin(-0.4, wave(-0.4).force);
+    trail.add(-0.2, wave(-0.2).force);
+    trail.add(0.0, wave(0.0).force);
+    double missing = 0.0, largest = 0.0;
+    for (int i = 0; i < 40; ++i) {
+        const PathPoint last = wave(0.2 * i), next = wave(0.2 * (i + 1));
+        const StepDecision d = decide(last, next, trail, {.missing = 1.0, .uncertain = 1.0});
+        errors.add_smooth(d.sigma, d.lost);
+        missing += d.lost;
+        largest += std::abs(d.lost);
+        trail.add(next.at, next.force);
+    }
+    EXPECT_LE(errors.total(), largest);
+    EXPECT_GE(errors.total(), std::abs(missing));
+    EXPECT_GT(largest, 0.0);
 }
 
 /// Where nothing is lost the works of steps are differences of energies: only the ends count, and
