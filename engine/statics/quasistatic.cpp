@@ -308,8 +308,13 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         course_.errors.end_at(step.gap);
     else // An extension that is wrong acts on with the larger ones that follow: twice.
         course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
+    // A block that jumps as a whole does so early or late by what the tolerance allows, which no
+    // sum of squares covers: bounds.
+    const bool whole = options_.along == Constraint::Of::top;
     if (step.uncertain > 0.0)
-        course_.errors.add_bracketed(step.sigma);
+        course_.errors.add_bracketed(whole ? 3.0 * step.uncertain : step.sigma);
+    else if (whole)
+        course_.errors.add_gap(step.lost);
     else
         course_.errors.add_smooth(step.sigma, step.lost);
     const double way = std::abs(at - this->at());
