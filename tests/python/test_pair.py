@@ -15,6 +15,7 @@ from asperity.running import program
 from asperity.running.scene import assignments, toml_of
 from asperity.studies.estimates import surface_made
 from asperity.studies.stress import stresses_in
+from asperity.units import GIGAPASCAL
 from conftest import ROOT, command
 
 sys.path.insert(0, str(ROOT / "scenes/validation"))
@@ -133,7 +134,9 @@ def test_swapped_solids_are_the_same(tmp_path, maps, coated):
     assert abs(both.substrate.height[:, ::-1] - coated.substrate.height).max() < 1e-12
     assert both.number("surface.rms") == pytest.approx(coated.number("surface.rms"), rel=1e-12)
     pressure = coated.fields["relaxed"].pressure
-    assert abs(both.fields["relaxed"].pressure[:, ::-1] - pressure).max() < 1e-12 * pressure.max()
+    # Mirrored sums round otherwise: each state is exact to its residual forces.
+    left = sum(state.number("relaxed.residual_force") for state in (both, coated))
+    assert abs(both.fields["relaxed"].pressure[:, ::-1] - pressure).max() < left / coated.number("scene.surface.spacing") ** 2 / GIGAPASCAL
     assert both.number("surface.own.rms") == pytest.approx(coated.number("surface.counter.rms"), rel=1e-12)
 
 
