@@ -68,8 +68,7 @@
 namespace asperity {
 
 /// Gives a block the memories of the sites of its interface, such as the set of a surface that
-/// yields (plastic_set.hpp). Keeps
-/// references to both.
+/// yields (plastic_set.hpp). Keeps references to both.
 void remember_sites(SpectralBlock& block, Interface& interface);
 
 /// A quasi-static path of a block over an interface.
