@@ -82,7 +82,7 @@ RelaxedState LastPoint::settle(double velocity, const Report& report) {
     RelaxOptions options = relax_options(report);
     const double enough = options_.tolerance;
     for (int turn = 0; turn < most_turns; ++turn) {
-        const double left = block_.follow(pattern);
+        const double left = block_.begin_turn(pattern);
         if (left <= enough) break;
         options.tolerance = std::clamp(closer * left, enough, loosest * enough);
         const RelaxedState state = relax(block_, interface_, constraint(at_), options, phases_);

@@ -59,25 +59,25 @@ double QuasistaticPath::allowed_missing_in_time(double way, double tolerance) co
 /// Returns the step of the path, Å; of a slide over a wall it is half a spacing of the sites if
 /// that is longer: every wave of the map is then seen four times.
 double QuasistaticPath::usual_step() const {
-    const bool sideways = course_.along == Along::x || course_.along == Along::y;
+    const bool sideways = segment_.along == Along::x || segment_.along == Along::y;
     if (!sideways || !options_.over_wall) return options_.step;
     return std::max(options_.step, 0.5 * block_.options().spacing);
 }
 
 /// Returns the length of the longest step, Å; a hold is bounded by its errors alone.
 double QuasistaticPath::longest_step() const {
-    return course_.along == Along::time ? HUGE_VAL : usual_step();
+    return segment_.along == Along::time ? HUGE_VAL : usual_step();
 }
 
 QuasistaticPath::Outcome QuasistaticPath::advance() {
-    if (course_.comes_to_rest) return come_to_rest();
-    if (course_.settles) return settle();
-    if (course_.direction == 0.0) return course_.load ? Outcome::at_load : Outcome::there;
+    if (segment_.comes_to_rest) return come_to_rest();
+    if (segment_.settles) return settle();
+    if (segment_.direction == 0.0) return segment_.load ? Outcome::at_load : Outcome::there;
     for (;;) {
         const Try t = plan();
         last_.relax_to(0.25 * t.tolerance);
         const long long iterations = last_.iterations();
-        const bool any_force = t.all_the_way || t.last || course_.along != Along::z;
+        const bool any_force = t.all_the_way || t.last || segment_.along != Along::z;
         const RelaxedState state =
             last_.relax_at(t.there, time_of(t.way), options_.report,
                            any_force ? ForceWindow{} : acceptable_force(t.there));
@@ -87,13 +87,13 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
             last_.set_iterations(iterations);
             return Outcome::interrupted;
         }
-        course_.aim.count();
+        segment_.aim.count();
         if (t.all_the_way) bracket_.reset();
         if (!state.converged && t.last) refuse_place(state, t.there);
         // A load is met by shorter steps than instabilities are followed with.
         const bool shortens = t.way > 1e-6 * smallest_step();
         if (state.converged && to_load() && passes_load(state) && shortens) {
-            course_.aim.pass({t.there, state.force}, at());
+            segment_.aim.pass({t.there, state.force}, at());
             continue;
         }
         if (state.converged) {
@@ -106,7 +106,7 @@ QuasistaticPath::Outcome QuasistaticPath::advance() {
                 accept(state, t.there, step);
                 if (t.arrives) length_ = std::max(length_, t.length);
                 const Outcome made = outcome();
-                if (made == Outcome::at_load) length_ = std::max(length_, course_.aim.uncut());
+                if (made == Outcome::at_load) length_ = std::max(length_, segment_.aim.uncut());
                 return made;
             }
             // A step that is only loose or coarse passes no instability: there is none to bracket.
@@ -127,13 +127,13 @@ QuasistaticPath::Try QuasistaticPath::plan() {
     if (std::isfinite(last_.last_dt())) // at most twice as long as the step that it continues
         length_ = std::min(length_, 2.0 * last_.last_dt() * options_.velocity);
     if (to_load())
-        length_ = course_.aim.cut(length_, course_.direction, trail_, course_.rule.aim(),
-                                  options_.reversible());
+        length_ = segment_.aim.cut(length_, segment_.direction, trail_, segment_.rule.aim(),
+                                   options_.reversible());
     t.length = length_;
-    const double left = course_.end ? course_.direction * (*course_.end - at()) : HUGE_VAL;
+    const double left = segment_.end ? segment_.direction * (*segment_.end - at()) : HUGE_VAL;
     t.arrives = left <= length_;
     if (t.arrives) length_ = left;
-    t.there = t.arrives ? *course_.end : at() + course_.direction * length_;
+    t.there = t.arrives ? *segment_.end : at() + segment_.direction * length_;
     t.way = std::abs(t.there - at());
     t.last = length_ <= smallest_step();
     t.tolerance = tolerance_to(t.there);
@@ -151,20 +151,20 @@ StepDecision QuasistaticPath::judge(const RelaxedState& state, const Try& t) con
 
 /// Returns the outcome of a step that was made.
 QuasistaticPath::Outcome QuasistaticPath::outcome() {
-    if (course_.end) return at() == *course_.end ? Outcome::there : Outcome::point;
+    if (segment_.end) return at() == *segment_.end ? Outcome::there : Outcome::point;
     // Without attraction a surface with a set is apart far below the heights that it had.
     const bool clear =
         interface_.yielding_wall() && !options_.attracts() && record_.in_contact == 0;
     const bool beyond = interface_.reference_height() + record_.top >= interface_.start_height();
     const bool apart = (clear || beyond) && std::abs(record_.force) <= 1e-6 * strongest_;
-    switch (course_.rule.look(record_.force, apart, slack(record_.in_contact),
-                              course_.aim.take_was_cut())) {
+    switch (segment_.rule.look(record_.force, apart, slack(record_.in_contact),
+                               segment_.aim.take_was_cut())) {
     case SegmentRule::End::at_load:
         return Outcome::at_load;
     case SegmentRule::End::apart:
         // A viscoelastic block may still be stretched: the next point is the one at rest.
-        course_.comes_to_rest = options_.velocity > 0.0;
-        return course_.comes_to_rest ? Outcome::point : Outcome::apart;
+        segment_.comes_to_rest = options_.velocity > 0.0;
+        return segment_.comes_to_rest ? Outcome::point : Outcome::apart;
     case SegmentRule::End::no:
         break;
     }
@@ -187,7 +187,7 @@ QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
         before.energy - record_.dissipated() - state[Term::interface] - state[Term::elastic], 0.0);
     const PathPoint there = point(state, at());
     accept(state, at(), {.gap = before.energy - there.energy, .smooth = false});
-    course_.comes_to_rest = false;
+    segment_.comes_to_rest = false;
     return Outcome::apart;
 }
 
@@ -196,7 +196,8 @@ QuasistaticPath::Outcome QuasistaticPath::come_to_rest() {
 QuasistaticPath::Outcome QuasistaticPath::settle() {
     const long long iterations = last_.iterations();
     last_.relax_to(0.25 * tolerance_at(record_.force));
-    const RelaxedState state = last_.settle(course_.direction * options_.velocity, options_.report);
+    const RelaxedState state =
+        last_.settle(segment_.direction * options_.velocity, options_.report);
     if (state.interrupted) {
         last_.set_iterations(iterations);
         return Outcome::interrupted;
@@ -204,14 +205,14 @@ QuasistaticPath::Outcome QuasistaticPath::settle() {
     if (!state.converged) refuse_place(state, at());
     last_.accept(at());
     const double gained = state.stored() - record_.stored();
-    course_.flows[Term::work] += gained;
-    course_.settling = gained + course_.held.value_or(0.0) * (lifted(state) - record_.top);
+    segment_.flows[Term::work] += gained;
+    segment_.settling = gained + segment_.held.value_or(0.0) * (lifted(state) - record_.top);
     record_[Term::work] += gained;
     ++record_.step;
     set_record(state, at());
     trail_.begin(at(), force());
     turn();
-    course_.settles = false;
+    segment_.settles = false;
     return Outcome::point;
 }
 
@@ -231,7 +232,7 @@ double QuasistaticPath::slack(std::int64_t in_contact) const {
 /// Returns the tolerance at a point with this force: that of the load to which the segment leads,
 /// if the force comes down to it.
 double QuasistaticPath::tolerance_at(double force) const {
-    const bool of_load = to_load() && course_.direction > 0.0;
+    const bool of_load = to_load() && segment_.direction > 0.0;
     return tolerance_under(of_load ? std::max(force, load()) : force);
 }
 
@@ -239,7 +240,7 @@ double QuasistaticPath::tolerance_at(double force) const {
 /// it is known.
 double QuasistaticPath::tolerance_to(double to) const {
     double force = record_.force;
-    if (course_.along == Along::z) force = std::min(force, trail_.continued(to));
+    if (segment_.along == Along::z) force = std::min(force, trail_.continued(to));
     return tolerance_at(force);
 }
 
@@ -254,9 +255,9 @@ double QuasistaticPath::energy_error() const {
 /// Returns true if the load lies between the last point and this state, or if the attraction was
 /// too weak to be told from the slack.
 bool QuasistaticPath::passes_load(const RelaxedState& state) const {
-    const double aim = course_.rule.aim();
+    const double aim = segment_.rule.aim();
     const double slack = this->slack(state.in_contact);
-    if (course_.direction > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
+    if (segment_.direction > 0.0) return record_.force >= aim - slack && state.force < aim - slack;
     return record_.force <= aim + slack && state.force > aim + slack;
 }
 
@@ -292,35 +293,35 @@ ForceWindow QuasistaticPath::acceptable_force(double to) const {
 
 void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDecision& step) {
     // A load works as well.
-    const double pressed = -course_.held.value_or(0.0) * (lifted(state) - record_.top);
+    const double pressed = -segment_.held.value_or(0.0) * (lifted(state) - record_.top);
     Energies flows;
     flows.take_flows(state); // losses of memories in the step
     flows[Term::work] = step.work + pressed;
     const bool jumped = step.verdict == StepDecision::jump;
     flows[Term::lost] = jumped ? step.lost : std::max(0.0, owed_ + step.lost);
     if (!jumped) owed_ = std::min(0.0, owed_ + step.lost);
-    course_.flows += flows;
+    segment_.flows += flows;
     record_ += flows;
-    record_[Term::lost] = course_.start[Term::lost] + course_.flows[Term::lost]; // by segments
-    if (course_.along == Along::x || course_.along == Along::y) course_.lateral += step.work;
-    if (step.of_energies) course_.work_left_out += step.gap;
+    record_[Term::lost] = segment_.start[Term::lost] + segment_.flows[Term::lost]; // by segments
+    if (segment_.along == Along::x || segment_.along == Along::y) segment_.lateral += step.work;
+    if (step.of_energies) segment_.work_left_out += step.gap;
     if (options_.reversible() && !any_stays_at_rest(block_.memories())) // no error is kept
-        course_.errors.end_at(step.gap);
+        segment_.errors.end_at(step.gap);
     else // An extension that is wrong acts on with the larger ones that follow: twice.
-        course_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
+        segment_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
     // A block that jumps as a whole does so early or late by what the tolerance allows, which no
     // sum of squares covers: bounds.
     const bool whole = options_.along == Constraint::Of::top;
     if (step.uncertain > 0.0)
-        course_.errors.add_bracketed(whole ? 3.0 * step.uncertain : step.sigma);
+        segment_.errors.add_bracketed(whole ? 3.0 * step.uncertain : step.sigma);
     else if (whole)
-        course_.errors.add_gap(step.lost);
+        segment_.errors.add_gap(step.lost);
     else
-        course_.errors.add_smooth(step.sigma, step.lost);
+        segment_.errors.add_smooth(step.sigma, step.lost);
     const double way = std::abs(at - this->at());
-    if (jumped && !step.smooth) course_.errors.add_instability(at, way, step.lost);
+    if (jumped && !step.smooth) segment_.errors.add_instability(at, way, step.lost);
     if (options_.velocity > 0.0) record_.time += time_of(way);
-    if (course_.along != Along::time) way_ += way;
+    if (segment_.along != Along::time) way_ += way;
     refuse_to_creep(way);
     if (jumped) {
         dissipation_.add(describe(state, step.lost));

@@ -79,14 +79,14 @@ public:
 
     /// Starts from the undisplaced block beyond the interaction range. Collective.
     void start();
-    /// Options of a start from the present state of the block. from_apart: works count from the
-    /// solids at rest apart, otherwise from the present state. remembers: the branches keep their
-    /// extensions; otherwise the block has relaxed.
-    struct Here {
+    /// A start from the present state of the block. from_apart: works count from the solids at rest
+    /// apart, otherwise from the present state. remembers: the branches keep their extensions;
+    /// otherwise the block has relaxed.
+    struct StartOptions {
         bool from_apart = false, remembers = false;
     };
     /// Starts from the present state of the block. Collective.
-    void start_here(Here here);
+    void start_here(StartOptions options);
 
     /// Begins a segment. number: index in the path, for records of instabilities.
     void begin(const Segment& segment, std::size_t number = 0);
@@ -109,25 +109,25 @@ public:
     /// Returns the work done on the block and the losses in the current segment, eV. At a
     /// prescribed mean height the work is minus that of the interface's force, because the mean
     /// height does not jump. Work minus stored() minus all losses is zero within uncertainty().
-    const Energies& in_segment() const { return course_.flows; }
-    double work() const { return course_.flows[Term::work]; }
+    const Energies& in_segment() const { return segment_.flows; }
+    double work() const { return segment_.flows[Term::work]; }
     /// Returns the distance from the beginning of the current segment, Å.
-    double way() const { return std::abs(at() - course_.from); }
+    double way() const { return std::abs(at() - segment_.from); }
     /// Returns the part of work() that moves the block sideways, eV.
-    double lateral_work() const { return course_.lateral; }
+    double lateral_work() const { return segment_.lateral; }
     /// Returns the work of the forces in the current segment less work(), eV: the difference of two
     /// ways to the work of a viscoelastic block, of second and fourth order in the steps.
-    double work_left_out() const { return course_.work_left_out; }
+    double work_left_out() const { return segment_.work_left_out; }
     /// Returns the part of work() that brought the block into the shape in which it slides
     /// steadily, before the first step of a slide, eV.
-    double settling_work() const { return course_.settling; }
+    double settling_work() const { return segment_.settling; }
     /// Returns the uncertainty of work() and of the energy dissipated in the segment, eV
     /// (work_errors.hpp; docs/explanation/relaxation.md states how often the true error is within
     /// it).
-    double uncertainty() const { return course_.errors.total(); }
+    double uncertainty() const { return segment_.errors.total(); }
     /// Returns the change of the energy of interface and block, branches included, in the current
     /// segment, eV.
-    double stored() const { return record_.stored() - course_.start.stored(); }
+    double stored() const { return record_.stored() - segment_.start.stored(); }
     const Dissipation& dissipation() const { return dissipation_; }
     /// Returns the uncertainty of the force of the last point, eV/Å.
     double slack() const { return slack(record_.in_contact); }
@@ -151,7 +151,7 @@ public:
 private:
     using Along = LastPoint::Along;
     /// Numbers of the segment under way.
-    struct Course {
+    struct SegmentState {
         Segment::Kind kind = Segment::approach;
         std::size_t number = 0;     ///< number in the path
         Along along = Along::z;     ///< coordinate that the segment leads
@@ -210,11 +210,12 @@ private:
     double force() const;
     double time_of(double step) const;
     bool is_short_in_time(double step) const;
-    std::size_t axis() const { return static_cast<std::size_t>(course_.along); }
+    std::size_t axis() const { return static_cast<std::size_t>(segment_.along); }
     /// Returns the last point. Its energy includes the energy that memories have dissipated.
     PathPoint point() const {
         return {at(), force(),
-                record_.stored() + record_.dissipated() + course_.held.value_or(0.0) * record_.top};
+                record_.stored() + record_.dissipated() +
+                    segment_.held.value_or(0.0) * record_.top};
     }
     /// Returns the coordinate on which a load acts, Å: the displacement of the top plane, or the
     /// mean height of the lowest layer.
@@ -234,9 +235,9 @@ private:
     void refuse_whole_yield(const RelaxedState& state, double at) const;
     [[noreturn]] void refuse_place(const RelaxedState& state, double at) const;
     double slack(std::int64_t in_contact) const;
-    double load() const { return course_.load.value_or(options_.load); }
+    double load() const { return segment_.load.value_or(options_.load); }
     /// Returns true if the segment under way ends at a load.
-    bool to_load() const { return !course_.end && course_.kind != Segment::pull_off; }
+    bool to_load() const { return !segment_.end && segment_.kind != Segment::pull_off; }
     bool passes_load(const RelaxedState& state) const;
     bool bisect();
     StepDecision judge(const RelaxedState& state, const Try& t) const;
@@ -245,7 +246,7 @@ private:
     void accept(const RelaxedState& state, double at, const StepDecision& step);
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
-    void first_point(double top, Here here);
+    void first_point(double top, StartOptions options);
     double usual_step() const;
     double longest_step() const;
     double smallest_step() const;
@@ -282,7 +283,7 @@ private:
     LastPoint last_;
     StepRecord record_; ///< record of the last point
     ForceTrail trail_;
-    Course course_;
+    SegmentState segment_;
     double length_ = 0.0; ///< length of the next step, Å
     /// Far end of an interval that is bisected: between the last point and this place the block
     /// becomes unstable, or the force is not smooth enough to exclude an instability.
@@ -299,7 +300,7 @@ void QuasistaticPath::visit(Visitor& v) {
     v("record", record_);
     v("last", last_);
     v("trail", trail_);
-    v("course", course_);
+    v("segment", segment_);
     v("length", length_);
     v("bracket", bracket_);
     v("dissipation", dissipation_);

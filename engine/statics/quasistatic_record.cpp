@@ -19,7 +19,7 @@ namespace asperity {
 
 /// Returns the force on the prescribed coordinate, eV/Å; 0 for a hold.
 double QuasistaticPath::force() const {
-    switch (course_.along) {
+    switch (segment_.along) {
     case Along::z:
         return record_.top_force;
     case Along::time:
@@ -31,7 +31,7 @@ double QuasistaticPath::force() const {
 
 void QuasistaticPath::refuse_place(const RelaxedState& state, double at) const {
     throw io::PhysicsError(fmt::format("no equilibrium was found with the {} {:.6g} Å",
-                                       course_.along != Along::z ? "block moved sideways by"
+                                       segment_.along != Along::z ? "block moved sideways by"
                                        : options_.along == Constraint::Of::top
                                            ? "top plane displaced by"
                                            : "mean height displaced by",
@@ -55,8 +55,8 @@ void QuasistaticPath::refuse_whole_yield(const RelaxedState& state, double at) c
 /// row than instabilities take: the path would go on for days.
 void QuasistaticPath::refuse_to_creep(double way) {
     constexpr std::int64_t most = 300;
-    course_.crept = way <= smallest_step() ? course_.crept + 1 : 0;
-    if (course_.crept < most) return;
+    segment_.crept = way <= smallest_step() ? segment_.crept + 1 : 0;
+    if (segment_.crept < most) return;
     throw io::PhysicsError(
         fmt::format("the path does not get on: the last {} points are {:.2g} Å apart, as close "
                     "as points can be",
@@ -88,20 +88,20 @@ std::array<double, 2> QuasistaticPath::lateral_force() const {
 }
 
 PathPoint QuasistaticPath::point(const RelaxedState& state, double at) const {
-    const double force = course_.along == Along::z      ? state.top_force
-                         : course_.along == Along::time ? 0.0
-                                                        : lateral_force()[axis()];
+    const double force = segment_.along == Along::z      ? state.top_force
+                         : segment_.along == Along::time ? 0.0
+                                                         : lateral_force()[axis()];
     return {at, force,
             state.stored() + record_.dissipated() + state.dissipated() +
-                course_.held.value_or(0.0) * lifted(state)};
+                segment_.held.value_or(0.0) * lifted(state)};
 }
 
 void QuasistaticPath::set_record(const RelaxedState& state, double at) {
-    if (course_.along == Along::z)
+    if (segment_.along == Along::z)
         record_.drive = at;
-    else if (course_.along != Along::time)
+    else if (segment_.along != Along::time)
         record_.slide[axis()] = at;
-    if (course_.held)
+    if (segment_.held)
         record_.drive = options_.along == Constraint::Of::top ? block_.drive() : state.mean_height;
     if (interface_.options().slides) record_.lateral_force = lateral_force();
     record_.top = options_.along == Constraint::Of::top ? state.top : record_.drive;
@@ -127,7 +127,7 @@ void QuasistaticPath::set_record(const RelaxedState& state, double at) {
 Instability QuasistaticPath::describe(const RelaxedState& state, double energy) const {
     Instability instability;
     instability.energy = energy;
-    instability.segment = course_.number;
+    instability.segment = segment_.number;
     instability.top = record_.top;
     instability.height_before = record_.mean_height;
     instability.height_after = interface_.reference_height() + state.mean_height;

@@ -89,13 +89,13 @@ void QuasistaticPath::start() {
     first_point(0.0, {.from_apart = true});
 }
 
-void QuasistaticPath::start_here(Here here) {
+void QuasistaticPath::start_here(StartOptions options) {
     first_point(options_.along == Constraint::Of::top ? block_.drive() : block_.mean_height(),
-                here);
+                options);
 }
 
-void QuasistaticPath::first_point(double top, Here here) {
-    const double dt = here.remembers ? 0.0 : units::forever;
+void QuasistaticPath::first_point(double top, StartOptions options) {
+    const double dt = options.remembers ? 0.0 : units::forever;
     block_.begin_step(dt);
     last_.accept(top);
     const RelaxedState state = last_.relax_at(top, dt, {});
@@ -105,12 +105,12 @@ void QuasistaticPath::first_point(double top, Here here) {
                                "a larger drive.tolerance, or a height further from the substrate");
     last_.accept(top);
     record_.step = 0;
-    record_[Term::work] = here.from_apart ? state.stored() : 0.0;
+    record_[Term::work] = options.from_apart ? state.stored() : 0.0;
     balance_.begin(state.stored() - record_[Term::work]);
     owed_ = 0.0;
     set_record(state, top);
     trail_.begin(top, state.top_force);
-    if (!here.from_apart) turn();
+    if (!options.from_apart) turn();
 }
 
 void QuasistaticPath::restored() {
@@ -119,10 +119,10 @@ void QuasistaticPath::restored() {
 }
 
 void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
-    course_.number = number;
-    course_.kind = segment.kind;
-    course_.end.reset();
-    course_.load.reset();
+    segment_.number = number;
+    segment_.kind = segment.kind;
+    segment_.end.reset();
+    segment_.load.reset();
     const Along along = segment.kind == Segment::hold    ? Along::time
                         : segment.kind != Segment::slide ? Along::z
                         : segment.axis == 0              ? Along::x
@@ -135,7 +135,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         direction = -1.0;
         break;
     case Segment::load: {
-        course_.load = segment.amount;
+        segment_.load = segment.amount;
         const double slack = this->slack(record_.in_contact);
         const bool apart = record_.in_contact == 0 && std::abs(record_.force) <= slack;
         if (apart || record_.force < segment.amount - slack)
@@ -148,26 +148,26 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
         begin_to(segment.amount - interface_.reference_height());
         return;
     case Segment::slide:
-        course_.end = from + segment.amount;
-        if (*course_.end != from) direction = *course_.end < from ? -1.0 : 1.0;
+        segment_.end = from + segment.amount;
+        if (*segment_.end != from) direction = *segment_.end < from ? -1.0 : 1.0;
         break;
     case Segment::hold:
-        course_.end = from + segment.amount * options_.velocity;
-        direction = *course_.end == from ? 0.0 : 1.0;
+        segment_.end = from + segment.amount * options_.velocity;
+        direction = *segment_.end == from ? 0.0 : 1.0;
         break;
     default: // a pull-off
         direction = 1.0;
     }
     begin(along, direction);
-    course_.settles = segment.until_steady && options_.velocity > 0.0;
+    segment_.settles = segment.until_steady && options_.velocity > 0.0;
 }
 
 void QuasistaticPath::begin_to(double at) {
     if (options_.along == Constraint::Of::mean_height)
         refuse_deep(interface_.reference_height() + at, interface_, block_, options_.scales);
-    course_.kind = Segment::height;
-    course_.load.reset();
-    course_.end = at;
+    segment_.kind = Segment::height;
+    segment_.load.reset();
+    segment_.end = at;
     const double from = last_.lead(Along::z);
     hold_load({});
     begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
@@ -175,16 +175,16 @@ void QuasistaticPath::begin_to(double at) {
 
 /// Holds a load in place of what the path prescribes along z, or no longer.
 void QuasistaticPath::hold_load(std::optional<double> load) {
-    course_.held = load;
+    segment_.held = load;
     last_.press(load);
 }
 
 void QuasistaticPath::begin(Along along, double direction) {
-    if (along != course_.along || direction != course_.direction) {
+    if (along != segment_.along || direction != segment_.direction) {
         // No points of the segment before for the integral.
-        if (along != course_.along) trail_.reset_slope();
-        course_.along = along;
-        course_.direction = direction;
+        if (along != segment_.along) trail_.reset_slope();
+        segment_.along = along;
+        segment_.direction = direction;
         trail_.begin(at(), force());
         bracket_.reset();
         turn();
@@ -194,19 +194,19 @@ void QuasistaticPath::begin(Along along, double direction) {
     // on the top plane that is none of the contact's.
     double balance = std::numeric_limits<double>::infinity();
     if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
-    if (course_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
+    if (segment_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);
     const double a = block_.options().spacing;
-    course_.rule.begin(course_.kind, load(), direction < 0.0, box_sites_ * a * a, record_.force,
-                       slack(record_.in_contact));
-    course_.aim.begin();
-    course_.errors.begin();
-    course_.comes_to_rest = course_.settles = false;
-    course_.crept = 0;
-    course_.from = at();
-    course_.lateral = course_.settling = course_.work_left_out = 0.0;
-    course_.start = record_;
-    course_.flows = {};
+    segment_.rule.begin(segment_.kind, load(), direction < 0.0, box_sites_ * a * a, record_.force,
+                        slack(record_.in_contact));
+    segment_.aim.begin();
+    segment_.errors.begin();
+    segment_.comes_to_rest = segment_.settles = false;
+    segment_.crept = 0;
+    segment_.from = at();
+    segment_.lateral = segment_.settling = segment_.work_left_out = 0.0;
+    segment_.start = record_;
+    segment_.flows = {};
 }
 
 } // namespace asperity

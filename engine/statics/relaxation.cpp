@@ -214,8 +214,8 @@ bool balanced(Response& block, double force, const RelaxOptions& options, double
 
 /// Runs the loop of a method until it stagnates: stagnates(iteration, residual).
 template <class Minimiser, class Stagnates>
-RelaxedState follow(Minimiser& minimiser, Response& block, const RelaxOptions& options,
-                    double rounding, Stagnates stagnates) {
+RelaxedState iterate(Minimiser& minimiser, Response& block, const RelaxOptions& options,
+                     double rounding, Stagnates stagnates) {
     RelaxedState state;
     state.rounding = rounding;
     // The first moves take the force out of its window too, but not for long.
@@ -267,14 +267,14 @@ RelaxedState relax_over_wall(SpectralBlock& block, const Interface& interface,
     long long products = 0;
     if (options.start == Start::near) {
         WallNewton newton(block, interface, constraint, options, phases);
-        RelaxedState state = follow(newton, block, options, rounding,
-                                    [&](long long, double) { return newton.gives_up(); });
+        RelaxedState state = iterate(newton, block, options, rounding,
+                                     [&](long long, double) { return newton.gives_up(); });
         products = state.iterations = newton.products();
         if (state.converged || state.interrupted) return state;
         newton.put_back();
     }
     WallMinimiser minimiser(block, interface, options, phases);
-    RelaxedState state = follow(minimiser, block, options, rounding, StagnationTest());
+    RelaxedState state = iterate(minimiser, block, options, rounding, StagnationTest());
     state.iterations += products;
     return state;
 }
@@ -312,7 +312,7 @@ RelaxedState relax(SpectralBlock& block, const Interface& interface, const Const
     const double rounding = rounding_of_forces(options.scales, block.options(), height);
     if (wall) return relax_over_wall(block, interface, constraint, options, phases, rounding);
     Minimiser minimiser(block, interface, options, phases);
-    return follow(minimiser, block, options, rounding, StagnationTest());
+    return iterate(minimiser, block, options, rounding, StagnationTest());
 }
 
 } // namespace asperity

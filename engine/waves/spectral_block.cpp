@@ -28,7 +28,7 @@ void SpectralBlock::begin_step(double dt, double last) {
     factor_ = 1.0 + branches_->stiffening();
 }
 
-double SpectralBlock::follow(const MovingPattern& pattern) {
+double SpectralBlock::begin_turn(const MovingPattern& pattern) {
     const bool first = !pattern_;
     if (first) begin_step(HUGE_VAL); // relaxed, and nothing is known
     pattern_ = pattern;

@@ -43,7 +43,7 @@ public:
     /// from the present shape; begin_step() ends the iterations. Returns the root mean square of
     /// the change of the known forces since the last turn, eV/Å, a measure of the distance from the
     /// steady shape; infinite at the first turn. The block must have branches. Collective.
-    double follow(const MovingPattern& pattern);
+    double begin_turn(const MovingPattern& pattern);
     /// Sets the extensions of the branches to those of the present shape as a moving pattern, with
     /// the moduli of the last turn. Collective.
     void settle_branches();
