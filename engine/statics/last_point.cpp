@@ -113,6 +113,18 @@ std::function<double(int, int)> LastPoint::moves() const {
     };
 }
 
+std::int64_t LastPoint::sites_moved() const {
+    const double far = 0.5 * largest_move().value;
+    const auto moved = moves();
+    const auto layer = block_.lowest_layer();
+    std::array<std::int64_t, 1> count = {0};
+    for (int y = 0; y < layer.x.ny; ++y)
+        for (int x = 0; x < layer.x.nx; ++x)
+            count[0] += moved(x, y) > far;
+    block_.communicator().sum(count);
+    return count[0];
+}
+
 double LastPoint::all_moves() const {
     const auto moved = moves();
     const auto layer = block_.lowest_layer();

@@ -87,6 +87,8 @@ public:
     LargestSite largest_move() const {
         return global_largest(block_.communicator(), interface_.tile(), moves());
     }
+    /// Returns the number of sites that have moved more than half as far. Collective.
+    std::int64_t sites_moved() const;
 
     /// Passes the numbers to a visitor, for checkpoints.
     template <class Visitor>

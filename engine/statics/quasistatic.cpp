@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace asperity {
 
@@ -284,6 +285,24 @@ bool QuasistaticPath::work_is_known(double to, double there) const {
            0.5 * step * trail_.jump(to, there) <= allowed_uncertainty(tolerance);
 }
 
+/// Returns how early or late the block may have become unstable in the last relaxation, Å: forces
+/// of twice the relaxation's tolerance, which may be left before and beyond the instability, on all
+/// sites that moved, over the stiffness with which the drive presses them. This is the stiffness of
+/// the wave that bears the load of a punch of their area with the punch's displacement, q = 4/(pi
+/// a), in series with the uniform stretch if the top plane is led. Collective.
+double QuasistaticPath::error_of_place() const {
+    const BlockOptions& block = block_.options();
+    const int n = block.grid();
+    const double radius =
+        std::sqrt(std::max(1.0, static_cast<double>(last_.sites_moved())) / std::numbers::pi);
+    const int wave = std::clamp(
+        static_cast<int>(2.0 * n / (std::numbers::pi * std::numbers::pi * radius)), 1, n / 2);
+    double compliance = block.normal_compliance(wave_phase(wave, n), wave_phase(0, n));
+    if (options_.along == Constraint::Of::top && !block.free_edges)
+        compliance += block.normal_compliance(wave_phase(0, n), wave_phase(0, n));
+    return 2.0 * compliance * last_.tolerance();
+}
+
 /// Returns the interval of forces that continue the branch smoothly for a step to this place, half
 /// as wide again, because a fall of the force may partly reverse.
 ForceWindow QuasistaticPath::acceptable_force(double to) const {
@@ -309,16 +328,14 @@ void QuasistaticPath::accept(const RelaxedState& state, double at, const StepDec
         segment_.errors.end_at(step.gap);
     else // An extension that is wrong acts on with the larger ones that follow: twice.
         segment_.errors.add_gap(std::abs(step.gap) + 2.0 * state.error);
-    // A block that jumps as a whole does so early or late by what the tolerance allows, which no
-    // sum of squares covers: bounds.
-    const bool whole = options_.along == Constraint::Of::top;
-    if (step.uncertain > 0.0)
-        segment_.errors.add_bracketed(whole ? 3.0 * step.uncertain : step.sigma);
-    else if (whole)
-        segment_.errors.add_gap(step.lost);
-    else
-        segment_.errors.add_smooth(step.sigma, step.lost);
     const double way = std::abs(at - this->at());
+    if (!(step.uncertain > 0.0))
+        segment_.errors.add_smooth(step.sigma, step.lost);
+    else if (step.smooth)
+        segment_.errors.add_bracketed(step.sigma);
+    else // the force jumps by 2 step.uncertain/way
+        segment_.errors.add_bracketed(
+            std::hypot(step.sigma, 2.0 * step.uncertain / way * error_of_place()));
     if (jumped && !step.smooth) segment_.errors.add_instability(at, way, step.lost);
     if (options_.velocity > 0.0) record_.time += time_of(way);
     if (segment_.along != Along::time) way_ += way;

@@ -244,6 +244,7 @@ private:
     bool work_is_known(double at, double force) const;
     ForceWindow acceptable_force(double at) const;
     void accept(const RelaxedState& state, double at, const StepDecision& step);
+    double error_of_place() const;
     Instability describe(const RelaxedState& state, double energy) const;
     void set_record(const RelaxedState& state, double at);
     void first_point(double top, StartOptions options);

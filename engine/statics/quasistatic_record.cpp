@@ -137,17 +137,10 @@ Instability QuasistaticPath::describe(const RelaxedState& state, double energy) 
     instability.contact_before = record_.in_contact;
     instability.contact_after = state.in_contact;
     const LargestSite most = last_.largest_move();
-    std::array<std::int64_t, 1> count = {0};
-    const auto moved = last_.moves();
-    const auto layer = block_.lowest_layer();
-    for (int y = 0; y < layer.x.ny; ++y)
-        for (int x = 0; x < layer.x.nx; ++x)
-            count[0] += moved(x, y) > 0.5 * most.value;
-    block_.communicator().sum(count);
     instability.site_x = most.x;
     instability.site_y = most.y;
     instability.largest_move = most.value;
-    instability.sites_moved = count[0];
+    instability.sites_moved = last_.sites_moved();
     return instability;
 }
 

@@ -16,7 +16,9 @@
 // errors of the energies between cancel.
 //
 // The work of a step h that passes an instability has a standard deviation of h/sqrt(12) times the
-// jump of the force. The relaxation also starts up to h beyond the instability: a second patch that
+// jump of the force. The place of the instability is known to what the tolerance of the relaxation
+// moves it (QuasistaticPath::error_of_place()), which the jump of the force turns into an error of
+// the work. The relaxation also starts up to h beyond the instability: a second patch that
 // becomes unstable within h separates together with the first, and a patch that would have held
 // beyond h may be pulled along by its neighbour. After n instabilities on a distance w, another one
 // lies within h with probability p = h n/w; an unknown part of the energy E that the step loses,
