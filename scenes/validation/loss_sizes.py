@@ -14,26 +14,23 @@ import math
 import os
 import pathlib
 import statistics
-import sys
+
+import kept
+from printed import Printed
+
+import asperity
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))
-from printed import Printed  # noqa: E402
-
-import asperity  # noqa: E402
 
 SURFACES = {128: 16, 256: 4, 512: 2, 1024: 1}
 TOLERANCE, TIGHT = 2.5e-3, {512: 2.5e-4}
 
 
-def lost(out: pathlib.Path, sites: int, seed: int, tolerance: float) -> asperity.Result:
-    """Returns the finished run of this surface, made before or now."""
-    place = out / f"{sites}-{seed}-{tolerance:g}"
-    if (place / "result.json").exists():
-        return asperity.load(place)
-    return asperity.run(ROOT / "scenes/paper/fig2-quasistatic.toml", {
+def path_over(out: pathlib.Path, sites: int, seed: int, tolerance: float) -> asperity.Result:
+    """Returns the path over this surface."""
+    return kept.run(ROOT / "scenes/paper/fig2-quasistatic.toml", {
         "surface.rms": 1.5, "surface.sites": sites, "surface.rolloff": 3 * sites // 128, "surface.seed": seed, "block.thickness": 128,
-        "drive.tolerance": tolerance, "output.fields": [], "output.checkpoint": "none"}, place, progress=False)
+        "drive.tolerance": tolerance, "output.fields": [], "output.checkpoint": "none"}, out / f"{sites}-{seed}-{tolerance:g}")
 
 
 def main() -> None:
@@ -48,7 +45,7 @@ def main() -> None:
     kinds = [(sites, TOLERANCE, SURFACES[sites]) for sites in asked.sites]
     kinds += [(sites, TIGHT[sites], 1) for sites in asked.sites if sites in TIGHT]
     for sites, tolerance, surfaces in kinds:
-        runs = [lost(asked.out, sites, seed, tolerance) for seed in range(1, surfaces + 1)]
+        runs = [path_over(asked.out, sites, seed, tolerance) for seed in range(1, surfaces + 1)]
         cells = []
         for way in ("approach", "pull_off"):
             values = [getattr(run.lost, way) for run in runs]

@@ -16,13 +16,11 @@ import math
 import os
 import pathlib
 import random
-import sys
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "python"))
-from printed import Printed  # noqa: E402
+import kept
+from printed import Printed
 
-import asperity  # noqa: E402
+import asperity
 
 
 def soft_wall(number: int) -> dict:
@@ -55,7 +53,7 @@ def main() -> None:
     words.add_argument("--atoms", type=int, default=8, help="surfaces of each rms height over atoms")
     words.add_argument("--first", type=int, default=200, help="number of the first scene over a wall")
     words.add_argument("--sites", type=int, default=64, help="sites across the surfaces over atoms")
-    words.add_argument("--out", default="results/works")
+    words.add_argument("--out", type=pathlib.Path, default=pathlib.Path("results/works"))
     words.add_argument("--csv", type=pathlib.Path)
     asked = words.parse_args()
     os.environ.setdefault("OMP_NUM_THREADS", "1")  # few sites
@@ -70,9 +68,8 @@ def main() -> None:
     for name, tolerance, loose, tight, scenes in kinds:
         ratios, errors, stated = [], [], []
         for number, keys in enumerate(scenes):
-            at = f"{asked.out}/{name.replace(' ', '-').replace(',', '')}-{number}"
-            runs = [asperity.run({}, keys | more, out=f"{at}-{more.get('drive.tolerance', 'default')}", progress=False)
-                    for more in (loose, tight)]
+            at = f"{name.replace(' ', '-').replace(',', '')}-{number}"
+            runs = [kept.run({}, keys | more, asked.out / f"{at}-{more.get('drive.tolerance', 'default')}") for more in (loose, tight)]
             for (value, error), (exact, _) in zip(numbers(runs[0]), numbers(runs[1])):
                 ratios.append(abs(value - exact) / max(error, 1e-9))
                 errors.append(abs(value - exact))
