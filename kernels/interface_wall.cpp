@@ -6,7 +6,7 @@
 #include "kernels/interface_block.hpp"
 #include "kernels/pack_step.hpp"
 
-#include <limits>
+#include <cmath>
 #include <type_traits>
 
 namespace asperity::ASPERITY_VARIANT {
@@ -14,7 +14,7 @@ namespace asperity::ASPERITY_VARIANT {
 namespace {
 
 /// Height below every other one: a hole, whose height is NaN, is not above it.
-constexpr double below_all = -std::numeric_limits<double>::infinity();
+constexpr double below_all = -HUGE_VAL;
 
 /// Calls use(by_site, yields) with true or false as types: whether the law has factors at each
 /// site, and whether sites yield.

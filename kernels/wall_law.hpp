@@ -57,7 +57,7 @@ public:
         const Pair<P> pair(potential);
         contact_ = steepest();
         if (tail) {
-            reach_ = std::numeric_limits<double>::infinity();
+            reach_ = HUGE_VAL;
         } else {
             reach_ = potential.cutoff;
             shift_ = pair.shift;

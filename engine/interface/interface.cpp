@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
@@ -251,8 +250,7 @@ InterfaceMaps Interface::maps(const VectorPlane<const double>& displacement) con
                 const std::size_t i =
                     static_cast<std::size_t>(y) * nx + static_cast<std::size_t>(x);
                 const double r2 = sites.nearest_r2(x, y);
-                maps.distance[i] =
-                    r2 < no_pair ? std::sqrt(r2) : std::numeric_limits<double>::infinity();
+                maps.distance[i] = r2 < no_pair ? std::sqrt(r2) : HUGE_VAL;
                 maps.pressure[i] = sites.force.z(x, y) * to_gpa;
                 const double below =
                     wall() ? wall()->below(x, y)

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
-#include <limits>
 
 namespace asperity {
 
@@ -135,7 +134,7 @@ std::optional<SteadySlide> SlideAverage::means(const Lengths& lengths) const {
     const std::vector<double> work = rate(flow(Term::work));
     std::vector<double> lost(bins, 0.0); // all losses
     std::size_t first = 0;
-    double smallest = std::numeric_limits<double>::infinity();
+    double smallest = HUGE_VAL;
     for (std::size_t i = 0; i <= bins / 2; ++i)
         if (const double variance = variance_of_mean(work, i); variance < smallest) {
             smallest = variance;

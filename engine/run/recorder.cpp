@@ -15,7 +15,6 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
 #include <span>
 #include <tuple>
 #include <type_traits>
@@ -271,7 +270,7 @@ class GapDensity {
 public:
     /// Looks at the gaps of the first n x n sites of the box in this rank's tile. Collective.
     GapDensity(const Communicator& ranks, const Tile& tile, int n, const std::vector<double>& gap) {
-        double least = std::numeric_limits<double>::infinity(), greatest = -least;
+        double least = HUGE_VAL, greatest = -least;
         for (int y = 0; y < std::min(tile.ny, n - tile.y0); ++y)
             for (int x = 0; x < std::min(tile.nx, n - tile.x0); ++x) {
                 const double u = view_of(gap, tile)(x, y);

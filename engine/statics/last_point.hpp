@@ -12,8 +12,8 @@
 #include "engine/units.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -124,8 +124,8 @@ private:
     StateCopy state_;
     double at_ = 0.0;
     Along along_ = Along::z;
-    double balance_ = std::numeric_limits<double>::infinity(); ///< eV/Å
-    double normal_ = 0.0;                                      ///< prescribed value along z, Å
+    double balance_ = HUGE_VAL;     ///< eV/Å
+    double normal_ = 0.0;           ///< prescribed value along z, Å
     std::optional<double> load_;    ///< load held instead of normal_, eV/Å
     double clock_ = 0.0;            ///< coordinate along time, Å
     std::array<double, 2> place_{}; ///< place of the block over the substrate, Å

@@ -15,7 +15,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numeric>
 #include <span>
@@ -192,7 +191,7 @@ void QuasistaticPath::begin(Along along, double direction) {
     length_ = std::min(length_, longest_step());
     // Beside a load, or where a pull-off ends, forces within the tolerance would add up to a force
     // on the top plane that is none of the contact's.
-    double balance = std::numeric_limits<double>::infinity();
+    double balance = HUGE_VAL;
     if (to_load() && load() != 0.0) balance = 0.5 * load_accuracy * std::abs(load());
     if (segment_.kind == Segment::pull_off && strongest_ > 0.0) balance = 1e-4 * strongest_;
     last_.balance_to(balance);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace asperity {
@@ -146,9 +145,8 @@ double WallMinimiser::relax_sites(const SiteField<T>& elastic) {
 /// secant would still change must be small as well.
 template <class Excess>
 void WallMinimiser::balance(const Excess& excess_at, double enough) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
-    const double small = holder_.stiffness > 0.0 ? 0.1 * options_.tolerance : infinite;
-    double force = uniform_force_, excess = excess_at(force), low = -infinite, high = infinite;
+    const double small = holder_.stiffness > 0.0 ? 0.1 * options_.tolerance : HUGE_VAL;
+    double force = uniform_force_, excess = excess_at(force), low = -HUGE_VAL, high = HUGE_VAL;
     double next = force + excess;
     const auto found = [&] {
         return std::abs(excess) <= enough && std::abs(excess) <= small * fall_;
@@ -163,7 +161,7 @@ void WallMinimiser::balance(const Excess& excess_at, double enough) {
         excess = now;
         (excess > 0.0 ? low : high) = force;
         if (next > low && next < high) continue;
-        const bool between = low > -infinite && high < infinite;
+        const bool between = low > -HUGE_VAL && high < HUGE_VAL;
         next = between ? 0.5 * (low + high) : force + 2.0 * excess;
     }
     uniform_force_ = force;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace asperity {
 
@@ -21,7 +20,7 @@ WallNewton::WallNewton(SpectralBlock& block, const Interface& interface,
                        const Constraint& constraint, const RelaxOptions& options, Phases& phases)
     : block_(block), interface_(interface), phases_(phases), tolerance_(options.tolerance),
       furthest_(interface.wall()->attracts() ? Constants::move_max * options.scales.length
-                                             : std::numeric_limits<double>::infinity()),
+                                             : HUGE_VAL),
       u_(block.moving_layer(0)), held_(constraint.is_mean_height()),
       sites_(static_cast<double>(block.slab().sites) * block.slab().sites),
       spring_(block.stiffest_wave()), gradient_(block.new_field<double>()),

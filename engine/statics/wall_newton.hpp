@@ -39,7 +39,7 @@
 #include "engine/waves/preconditioner.hpp"
 #include "engine/waves/spectral_block.hpp"
 
-#include <limits>
+#include <cmath>
 #include <optional>
 
 namespace asperity {
@@ -104,10 +104,10 @@ private:
     double uniform_product_ = 0.0;   ///< uniform wave of S p, eV/Å
     double residual_ = 0.0;          ///< eV/Å
     long long products_ = 0;
-    bool unstable_ = false; ///< the curvature along a direction was negative
-    double smallest_ = std::numeric_limits<double>::infinity(); ///< smallest residual, eV/Å
-    int stalled_ = 0; ///< whole steps since the residual halved
-    int cut_ = 0;     ///< steps that were cut
+    bool unstable_ = false;      ///< the curvature along a direction was negative
+    double smallest_ = HUGE_VAL; ///< smallest residual, eV/Å
+    int stalled_ = 0;            ///< whole steps since the residual halved
+    int cut_ = 0;                ///< steps that were cut
     std::optional<Preconditioner> preconditioner_;
     SiteField<double> gradient_; ///< gradient of the energy at the sites, eV/Å
     SiteField<float> product_;   ///< N^2 S p without the uniform wave of p, eV/Å

@@ -30,7 +30,7 @@ void SpectralBlock::begin_step(double dt, double last) {
 
 double SpectralBlock::begin_turn(const MovingPattern& pattern) {
     const bool first = !pattern_;
-    if (first) begin_step(HUGE_VAL); // relaxed, and nothing is known
+    if (first) begin_step(units::forever); // relaxed, and nothing is known
     pattern_ = pattern;
     Waves<double> change = new_waves<double>();
     combine(-1.0, *memory_force_, 0.0, change);

@@ -12,7 +12,6 @@
 
 #include <cmath>
 #include <complex>
-#include <limits>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -125,7 +124,7 @@ TEST(Rate, TheModulusFallsByItsSeries) {
         rest.acting_stiffness(0, 0).zz * (0.3 + 0.2); // of the jump of the top, relaxed
     // At rest there, and from here moved by the top.
     block.constrain(Constraint::top(0.3));
-    block.begin_step(std::numeric_limits<double>::infinity());
+    block.begin_step(units::forever);
     block.end_step();
     double time = 0.0;
     block.begin_step(1e-12);
@@ -196,7 +195,7 @@ TEST(Rate, AStepThatContinuesAnotherFollowsTheParabola) {
                      dt = first * std::pow(2.0, place(random));
         const double d0 = place(random), d = place(random);
         block.set_uniform(0.0);
-        block.begin_step(std::numeric_limits<double>::infinity());
+        block.begin_step(units::forever);
         block.end_step();
         block.begin_step(first);
         block.set_uniform(d0);
@@ -245,12 +244,12 @@ TEST(Rate, TheErrorOfStepsInTimeFallsWithTheThirdPower) {
         std::vector<double> wrong, judged;
         for (const int n : {40, 80, 160}) {
             block.set_uniform(0.0);
-            block.begin_step(std::numeric_limits<double>::infinity());
+            block.begin_step(units::forever);
             block.end_step();
             double error = 0.0;
             StepEnergies energies;
             for (int i = 1; i <= n; ++i) {
-                block.begin_step(span / n, i == 1 ? HUGE_VAL : span / n);
+                block.begin_step(span / n, i == 1 ? units::forever : span / n);
                 block.set_uniform(std::pow(static_cast<double>(i) / n, 3));
                 energies = block.energies();
                 error += energies.error;
