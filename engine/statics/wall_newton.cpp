@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace asperity {
 
@@ -191,7 +192,7 @@ template <class Force>
 void WallNewton::respond(const Force& f) {
     const PlaneView<float> to = response_[0].plane(0);
     for_sites([&](int x, int y) { to(x, y) = static_cast<float>(damping(x, y) * f(x, y)); });
-    block_.respond(*preconditioner_, response_);
+    block_.respond(std::cref(*preconditioner_), response_);
 }
 
 /// Returns the site's component of P f after respond(). f: force on the site, eV/Å.
