@@ -112,7 +112,7 @@ public:
         return pressing_ ? std::optional(0.0) : std::nullopt;
     }
     /// Returns x of the largest g0, next to the root on a coarser grid.
-    [[nodiscard]] std::optional<double> follow(double x, double& missed) const {
+    [[nodiscard]] std::optional<double> search_near(double x, double& missed) const {
         const double step = pressing_ ? 1e-3 : 1e-2;
         const auto near =
             root_near([&](double y) { return excess(y); }, x, step, 20 * step, close_);
@@ -181,7 +181,7 @@ std::optional<ContactState> conforming(const AdhesiveContact& c) {
 std::optional<ContactState> solve_on(const OnGrid& grid, const AdhesiveContact& c,
                                      std::optional<double>& x, double& missed) {
     if (c.work_of_adhesion > 0) {
-        x = x ? grid.follow(*x, missed) : grid.search(missed);
+        x = x ? grid.search_near(*x, missed) : grid.search(missed);
         if (!x) return std::nullopt;
         return state_of(c, grid.at, grid.path(grid.g0(*x)));
     }

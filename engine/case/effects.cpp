@@ -31,7 +31,7 @@ Effect device_effect(const Case& c) {
 }
 
 /// Returns the key that makes a path one of equilibria, with its value.
-std::string key_of_rest(const Case& c) {
+std::string key_of_equilibria(const Case& c) {
     return c.has(Segment::relax) ? "drive.path = [\"relax\"]" : "drive.mode = \"quasistatic\"";
 }
 
@@ -128,7 +128,7 @@ bool Effects::has(std::string_view name) const {
 
 Effect dynamic_effect(const Case& c) {
     if (c.scene.is_dynamic()) return {true, "the path is dynamic"};
-    return {false, "a state of force balance: " + key_of_rest(c)};
+    return {false, "a state of force balance: " + key_of_equilibria(c)};
 }
 
 Effects effects_of(const Case& c) {
@@ -137,8 +137,8 @@ Effects effects_of(const Case& c) {
     const bool follows_path =
         std::any_of(c.path().begin(), c.path().end(),
                     [](const Segment& segment) { return segment.kind != Segment::relax; });
-    const std::string rest = key_of_rest(c);
-    const std::string no_time = "a state of force balance: " + rest;
+    const std::string equilibria = key_of_equilibria(c);
+    const std::string no_time = "a state of force balance: " + equilibria;
     const auto timed = [&](bool on, std::string why) {
         return dynamic ? Effect{on, std::move(why)} : Effect{false, no_time};
     };
@@ -193,7 +193,7 @@ Effects effects_of(const Case& c) {
                 s.drive.stiffness ? fmt::format("drive.stiffness = {:.4g} N/m", *s.drive.stiffness)
                                   : "drive.stiffness = \"none\""};
     e.relaxation = {!dynamic || !finite,
-                    !dynamic ? rest
+                    !dynamic ? equilibria
                     : finite ? "block.strain = \"finite\": states are found wave by wave, and "
                                "waves do not add up"
                              : "a copy of the lowest layer is relaxed where the approach ends"};

@@ -37,12 +37,12 @@ public:
     /// that the drive would move in that time, Å (block_memory.hpp).
     enum class Along { x, y, z, time };
     /// Selects the coordinate that changes from now on. Returns the value of this coordinate, Å.
-    double lead(Along along);
+    double select(Along along);
     /// Returns the coordinate of the last point, Å.
     double at() const { return at_; }
     /// Prescribes a load along z, eV/Å, from now on; without a load prescribes the quantity at its
     /// present value again. The coordinate must be the place or time.
-    void press(std::optional<double> load) { load_ = load; }
+    void prescribe_load(std::optional<double> load) { load_ = load; }
     /// Sets the largest sum of the residual forces of a point from now on, eV/Å (RelaxOptions).
     void balance_to(double balance) { balance_ = balance; }
 

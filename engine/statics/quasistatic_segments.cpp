@@ -126,7 +126,7 @@ void QuasistaticPath::begin(const Segment& segment, std::size_t number) {
                         : segment.kind != Segment::slide ? Along::z
                         : segment.axis == 0              ? Along::x
                                                          : Along::y;
-    const double from = last_.lead(along);
+    const double from = last_.select(along);
     hold_load(segment.under);
     double direction = 0.0;
     switch (segment.kind) {
@@ -167,7 +167,7 @@ void QuasistaticPath::begin_to(double at) {
     segment_.kind = Segment::height;
     segment_.load.reset();
     segment_.end = at;
-    const double from = last_.lead(Along::z);
+    const double from = last_.select(Along::z);
     hold_load({});
     begin(Along::z, at == from ? 0.0 : at < from ? -1.0 : 1.0);
 }
@@ -175,7 +175,7 @@ void QuasistaticPath::begin_to(double at) {
 /// Holds a load in place of what the path prescribes along z, or no longer.
 void QuasistaticPath::hold_load(std::optional<double> load) {
     segment_.held = load;
-    last_.press(load);
+    last_.prescribe_load(load);
 }
 
 void QuasistaticPath::begin(Along along, double direction) {

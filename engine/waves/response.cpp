@@ -202,7 +202,8 @@ double Response::held_stiffness() const {
 
 double Response::top() const {
     if (!constraint_.is_top())
-        return mean_height() - (constraint_.stretches ? constraint_.load() / spring() : 0.0);
+        return mean_height() -
+               (constraint_.stretches ? constraint_.load() / stretch_stiffness() : 0.0);
     return constraint_.value +
            (options_.top_spring ? top_force() / options_.top_spring.stiffness : 0.0);
 }
@@ -246,10 +247,10 @@ StepEnergies Response::energies() const {
     if (slab_.holds_uniform()) su.uniform(components_ - 1) -= from;
     stiffen_relaxed(su);
     double twice = dot(waves_, su);
-    if (from != 0.0) twice -= from * spring() / factor_ * (mean_height() - from);
+    if (from != 0.0) twice -= from * stretch_stiffness() / factor_ * (mean_height() - from);
     const double load = constraint_.stretches ? constraint_.load() : 0.0;
     StepEnergies energies;
-    energies[Term::elastic] = 0.5 * (twice + load * load / spring());
+    energies[Term::elastic] = 0.5 * (twice + load * load / stretch_stiffness());
     if (options_.top_spring) {
         const double force = constraint_.is_mean_height() ? 0.0 : top_force();
         energies[Term::spring] = 0.5 * force * force / options_.top_spring.stiffness;

@@ -180,7 +180,9 @@ protected:
     ~Response() = default;
 
     /// Returns the stiffness of the whole block under uniform stretch, eV/Å.
-    double spring() const { return factor_ * table_.uniform() * slab_.sites * slab_.sites; }
+    double stretch_stiffness() const {
+        return factor_ * table_.uniform() * slab_.sites * slab_.sites;
+    }
     /// Returns the stiffness of the uniform normal wave against the drive, eV/Å^2 per site: block
     /// and machine in series.
     double held_stiffness() const;

@@ -274,7 +274,7 @@ TEST(Rate, APathIsTheMotionOfOneCoordinate) {
     const SmearedWall smooth(LennardJones{0.1, 3.28, 13.12}, 1.0 / (2.6 * 2.6), false);
     test::PathCase reference(relaxing(8, 3, two), test::flat_surface(8), smooth);
     const double start = reference.interface.start_height();
-    const double spring = reference.spring() / 64.0, down = start - 2.0;
+    const double spring = reference.stretch_stiffness() / 64.0, down = start - 2.0;
     const SmearedWall<LennardJones>::Terms<double> law(smooth);
     struct State {
         double u;
@@ -422,9 +422,9 @@ TEST(Rate, ASmallOscillationLosesByTheLossModulus) {
         double expected = 0.0;
         for (int n = 1; n < 400; n += 2) {
             const std::complex<double> iw(0.0, 2.0 * pi * n / period);
-            std::complex<double> s = c.spring() / 16.0;
+            std::complex<double> s = c.stretch_stiffness() / 16.0;
             for (const Branch& b : two)
-                s += c.spring() / 16.0 * b.ratio * iw * b.time / (1.0 + iw * b.time);
+                s += c.stretch_stiffness() / 16.0 * b.ratio * iw * b.time / (1.0 + iw * b.time);
             const std::complex<double> both = 1000.0 * s / (1000.0 + s);
             const double a = 8.0 * u0 / (pi * pi * n * n);
             expected += 16.0 * n * pi * a * a * both.imag(); // n times in a period
